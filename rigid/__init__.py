@@ -1,0 +1,40 @@
+"""The rigid hoop: scenes, and their motion phase by phase.
+
+A :class:`Scene` goes in, a :class:`Motion` comes out::
+
+    from rigid import load_scene, simulate
+
+    motion = simulate(load_scene("paper-3.1"))
+    motion.phases, motion.turns, motion.pulses, motion.at([0.0, 1.0])
+
+``scene``      what a user describes; the constants (3), (6), (9) of a hoop
+``scenefile``  TOML to scene and back, the paper's scenes by name
+``motion``     the vocabulary that both solvers speak
+"""
+
+from .motion import Kind, Motion, Phase, Pulse, States, Turn
+from .scene import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, SceneError, Solve
+from .scenefile import load_scene, scene_from_dict, scene_names, scene_to_dict
+
+__all__ = [
+    "Contact",
+    "Friction",
+    "Hoop",
+    "Kind",
+    "Landing",
+    "Motion",
+    "Phase",
+    "Pulse",
+    "Release",
+    "Ring",
+    "Run",
+    "Scene",
+    "SceneError",
+    "Solve",
+    "States",
+    "Turn",
+    "load_scene",
+    "scene_from_dict",
+    "scene_names",
+    "scene_to_dict",
+]

@@ -1,0 +1,335 @@
+"""What a user describes: the hoop, the friction, the release, how far to run; and, for the flexible solver, ring and contact.
+
+A :class:`Scene` is a frozen value: it compares, hashes, pickles and prints, and it is all that either solver takes.
+Numbers are dimensionless in the paper's scaling (lengths by the outer radius R, times by sqrt(R/g), forces by m g with
+m the mass of the disk) as long as ``R``, ``m`` and ``g`` keep their default 1; give them in SI units and every
+input and output that has a dimension is in SI units too.
+
+Angles are in radians. ``phi`` runs clockwise from the top: the disk is lowest at ``phi = pi``.
+Equation numbers are those of V. A. Lubarda, J. Mech. Mater. Struct. 4(6), 2009.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass, field
+from math import inf, isfinite, pi, sqrt
+from typing import Any
+
+
+class SceneError(ValueError):
+    """A scene that cannot be: one sentence that names the key, the value and what is allowed."""
+
+
+def _require(key: str, value: Any, low: float, high: float, allowed: str, *, open_low: bool = False, open_high: bool = False) -> None:
+    number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    if number and isfinite(value):
+        above = value > low if open_low else value >= low
+        below = value < high if open_high else value <= high
+        if above and below:
+            return
+    raise SceneError(f"{key} = {value!r} is not possible: {allowed}.")
+
+
+def _require_choice(key: str, value: Any, choices: tuple[str, ...]) -> None:
+    if value not in choices:
+        raise SceneError(f"{key} = {value!r} is not possible: it must be one of {', '.join(map(repr, choices))}.")
+
+
+def _require_whole(key: str, value: Any, low: int, high: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+        raise SceneError(f"{key} = {value!r} is not possible: it must be a whole number from {low} to {high}.")
+
+
+@dataclass(frozen=True, slots=True)
+class Hoop:
+    """The hoop and the disk welded inside its rim.
+
+    Parameters
+    ----------
+    k : float
+        Radius of the disk over the inner radius R0 of the hoop, 0 <= k < 1. k = 0 is a point mass.
+    r : float
+        Outer over inner radius of the hoop, R/R0 >= 1.
+    mass_ratio : float
+        Mass of the hoop over mass of the disk, m_h/m >= 0.
+    R, m, g : float
+        Outer radius, mass of the disk and gravity; 1, 1, 1 is the paper's scaling.
+    """
+
+    k: float
+    r: float = 1.0
+    mass_ratio: float = 0.0
+    R: float = 1.0
+    m: float = 1.0
+    g: float = 1.0
+
+    def __post_init__(self) -> None:
+        _require("hoop.k", self.k, 0, 1, "k is the disk's radius over the hoop's inner radius, at least 0 and below 1", open_high=True)
+        _require("hoop.r", self.r, 1, inf, "r is the hoop's outer over its inner radius, at least 1")
+        _require("hoop.mass_ratio", self.mass_ratio, 0, inf, "mass_ratio is m_h/m, at least 0")
+        for key in ("R", "m", "g"):
+            _require(f"hoop.{key}", getattr(self, key), 0, inf, f"{key} must be positive", open_low=True)
+        if self.k == 0 and self.mass_ratio == 0 and self.r != 1:
+            raise SceneError(
+                f"hoop.r = {self.r!r} is not possible: a point mass (k = 0) on a massless hoop sits on the rim, so r must be 1."
+            )
+
+    @property
+    def vartheta(self) -> float:
+        """Distance of the centre of mass G from the hoop's centre C, over R0, (3)."""
+        return (1 - self.k) / (1 + self.mass_ratio)
+
+    @property
+    def eta_squared(self) -> float:
+        """Squared radius of gyration about G, over R0 squared, (3)."""
+        k, r, q = self.k, self.r, self.mass_ratio
+        # disk about its own centre, hoop about C, and both moved to G: m m_h/(m + m_h) (1 - k)^2, free of cancellation
+        return (k**2 / 2 + q * (1 + r**2) / 2 + (1 - k) ** 2 * q / (1 + q)) / (1 + q)
+
+    @property
+    def e(self) -> float:
+        """Eccentricity of G over the outer radius, vartheta/r."""
+        return self.vartheta / self.r
+
+    @property
+    def K(self) -> float:
+        """Squared radius of gyration about G over the outer radius squared, (eta/r)^2."""
+        return self.eta_squared / self.r**2
+
+    @property
+    def one_minus_e(self) -> float:
+        """1 - e without cancellation for a small disk on a thin light hoop."""
+        k, r, q = self.k, self.r, self.mass_ratio
+        return (k + q + (r - 1) * (1 + q)) / (r * (1 + q))
+
+    @property
+    def zeta(self) -> float:
+        """(eta^2 + (r - vartheta)^2) / (r vartheta), (6)."""
+        return (self.K + self.one_minus_e**2) / self.e
+
+    @property
+    def total_mass(self) -> float:
+        """Disk and hoop together, in the unit of ``m``."""
+        return self.m * (1 + self.mass_ratio)
+
+
+@dataclass(frozen=True, slots=True)
+class Friction:
+    """Coulomb friction: static coefficient ``mu_s`` >= kinetic coefficient ``mu`` >= 0."""
+
+    mu_s: float
+    mu: float
+
+    def __post_init__(self) -> None:
+        _require("friction.mu_s", self.mu_s, 0, inf, "mu_s is the static coefficient, at least 0")
+        _require("friction.mu", self.mu, 0, inf, "mu is the kinetic coefficient, at least 0")
+        if self.mu > self.mu_s:
+            raise SceneError(f"friction.mu = {self.mu!r} is not possible: the kinetic coefficient may not exceed mu_s = {self.mu_s!r}.")
+
+
+@dataclass(frozen=True, slots=True)
+class Release:
+    """The state at t = 0: angle ``phi0``, angular velocity ``omega0``, and ``slip0``, the velocity of the contact point."""
+
+    phi0: float
+    omega0: float = 0.0
+    slip0: float = 0.0
+
+    def __post_init__(self) -> None:
+        for key in ("phi0", "omega0", "slip0"):
+            _require(f"release.{key}", getattr(self, key), -inf, inf, f"{key} must be a finite number")
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """How far to run: to a number of turns (instants with phidot = 0 after release), to a time, or until something happens.
+
+    ``until`` is "pulse" (the end of the first pulse) or "rest" (nothing is lost any more).
+    """
+
+    turns: int | None = None
+    t_end: float | None = None
+    until: str | None = None
+
+    def __post_init__(self) -> None:
+        given = [key for key in ("turns", "t_end", "until") if getattr(self, key) is not None]
+        if not given:
+            object.__setattr__(self, "turns", 2)
+        if len(given) > 1:
+            raise SceneError(f"run.{given[1]} = {getattr(self, given[1])!r} is not possible: run.{given[0]} already says how far to run.")
+        if self.turns is not None:
+            _require_whole("run.turns", self.turns, 1, 1_000_000)
+        if self.t_end is not None:
+            _require("run.t_end", self.t_end, 0, inf, "t_end is a time after release, above 0", open_low=True)
+        if self.until is not None:
+            _require_choice("run.until", self.until, ("pulse", "rest"))
+
+
+@dataclass(frozen=True, slots=True)
+class Landing:
+    """Landing of the rigid hoop after a flight: energetic coefficient of restitution, 0 (no bounce) to 1."""
+
+    restitution: float = 0.0
+
+    def __post_init__(self) -> None:
+        _require("landing.restitution", self.restitution, 0, 1, "restitution runs from 0 to 1")
+
+
+@dataclass(frozen=True, slots=True)
+class Ring:
+    """The elastic ring of the flexible hoop (the rigid solver does not look at it).
+
+    Parameters
+    ----------
+    bending_stiffness : float
+        E I/(m g R^2) of the ring's section, I = b h^3/12; dimensionless, so it is the same number in SI units.
+    poisson : float
+        Poisson's ratio, plane stress.
+    thickness : float or None
+        Wall h over R. It follows from r when r > 1; when r = 1 it defaults to 0.02.
+    weld_half_angle : float
+        Half the arc of the inner rim that is welded to the disk, seen from the centre, in radians.
+    """
+
+    bending_stiffness: float = 1e4
+    poisson: float = 0.3
+    thickness: float | None = None
+    weld_half_angle: float = 3 * pi / 180
+
+    def __post_init__(self) -> None:
+        _require("ring.bending_stiffness", self.bending_stiffness, 0, inf, "E I/(m g R^2) must be positive", open_low=True)
+        _require("ring.poisson", self.poisson, -1, 0.5, "Poisson's ratio lies between -1 and 0.5", open_low=True)
+        if self.thickness is not None:
+            _require("ring.thickness", self.thickness, 0, 1, "thickness is the wall over R, between 0 and 1", open_low=True, open_high=True)
+        _require("ring.weld_half_angle_deg", self.weld_half_angle * 180 / pi, 0, 90, "the weld's half angle lies between 0 and 90", open_low=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """The compliant frictional contact of the flexible hoop with the floor.
+
+    Parameters
+    ----------
+    law : {"patch", "brush"}
+        "patch": the static coefficient acts on the resultants of the contact patch, |F| <= mu_s N (the paper's law);
+        "brush": it acts at every point of the patch.
+    stiffness : float
+        Normal foundation eps_n R^2/(m g): force per area of rim and unit penetration, dimensionless.
+    tangential_ratio : float
+        Tangential over normal foundation.
+    damping : float
+        Damping ratio of the approach of the patch as a whole; 0 is none.
+    """
+
+    law: str = "patch"
+    stiffness: float = 1e9
+    tangential_ratio: float = 0.8
+    damping: float = 0.0
+
+    def __post_init__(self) -> None:
+        _require_choice("contact.law", self.law, ("patch", "brush"))
+        _require("contact.stiffness", self.stiffness, 0, inf, "the foundation eps_n R^2/(m g) must be positive", open_low=True)
+        _require("contact.tangential_ratio", self.tangential_ratio, 0, inf, "the tangential over the normal foundation must be positive", open_low=True)
+        _require("contact.damping", self.damping, 0, inf, "the damping ratio is at least 0")
+
+
+@dataclass(frozen=True, slots=True)
+class Solve:
+    """How the flexible solver works: what it resolves, how finely, and to which tolerance.
+
+    Parameters
+    ----------
+    level : {"auto", "reduced", "full", "exact"}
+        Reduced modes with static correction, every node of the ring, or the geometrically exact ring;
+        "auto" takes the cheapest that the scene allows.
+    resolve : {"pulses", "all"}
+        Flexible inside the pulses only, with the rigid closed form between them, or flexible throughout.
+    start : {"equilibrium", "undeformed"}
+        Whether a flexible stretch begins sagged in quasi-static equilibrium or with an undeformed ring touching the floor.
+    rtol : float
+        Tolerance on the impulses.
+    elements : int
+        Elements around the ring.
+    """
+
+    level: str = "auto"
+    resolve: str = "pulses"
+    start: str = "equilibrium"
+    rtol: float = 1e-4
+    elements: int = 240
+
+    def __post_init__(self) -> None:
+        _require_choice("solve.level", self.level, ("auto", "reduced", "full", "exact"))
+        _require_choice("solve.resolve", self.resolve, ("pulses", "all"))
+        _require_choice("solve.start", self.start, ("equilibrium", "undeformed"))
+        _require("solve.rtol", self.rtol, 1e-12, 0.5, "the tolerance lies between 1e-12 and 0.5")
+        _require_whole("solve.elements", self.elements, 24, 4000)
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """Everything both solvers need to know; see the parts for their parameters.
+
+    Examples
+    --------
+    >>> from rigid import Scene, Hoop, Friction, Release
+    >>> scene = Scene(Hoop(k=0.1), Friction(mu_s=0.35, mu=0.3), Release(phi0=0.1745))
+    """
+
+    hoop: Hoop
+    friction: Friction
+    release: Release
+    run: Run = field(default_factory=Run)
+    landing: Landing = field(default_factory=Landing)
+    ring: Ring = field(default_factory=Ring)
+    contact: Contact = field(default_factory=Contact)
+    solve: Solve = field(default_factory=Solve)
+
+    @property
+    def wall(self) -> float:
+        """Thickness of the ring over the outer radius R."""
+        if self.hoop.r > 1:
+            return 1 - 1 / self.hoop.r
+        return 0.02 if self.ring.thickness is None else self.ring.thickness
+
+    @property
+    def time_unit(self) -> float:
+        """sqrt(R/g)."""
+        return sqrt(self.hoop.R / self.hoop.g)
+
+    @property
+    def velocity_unit(self) -> float:
+        """sqrt(g R)."""
+        return sqrt(self.hoop.R * self.hoop.g)
+
+    @property
+    def force_unit(self) -> float:
+        """m g."""
+        return self.hoop.m * self.hoop.g
+
+    @property
+    def energy_unit(self) -> float:
+        """m g R."""
+        return self.hoop.m * self.hoop.g * self.hoop.R
+
+    @property
+    def impulse_unit(self) -> float:
+        """m sqrt(g R)."""
+        return self.hoop.m * self.velocity_unit
+
+    def replace(self, **changes: Any) -> Scene:
+        """A copy with keys of its parts changed, each part given as a dict: ``scene.replace(hoop={"k": 0.2})``.
+
+        A part may also be given whole; ``run`` given as a dict replaces how far to run.
+        """
+        parts: dict[str, Any] = {}
+        for name, change in changes.items():
+            part = getattr(self, name)
+            if name == "run" and isinstance(change, dict):
+                parts[name] = Run(**change)
+            elif isinstance(change, dict):
+                parts[name] = dataclasses.replace(part, **change)
+            else:
+                parts[name] = change
+        return dataclasses.replace(self, **parts)

@@ -1,0 +1,135 @@
+"""Scenes as TOML: files, the paper's cases by name, and one sentence for every mistake.
+
+Keys are those of :mod:`rigid.scene`; angles are in degrees there (``phi0_deg``, ``weld_half_angle_deg``).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import tomllib
+from collections.abc import Mapping
+from difflib import get_close_matches
+from importlib.resources import files
+from math import degrees, radians
+from pathlib import Path
+from typing import Any
+
+from .scene import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, SceneError, Solve
+
+_PARTS: dict[str, type] = {
+    "hoop": Hoop,
+    "friction": Friction,
+    "release": Release,
+    "run": Run,
+    "landing": Landing,
+    "ring": Ring,
+    "contact": Contact,
+    "solve": Solve,
+}
+_NEEDED = {"hoop": ("k",), "friction": ("mu_s", "mu"), "release": ("phi0_deg",)}
+_IN_DEGREES = {"phi0": "phi0_deg", "weld_half_angle": "weld_half_angle_deg"}
+
+
+def _file_keys(part: str) -> dict[str, str]:
+    """Key in a file -> field of the part, for one part of a scene."""
+    return {_IN_DEGREES.get(f.name, f.name): f.name for f in dataclasses.fields(_PARTS[part])}
+
+
+def _unknown(kind: str, name: str, known: list[str]) -> SceneError:
+    near = get_close_matches(name.rpartition(".")[2], known, n=1)
+    hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}."
+    return SceneError(f"{name} is not a {kind}: {hint}")
+
+
+def scene_from_dict(data: Mapping[str, Any]) -> Scene:
+    """The scene that a parsed TOML file describes.
+
+    Raises
+    ------
+    SceneError
+        One sentence with the key, the value and what is allowed.
+    """
+    parts: dict[str, Any] = {}
+    for part, table in data.items():
+        if part not in _PARTS:
+            raise _unknown("part of a scene", part, list(_PARTS))
+        if not isinstance(table, Mapping):
+            raise SceneError(f"{part} = {table!r} is not possible: {part} is a table, [{part}].")
+        keys = _file_keys(part)
+        values = {}
+        for key, value in table.items():
+            if key == "point_mass" and part == "hoop":
+                continue
+            if key not in keys:
+                raise _unknown(f"key of [{part}]", f"{part}.{key}", list(keys))
+            name = keys[key]
+            if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+                raise SceneError(f"{part}.{key} = {value!r} is not possible: it must be a number or a word.")
+            if name in _IN_DEGREES:
+                if isinstance(value, str):
+                    raise SceneError(f"{part}.{key} = {value!r} is not possible: it must be a number, in degrees.")
+                value = radians(value)
+            values[name] = value
+        parts[part] = values
+    _point_mass(data.get("hoop", {}), parts)
+    for part, needed in _NEEDED.items():
+        for key in needed:
+            if _file_keys(part)[key] not in parts.get(part, {}):
+                raise SceneError(f"{part}.{key} is missing: a scene needs it.")
+    return Scene(**{part: _PARTS[part](**values) for part, values in parts.items()})
+
+
+def _point_mass(hoop: Mapping[str, Any], parts: dict[str, Any]) -> None:
+    """``point_mass = true`` asks for k = 0 on a massless hoop of no wall."""
+    asked = hoop.get("point_mass", False)
+    if not isinstance(asked, bool):
+        raise SceneError(f"hoop.point_mass = {asked!r} is not possible: it is true or false.")
+    if asked:
+        for key, only in (("k", 0), ("mass_ratio", 0), ("r", 1)):
+            if hoop.get(key, only) != only:
+                raise SceneError(f"hoop.{key} = {hoop[key]!r} is not possible: with point_mass = true it must be {only}.")
+        parts["hoop"] |= {"k": 0.0}
+
+
+def scene_to_dict(scene: Scene) -> dict[str, dict[str, Any]]:
+    """The scene as the nested dict of its TOML file; keys that say nothing are left out."""
+    data: dict[str, dict[str, Any]] = {}
+    for part in _PARTS:
+        table = {}
+        for key, name in _file_keys(part).items():
+            value = getattr(getattr(scene, part), name)
+            if value is not None:
+                table[key] = degrees(value) if name in _IN_DEGREES else value
+        data[part] = table
+    return data
+
+
+def scene_names() -> list[str]:
+    """Names of the scenes that ship with the package."""
+    return sorted(entry.name.removesuffix(".toml") for entry in files("rigid.scenes").iterdir() if entry.name.endswith(".toml"))
+
+
+def load_scene(source: str | Path) -> Scene:
+    """A scene by the name of a shipped one ("paper-3.1") or by the path of a TOML file.
+
+    Raises
+    ------
+    SceneError
+        No such scene, not TOML, or a scene that cannot be.
+    """
+    path = Path(source)
+    if path.is_file():
+        try:
+            text = path.read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise SceneError(f"{path} cannot be read: {error}.") from None
+    elif str(source) in scene_names():
+        text = (files("rigid.scenes") / f"{source}.toml").read_text(encoding="utf-8")
+    else:
+        near = get_close_matches(str(source), scene_names(), n=3) or scene_names()
+        raise SceneError(f"{source} is neither a file nor the name of a scene: try {', '.join(near)}.")
+    try:
+        data = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise SceneError(f"{source} is not TOML: {error}.") from None
+    return scene_from_dict(data)
