@@ -10,7 +10,7 @@ import tomllib
 from collections.abc import Mapping
 from difflib import get_close_matches
 from importlib.resources import files
-from math import degrees, radians
+from math import degrees, inf, nextafter, radians
 from pathlib import Path
 from typing import Any
 
@@ -33,6 +33,15 @@ _IN_DEGREES = {"phi0": "phi0_deg", "weld_half_angle": "weld_half_angle_deg"}
 def _file_keys(part: str) -> dict[str, str]:
     """Key in a file -> field of the part, for one part of a scene."""
     return {_IN_DEGREES.get(f.name, f.name): f.name for f in dataclasses.fields(_PARTS[part])}
+
+
+def _exact_degrees(angle: float) -> float:
+    """Degrees that ``radians`` turns back into ``angle`` to the last bit, so that a scene survives its file."""
+    value = degrees(angle)
+    for candidate in (round(value, 12), value, nextafter(value, inf), nextafter(value, -inf)):
+        if radians(candidate) == angle:
+            return candidate
+    return value
 
 
 def _unknown(kind: str, name: str, known: list[str]) -> SceneError:
@@ -99,7 +108,7 @@ def scene_to_dict(scene: Scene) -> dict[str, dict[str, Any]]:
         for key, name in _file_keys(part).items():
             value = getattr(getattr(scene, part), name)
             if value is not None:
-                table[key] = degrees(value) if name in _IN_DEGREES else value
+                table[key] = _exact_degrees(value) if name in _IN_DEGREES else value
         data[part] = table
     return data
 

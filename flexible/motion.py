@@ -1,0 +1,96 @@
+"""What the flexible solver adds to the common vocabulary: what happens inside a pulse, and where the energy went."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Motion, Phase, Pulse
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Ledger:
+    """Where the energy is and where it went, in the scene's unit of energy; the sum of all terms is ``initial``.
+
+    ``numerical_loss`` is what the time integrator dissipated, measured from the work of each force and not as the
+    remainder: :attr:`residual` is what is left over, and tells whether the books are right.
+    """
+
+    initial: float
+    kinetic: float
+    gravity: float
+    ring_strain: float
+    contact_spring: float
+    friction_loss: float
+    damping_loss: float
+    numerical_loss: float
+
+    @property
+    def residual(self) -> float:
+        """What the terms fail to add up to; round-off and Newton's tolerance."""
+        held = self.kinetic + self.gravity + self.ring_strain + self.contact_spring
+        lost = self.friction_loss + self.damping_loss + self.numerical_loss
+        return held + lost - self.initial
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlexiblePulse(Pulse):
+    """A pulse as the flexible hoop goes through it, over the phi-interval of the rigid pulse.
+
+    ``time_off_floor`` is the time without contact (hopping, the paper's footnote 1); the energy peaks are those of
+    the ring's strain and of the contact's springs; ``phases`` is what the patch does inside.
+    """
+
+    time_off_floor: float
+    ring_energy_peak: float
+    contact_energy_peak: float
+    damping_loss: float
+    numerical_loss: float
+    phases: tuple[Phase, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class History:
+    """Every accepted step, as arrays over time; stored only when asked for."""
+
+    t: Array
+    phi: Array
+    omega: Array
+    x_C: Array
+    y_C: Array
+    slip_velocity: Array  # of the patch's centre against the floor, tangential
+    approach_velocity: Array  # of the patch's centre, upward
+    normal_force: Array
+    friction_force: Array
+    patch_length: Array
+    stick_fraction: Array
+    kinetic: Array
+    gravity: Array
+    ring_strain: Array
+    contact_spring: Array
+    friction_loss: Array
+    damping_loss: Array
+    numerical_loss: Array
+
+
+@dataclass(frozen=True)
+class FlexibleMotion(Motion):
+    """The motion of the flexible hoop: the common vocabulary, the energy ledger, the steps if they were asked for."""
+
+    ledger: Ledger
+    steps: int
+    history: History | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """The common keys and ``energy_ledger``."""
+        return {
+            **Motion.to_dict(self),
+            "energy_ledger": {**dataclasses.asdict(self.ledger), "residual": self.ledger.residual},
+            "steps": self.steps,
+        }
