@@ -1,8 +1,8 @@
 """The mesh of the ring: an annulus of curved nine-node quadrilaterals, graded toward the weld.
 
-The frame is the disk's: ``y1`` points from the hoop's centre C to the disk, ``y2`` is 90 degrees clockwise from it as
-drawn in the world (the sense in which phi grows). In it (y1, y2) is an ordinary Cartesian pair and a material point
-is ``y = rho (cos theta, sin theta)``, with the weld centred at ``theta = 0``.
+The frame is the disk's: ``y1`` points from the hoop's centre C to the disk, ``y2`` is 90 degrees clockwise from
+it as drawn in the world (the sense in which phi grows). In it (y1, y2) is an ordinary Cartesian pair and a
+material point is ``y = rho (cos theta, sin theta)``, with the weld centred at ``theta = 0``.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ class MeshError(ValueError):
 class Quality:
     """How good a ring mesh is; the errors are relative to the true annulus.
 
-    ``jacobian_ratio`` is the smallest over the largest Jacobian determinant within one element, worst element;
-    ``aspect`` is the longer over the shorter mid-line of an element, worst element.
+    ``jacobian_ratio`` is the smallest over the largest Jacobian determinant within an element, ``aspect`` the
+    longer over the shorter mid-line of an element, both of the worst element.
     """
 
     elements: int
@@ -106,8 +106,8 @@ class RingMesh:
     def vector_basis(self, intorder: int = 4) -> Basis:
         """Basis of the displacement whose dofs ``node_dofs`` numbers.
 
-        The order of integration is always explicit: scikit-fem's default for nine-node quads takes 25 points where
-        nine (``intorder=4``) integrate the stiffness of an undistorted element exactly.
+        The order of integration is always explicit: scikit-fem's default for nine-node quads takes 25 points
+        where nine (``intorder=4``) integrate the stiffness of an undistorted element exactly.
         """
         return Basis(self.mesh, ElementVector(ElementQuad2()), intorder=intorder)
 
@@ -141,7 +141,7 @@ def ring_mesh(
     weld_half_angle: float = 3 * pi / 180,
     grading: float | Density = 1.0,
 ) -> RingMesh:
-    """Mesh the annulus ``inner <= rho <= outer``, with element boundaries exactly at ``theta = +-weld_half_angle``.
+    """Mesh the annulus ``inner <= rho <= outer``, with element boundaries exactly at the ends of the weld.
 
     Parameters
     ----------
@@ -152,8 +152,8 @@ def ring_mesh(
     weld_half_angle : float
         Half the welded arc, in radians, between 0 and pi.
     grading : float or callable
-        How many times denser the elements are at the weld than opposite to it (1 is uniform up to the fit of the
-        weld), or the density of elements itself, a positive vectorised function of |theta| in [0, pi].
+        How many times denser the elements are at the weld than opposite to it (1 is uniform up to the fit of
+        the weld), or the density of elements itself, a positive vectorised function of |theta| in [0, pi].
 
     Returns
     -------
@@ -168,7 +168,7 @@ def ring_mesh(
     if not (isfinite(outer) and 0 < inner < outer):
         raise MeshError(f"a ring with radii {inner!r} and {outer!r} cannot be: 0 < inner < outer is needed.")
     if around < 8 or through < 1:
-        raise MeshError(f"{around!r} x {through!r} elements make no ring: at least 8 around and 1 through are needed.")
+        raise MeshError(f"{around!r} x {through!r} elements make no ring: it takes 8 around and 1 through.")
     if not 0 < weld_half_angle < pi:
         raise MeshError(f"weld_half_angle = {weld_half_angle!r} is not possible: it lies between 0 and pi.")
 
@@ -183,7 +183,8 @@ def ring_mesh(
     here, mid, there = node[:, ::2], node[:, 1::2], np.roll(node[:, ::2], -1, axis=1)
     low, half, high = slice(0, -1, 2), slice(1, None, 2), slice(2, None, 2)
     # corners counter-clockwise from (inner, theta_i); their four sides; the centre
-    parts = [here[low], here[high], there[high], there[low], here[half], mid[high], there[half], mid[low], mid[half]]
+    parts = [here[low], here[high], there[high], there[low]]
+    parts += [here[half], mid[high], there[half], mid[low], mid[half]]
     elements = np.stack([part.ravel() for part in parts])
     mesh = MeshQuad2((radii[None, :, None] * unit[:, None, :]).reshape(2, -1), elements)
 
@@ -223,7 +224,7 @@ def _density(grading: float | Density, weld: float) -> Density:
         return grading
     if not (isfinite(grading) and grading > 0):
         raise MeshError(f"grading = {grading!r} is not possible: it must be positive.")
-    # even and smooth round the circle, and as wide as a pulse, which sweeps about a radian of rim to either side
+    # smooth round the circle, and as wide as a pulse, which sweeps about a radian of rim to either side
     reach = max(1.0, 2 * weld)
     falling = np.exp(-((pi / reach) ** 2) / 2)
     return lambda a: 1 + (grading - 1) * (np.exp(-((a / reach) ** 2) / 2) - falling) / (1 - falling)
@@ -234,7 +235,7 @@ def _vertex_angles(around: int, weld: float, density: Density) -> Array:
     grid = np.concatenate([np.linspace(0, weld, 513), np.linspace(weld, pi, 2049)[1:]])
     value = np.broadcast_to(np.asarray(density(grid), dtype=float), grid.shape)
     if not (np.isfinite(value).all() and (value > 0).all()):
-        raise MeshError("the grading is not possible: the density of elements must be positive and finite on [0, pi].")
+        raise MeshError("the grading is not possible: the density of elements must be positive on [0, pi].")
     count = np.concatenate([[0.0], np.cumsum(np.diff(grid) * (value[1:] + value[:-1]) / 2)])
     inside = max(1, min(round(around / 2 * count[512] / count[-1]), (around - 2) // 2))
     outside = around / 2 - inside  # with an odd number, half of the last element lies beyond theta = pi
