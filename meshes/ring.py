@@ -1,8 +1,8 @@
 """The mesh of the ring: an annulus of curved nine-node quadrilaterals, graded toward the weld.
 
 The frame is the disk's: ``y1`` points from the hoop's centre C to the disk, ``y2`` is 90 degrees clockwise
-from it as drawn in the world (the sense in which phi grows). In it (y1, y2) is an ordinary Cartesian pair and a
-material point is ``y = rho (cos theta, sin theta)``, with the weld centred at ``theta = 0``.
+from it as drawn in the world (the sense in which phi grows). In it (y1, y2) is an ordinary Cartesian pair and
+a material point is ``y = rho (cos theta, sin theta)``, with the weld centred at ``theta = 0``.
 """
 
 from __future__ import annotations

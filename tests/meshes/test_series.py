@@ -1,0 +1,230 @@
+"""A series of fields: bit-exact round trip, other readers, damaged files, a writer that is killed."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshes import Block, Frame, SeriesError, SeriesWriter, disk_block, floor_block, read
+
+TIMES = np.array([0.1, 0.1 + 1e-16 + 2**-50, 1 / 3, 2.0])  # two that differ in the last bits
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory, ring, ovals):
+    directory = tmp_path_factory.mktemp("series")
+    frames = list(ovals.frames(ring, TIMES))
+    with SeriesWriter(directory, units={"von_mises": "m g/R²"}, title="oval") as writer:
+        writer.history(**ovals.history(TIMES))
+        for frame in frames:
+            writer.add(frame)
+    return directory, frames
+
+
+def assert_same_block(got, expected):
+    assert got.cell_type == expected.cell_type
+    np.testing.assert_array_equal(got.points.view(np.uint64), expected.points.view(np.uint64))
+    np.testing.assert_array_equal(got.cells, expected.cells)
+    for kind in ("point_data", "cell_data", "field_data"):
+        theirs, ours = getattr(got, kind), getattr(expected, kind)
+        assert list(theirs) == list(ours)
+        for name, value in ours.items():
+            assert theirs[name].dtype == value.dtype
+            assert theirs[name].shape == value.shape
+            assert theirs[name].tobytes() == value.tobytes(), name
+
+
+def test_round_trip_is_exact_to_the_bit(written, ovals):
+    directory, frames = written
+    series = read(directory)
+    assert len(series) == len(frames)
+    np.testing.assert_array_equal(series.times.view(np.uint64), TIMES.view(np.uint64))
+    for got, expected in zip(series, frames, strict=True):
+        assert got.time == expected.time
+        assert list(got.blocks) == list(expected.blocks) == ["ring", "rim", "disk", "floor"]
+        for name, block in expected.blocks.items():
+            assert_same_block(got.blocks[name], block)
+    assert series.about == {"title": "oval", "units": {"von_mises": "m g/R²"}}
+    for name, value in ovals.history(TIMES).items():
+        np.testing.assert_array_equal(series.history[name], value)
+    assert series.nearest(0.4).time == 1 / 3
+
+
+def test_odd_numbers_survive(tmp_path):
+    odd = np.array([np.nan, -0.0, np.inf, 5e-324])
+    block = Block(
+        np.zeros((4, 2)),
+        np.array([[0, 1, 2, 3]]),
+        9,
+        {"odd": odd, "vector": np.arange(8.0).reshape(4, 2), "single": odd.astype(np.float32)},
+        {"flag": np.array([-3], dtype=np.int32)},
+        {"display_factor": 250.0, "a < \"b\"": np.arange(3)},
+    )
+    with SeriesWriter(tmp_path) as writer:
+        writer.add(Frame(-1.5, {"ring": block}))
+    got = read(tmp_path)[0].blocks["ring"]
+    assert_same_block(got, block)
+    assert got.point_data["vector"].shape == (4, 3)  # padded, VTK warps nothing else
+
+
+def test_pyvista_opens_it(written):
+    pyvista = pytest.importorskip("pyvista")
+    directory, frames = written
+    reader = pyvista.get_reader(directory / "fields.pvd")
+    assert reader.time_values == TIMES.tolist()
+    reader.set_active_time_value(TIMES[2])
+    blocks = reader.read()
+    expected = list(frames[2].blocks.values())
+    assert len(blocks) == 4
+    for mesh, block in zip(blocks, expected, strict=True):
+        np.testing.assert_array_equal(mesh.points, block.points)
+        np.testing.assert_array_equal(mesh.cells_dict[block.cell_type], block.cells)
+        for name, value in block.point_data.items():
+            np.testing.assert_array_equal(mesh.point_data[name], value)
+    assert blocks[0].celltypes[0] == pyvista.CellType.BIQUADRATIC_QUAD
+    assert blocks[0].field_data["TimeValue"] == TIMES[2]
+    warped = blocks[0].warp_by_vector("displacement", factor=3.0)
+    ring = expected[0]
+    np.testing.assert_allclose(warped.points, ring.points + 3 * ring.point_data["displacement"], atol=1e-15)
+
+
+def test_meshio_opens_a_frame(written):
+    meshio = pytest.importorskip("meshio")
+    directory, frames = written
+    mesh = meshio.read(directory / "fields" / "ring-00002.vtu")
+    ring = frames[2].blocks["ring"]
+    np.testing.assert_array_equal(mesh.points, ring.points)
+    np.testing.assert_array_equal(mesh.cells_dict["quad9"], ring.cells)
+    np.testing.assert_array_equal(mesh.point_data["stress"], ring.point_data["stress"])
+
+
+def test_a_block_that_does_not_change_is_written_once(written):
+    directory, _ = written
+    assert [path.name for path in (directory / "fields").glob("floor-*")] == ["floor-00000.vtu"]
+    assert len(list((directory / "fields").glob("disk-*"))) == len(TIMES)
+
+
+def test_200_frames_in_two_seconds_and_50_megabytes(tmp_path, ring, ovals):
+    frames = list(ovals.frames(ring, np.linspace(0, 1, 200)))
+    start = time.process_time()
+    with SeriesWriter(tmp_path) as writer:
+        for frame in frames:
+            writer.add(frame)
+    assert time.process_time() - start < 2.0
+    size = sum(path.stat().st_size for path in tmp_path.rglob("*") if path.is_file())
+    assert size < 50e6
+    assert len(read(tmp_path)) == 200
+
+
+KILLED = """
+import sys, itertools
+sys.path.insert(0, {tests!r})
+from conftest import oval_frames
+from meshes import SeriesWriter, ring_mesh
+writer = SeriesWriter({out!r})
+for frame in oval_frames(ring_mesh(0.98, 1.0, 240), (0.001 * i for i in itertools.count())):
+    writer.add(frame)
+"""
+
+
+def test_a_killed_run_leaves_whole_frames(tmp_path):
+    code = KILLED.format(tests=str(Path(__file__).parent), out=str(tmp_path))
+    process = subprocess.Popen([sys.executable, "-c", code], cwd=Path(__file__).parents[2])
+    deadline = time.monotonic() + 30
+    while len(list(tmp_path.glob("fields/ring-*.vtu"))) < 150 and time.monotonic() < deadline:
+        time.sleep(0.01)
+    os.kill(process.pid, signal.SIGKILL)
+    process.wait()
+    series = read(tmp_path)
+    assert len(series) >= 145  # the PVD lags a hundredth of the frames behind
+    for frame in series:
+        assert list(frame.blocks) == ["ring", "rim", "disk", "floor"]
+
+
+def test_a_new_series_replaces_the_old_one(tmp_path, ring, ovals):
+    for count in (3, 1):
+        with SeriesWriter(tmp_path) as writer:
+            for frame in ovals.frames(ring, np.arange(count) * 1.0):
+                writer.add(frame)
+    assert len(read(tmp_path)) == 1
+    assert not list(tmp_path.glob("fields/*-00002.vtu"))
+    assert read(tmp_path).history == {}
+
+
+def test_times_must_increase(tmp_path):
+    writer = SeriesWriter(tmp_path)
+    floor = {"floor": floor_block(0, 1, 0.1)}
+    writer.add(Frame(1.0, floor))
+    for bad in (1.0, 0.5, np.nan, np.inf):
+        with pytest.raises(SeriesError, match="cannot follow"):
+            writer.add(Frame(bad, floor))
+
+
+@pytest.mark.parametrize("cut", [0.02, 0.3, 0.6, 0.999])
+def test_a_truncated_frame_is_one_sentence(written, tmp_path, cut):
+    whole = (written[0] / "fields" / "ring-00000.vtu").read_bytes()
+    with SeriesWriter(tmp_path) as writer:
+        writer.add(Frame(0.0, {"disk": disk_block((0, 1), 0.2, 0.0)}))
+    (tmp_path / "fields" / "disk-00000.vtu").write_bytes(whole[: int(cut * len(whole))])
+    with pytest.raises(SeriesError, match=r"disk-00000.vtu is (damaged|not a frame)"):
+        read(tmp_path)[0]
+
+
+def test_flipped_bytes_never_read_as_something_else(written, tmp_path):
+    """zlib checksums every array: damage is found, or it hit a byte that means nothing."""
+    whole = (written[0] / "fields" / "disk-00001.vtu").read_bytes()
+    expected = written[1][1].blocks["disk"]
+    with SeriesWriter(tmp_path) as writer:
+        writer.add(Frame(0.0, {"disk": expected}))
+    start = whole.index(b"AppendedData") + 30
+    for place in np.linspace(start, len(whole) - 40, 60).astype(int):
+        damaged = bytearray(whole)
+        damaged[place] ^= 0xFF
+        (tmp_path / "fields" / "disk-00000.vtu").write_bytes(bytes(damaged))
+        try:
+            got = read(tmp_path)[0].blocks["disk"]
+        except SeriesError:
+            continue
+        assert_same_block(got, expected)
+
+
+def test_foreign_and_missing_files(tmp_path):
+    with pytest.raises(SeriesError, match="holds no series"):
+        read(tmp_path)
+    with pytest.raises(SeriesError, match="cannot be read"):
+        read(tmp_path / "nowhere.pvd")
+    for content in (b"", b"<a/>", b"\x00\xff", b"<VTKFile><Collection><DataSet/></Collection></VTKFile>"):
+        (tmp_path / "fields.pvd").write_bytes(content)
+        with pytest.raises(SeriesError):
+            read(tmp_path)
+    with SeriesWriter(tmp_path) as writer:
+        writer.add(Frame(0.0, {"floor": floor_block(0, 1, 0.1)}))
+    (tmp_path / "fields" / "history.npz").write_bytes(b"no zip")
+    with pytest.raises(SeriesError, match="damaged"):
+        _ = read(tmp_path).history
+    (tmp_path / "fields" / "floor-00000.vtu").unlink()
+    with pytest.raises(SeriesError, match="cannot be read"):
+        read(tmp_path)[0]
+
+
+def test_a_directory_that_cannot_be_made(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(SeriesError, match="cannot hold a series"):
+        SeriesWriter(tmp_path / "file")
+
+
+def test_arrays_that_do_not_fit():
+    square = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), np.array([[0, 1, 2, 3]])
+    with pytest.raises(SeriesError, match="point field u"):
+        Block(*square, 9, {"u": np.zeros(3)})
+    with pytest.raises(SeriesError, match="cell field p"):
+        Block(*square, 9, {}, {"p": np.zeros(4)})
+    with pytest.raises(SeriesError, match="cell type"):
+        Block(*square, 28)
+    with pytest.raises(SeriesError, match="no points"):
+        Block(np.zeros(4), square[1], 9)
