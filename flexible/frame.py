@@ -1,0 +1,178 @@
+"""Inertia of the disk and of the ring's modes in a frame that floats on the disk.
+
+The frame's origin is the hoop's centre C, its first axis points to the disk; a material point of the ring is at
+``y = Y + u`` with ``u = sum q_i Phi_i`` zero at the weld. Unknowns are V = x_C - phi, h = y_C - R, phi and the modal
+amplitudes q; the forces conjugate to them are the horizontal and vertical force and the moment about the point of
+the floor under C, in which nothing cancels. Per unit mass the acceleration in the frame's axes is
+
+    A + alpha J y + 2 omega J ydot - omega^2 y + yddot,     J (y1, y2) = (-y2, y1),
+
+with A the acceleration of C plus gravity: Euler, Coriolis and centrifugal terms are kept (R = m = g = 1).
+"""
+
+from __future__ import annotations
+
+from math import cos, sin
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+# positions in the array of body constants
+OFFSET, DISK_INERTIA, RING_MASS, RING_INERTIA = range(4)
+
+
+@njit(cache=True)
+def inertia(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
+    """Inertial, gravitational and elastic forces, and their tangent.
+
+    Parameters
+    ----------
+    body : (4,) array
+        Distance of the disk from C, its moment of inertia about its centre, mass of the ring and its moment about C.
+    modal : (n, 5) array
+        Per mode: squared frequency; participation in translation along y1, y2; in rotation; in stretching.
+    gyro : (n, n) array
+        Phi_i^T M J Phi_j, antisymmetric.
+    pos, vel, acc : (3 + n,) arrays
+        (V, h, phi, q) and rates.
+    beta : float
+        The step's: position changes by d come with velocity changes d/beta and acceleration changes d/beta^2.
+
+    Returns
+    -------
+    force : (3 + n,) array
+    tangent : (3 + n, 3 + n) array
+        Derivative of ``force`` by d.
+    """
+    n = modal.shape[0]
+    offset, disk_inertia, ring_mass = body[OFFSET], body[DISK_INERTIA], body[RING_MASS]
+    s, c = sin(pos[2]), cos(pos[2])
+    w, alpha = vel[2], acc[2]
+    ax, ay = acc[0] + alpha, acc[1] + 1.0
+    r1, r2 = 1 / beta, 1 / beta**2
+    force = np.zeros(3 + n)
+    tangent = np.zeros((3 + n, 3 + n))
+
+    dx = ax + offset * (alpha * c - w * w * s)
+    dy = ay - offset * (alpha * s + w * w * c)
+    dx_phi = offset * (-alpha * s - w * w * c - 2 * w * s * r1 + c * r2) + r2
+    dy_phi = -offset * (alpha * c - w * w * s + 2 * w * c * r1 + s * r2)
+    lever = 1 + offset * c
+    force[0] = dx
+    force[1] = dy
+    force[2] = dx * lever - dy * offset * s + disk_inertia * alpha
+    tangent[0, 0] = r2
+    tangent[0, 2] = dx_phi
+    tangent[1, 1] = r2
+    tangent[1, 2] = dy_phi
+    tangent[2, 0] = lever * r2
+    tangent[2, 1] = -offset * s * r2
+    tangent[2, 2] = dx_phi * lever - dx * offset * s - dy_phi * offset * s - dy * offset * c + disk_inertia * r2
+    if ring_mass == 0:
+        return force, tangent
+
+    a1, a2 = ax * s + ay * c, ax * c - ay * s
+    s1, s2, s1_v, s2_v, s1_a, s2_a = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    moment, rate, spin = body[RING_INERTIA], 0.0, 0.0
+    turned, turned_v, turned_a = np.zeros(n), np.zeros(n), np.zeros(n)
+    for i in range(n):
+        q, qv, qa = pos[3 + i], vel[3 + i], acc[3 + i]
+        s1 += modal[i, 1] * q
+        s2 += modal[i, 2] * q
+        s1_v += modal[i, 1] * qv
+        s2_v += modal[i, 2] * qv
+        s1_a += modal[i, 1] * qa
+        s2_a += modal[i, 2] * qa
+        moment += (2 * modal[i, 4] + q) * q
+        rate += (modal[i, 4] + q) * qv
+        spin += modal[i, 3] * qa
+        for j in range(n):
+            turned[i] += gyro[i, j] * pos[3 + j]
+            turned_v[i] += gyro[i, j] * vel[3 + j]
+            turned_a[i] += gyro[i, j] * acc[3 + j]
+        spin += qa * turned[i]
+    f1 = ring_mass * a1 - alpha * s2 - 2 * w * s2_v - w * w * s1 + s1_a
+    f2 = ring_mass * a2 + alpha * s1 + 2 * w * s1_v - w * w * s2 + s2_a
+    fx, fy = f1 * s + f2 * c, f1 * c - f2 * s
+    force[0] += fx
+    force[1] += fy
+    force[2] += fx - s2 * a1 + s1 * a2 + alpha * moment + 2 * w * rate + spin
+    # by V, h (through the acceleration of C) and by phi
+    for i in range(2):
+        a1_i, a2_i = (s, c) if i == 0 else (c, -s)
+        a1_i, a2_i = a1_i * r2, a2_i * r2
+        tangent[0, i] += ring_mass * (a1_i * s + a2_i * c)
+        tangent[1, i] += ring_mass * (a1_i * c - a2_i * s)
+        tangent[2, i] += ring_mass * (a1_i * s + a2_i * c) - s2 * a1_i + s1 * a2_i
+        for j in range(n):
+            tangent[3 + j, i] += modal[j, 1] * a1_i + modal[j, 2] * a2_i
+    a1_phi, a2_phi = a2 + s * r2, -a1 + c * r2
+    f1_phi = ring_mass * a1_phi - s2 * r2 - 2 * s2_v * r1 - 2 * w * s1 * r1
+    f2_phi = ring_mass * a2_phi + s1 * r2 + 2 * s1_v * r1 - 2 * w * s2 * r1
+    fx_phi, fy_phi = f1_phi * s + f2_phi * c + fy, f1_phi * c - f2_phi * s - fx
+    tangent[0, 2] += fx_phi
+    tangent[1, 2] += fy_phi
+    tangent[2, 2] += fx_phi - s2 * a1_phi + s1 * a2_phi + moment * r2 + 2 * rate * r1
+    for i in range(n):
+        square, l1, l2, rotation, stretching = modal[i]
+        q, qv, qa = pos[3 + i], vel[3 + i], acc[3 + i]
+        force[3 + i] = (
+            qa + square * q + a1 * l1 + a2 * l2 + alpha * (rotation + turned[i]) + 2 * w * turned_v[i] - w * w * (stretching + q)
+        )
+        tangent[3 + i, 2] = (
+            a1_phi * l1 + a2_phi * l2 + (rotation + turned[i]) * r2 + 2 * turned_v[i] * r1 - 2 * w * (stretching + q) * r1
+        )
+        f1_q = -alpha * l2 - 2 * w * l2 * r1 - w * w * l1 + l1 * r2
+        f2_q = alpha * l1 + 2 * w * l1 * r1 - w * w * l2 + l2 * r2
+        tangent[0, 3 + i] = f1_q * s + f2_q * c
+        tangent[1, 3 + i] = f1_q * c - f2_q * s
+        tangent[2, 3 + i] = (
+            tangent[0, 3 + i]
+            - l2 * a1
+            + l1 * a2
+            + alpha * 2 * (stretching + q)
+            + 2 * w * (qv + (stretching + q) * r1)
+            + (rotation + turned[i]) * r2
+            - turned_a[i]
+        )
+        for j in range(n):
+            tangent[3 + i, 3 + j] = gyro[i, j] * (alpha + 2 * w * r1)
+        tangent[3 + i, 3 + i] += r2 + square - w * w
+    return force, tangent
+
+
+@njit(cache=True)
+def energies(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any) -> tuple[float, float, float]:
+    """Kinetic energy, gravity (0 with the hoop's centre at the floor) and strain energy of the modes."""
+    n = modal.shape[0]
+    s, c = sin(pos[2]), cos(pos[2])
+    w = vel[2]
+    vx, vy = vel[0] + w, vel[1]
+    offset = body[OFFSET]
+    dx, dy = vx + offset * w * c, vy - offset * w * s
+    kinetic = (dx * dx + dy * dy + body[DISK_INERTIA] * w * w) / 2
+    gravity = 1 + pos[1] + offset * c
+    strain = 0.0
+    if body[RING_MASS] > 0:
+        v1, v2 = vx * s + vy * c, vx * c - vy * s
+        s1, s2, s1_v, s2_v = 0.0, 0.0, 0.0, 0.0
+        moment, spin, own = body[RING_INERTIA], 0.0, 0.0
+        for i in range(n):
+            q, qv = pos[3 + i], vel[3 + i]
+            s1 += modal[i, 1] * q
+            s2 += modal[i, 2] * q
+            s1_v += modal[i, 1] * qv
+            s2_v += modal[i, 2] * qv
+            moment += (2 * modal[i, 4] + q) * q
+            turned = 0.0
+            for j in range(n):
+                turned += gyro[i, j] * pos[3 + j]
+            spin += qv * (modal[i, 3] + turned)
+            own += qv * qv
+            strain += modal[i, 0] * q * q / 2
+        kinetic += body[RING_MASS] * (vx * vx + vy * vy) / 2
+        kinetic += v1 * (s1_v - w * s2) + v2 * (s2_v + w * s1)
+        kinetic += (moment * w * w + own) / 2 + w * spin
+        gravity += body[RING_MASS] * (1 + pos[1]) + s1 * c - s2 * s
+    return kinetic, gravity, strain

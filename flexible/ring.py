@@ -1,0 +1,167 @@
+"""Elasticity of the ring on its mesh: stiffness, mass, static compliance of the rim, vibration modes, stress.
+
+Everything is computed once for a shape and a Poisson's ratio, at unit membrane stiffness E b = 1, unit mass and
+unit outer radius, and rescaled for a scene: displacements by 1/(E b), squared frequencies by E b/m_h.
+Plane stress; the weld (a short arc of the inner rim) is clamped to the disk's frame.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+from scipy.sparse.linalg import LinearOperator, eigsh, splu
+from skfem import Basis, BilinearForm
+from skfem.helpers import ddot, dot, sym_grad, trace
+
+from meshes.ring import RingMesh, ring_mesh
+from rigid import Scene
+
+Array = NDArray[np.float64]
+
+
+def membrane_stiffness(scene: Scene) -> float:
+    """E b of the ring, in m g/R: the section E I = E b h^3/12 with h the wall."""
+    return 12 * scene.ring.bending_stiffness / scene.wall**3
+
+
+class Ring:
+    """The ring of a scene's shape at unit E b and unit mass, clamped at the weld.
+
+    Parameters
+    ----------
+    mesh : RingMesh
+        In units of the outer radius.
+    poisson : float
+        Poisson's ratio.
+
+    Attributes
+    ----------
+    stiffness, mass : (n_dofs, n_dofs) sparse
+        Of the free ring, in scikit-fem's numbering.
+    free : (n_free,) int array
+        Degrees of freedom that the weld leaves.
+    """
+
+    def __init__(self, mesh: RingMesh, poisson: float) -> None:
+        self.mesh = mesh
+        self.poisson = poisson
+        self.basis: Basis = mesh.vector_basis(intorder=4)
+        lame = poisson / (1 - poisson**2)
+        shear = 1 / (2 * (1 + poisson))
+
+        @BilinearForm
+        def stiffness(u: Any, v: Any, w: Any) -> Any:
+            """Plane stress, E = 1."""
+            strain, test = sym_grad(u), sym_grad(v)
+            return lame * trace(strain) * trace(test) + 2 * shear * ddot(strain, test)
+
+        @BilinearForm
+        def mass(u: Any, v: Any, w: Any) -> Any:
+            return dot(u, v)
+
+        self.stiffness: sp.csr_matrix = stiffness.assemble(self.basis).tocsr()
+        self.area = float(self.basis.dx.sum())
+        self.mass: sp.csr_matrix = mass.assemble(self.basis).tocsr() / self.area
+        clamped = mesh.node_dofs[mesh.weld_nodes].ravel()
+        self.free: NDArray[np.int64] = np.setdiff1d(np.arange(self.basis.N), clamped)
+
+    @cached_property
+    def _position(self) -> NDArray[np.int64]:
+        position = np.full(self.basis.N, -1)
+        position[self.free] = np.arange(len(self.free))
+        return position
+
+    @cached_property
+    def rim_dofs(self) -> NDArray[np.int64]:
+        """Positions among the free dofs of the rim's components (y1, y2), node by node; (2 n_rim,)."""
+        return self._position[self.mesh.node_dofs[self.mesh.rim_nodes].ravel()]
+
+    @cached_property
+    def free_stiffness(self) -> sp.csc_matrix:
+        """Stiffness of the clamped ring."""
+        return self.stiffness[self.free][:, self.free].tocsc()
+
+    @cached_property
+    def free_mass(self) -> sp.csc_matrix:
+        """Mass of the clamped ring."""
+        return self.mass[self.free][:, self.free].tocsc()
+
+    @cached_property
+    def _factor(self) -> Any:
+        # symmetric positive definite: no pivoting, minimum degree
+        options = {"SymmetricMode": True}
+        return splu(self.free_stiffness, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
+
+    def solve(self, load: Array) -> Array:
+        """Static displacement of the free dofs under a load on them, (n_free,) or (n_free, m)."""
+        return self._factor.solve(load)
+
+    @cached_property
+    def rim_compliance(self) -> Array:
+        """Displacement of the rim under unit forces on it, (2 n_rim, 2 n_rim), in the order of ``rim_dofs``."""
+        compliance = np.empty((len(self.rim_dofs), len(self.rim_dofs)))
+        for start in range(0, len(self.rim_dofs), 256):
+            columns = np.arange(start, min(start + 256, len(self.rim_dofs)))
+            load = np.zeros((len(self.free), len(columns)))
+            load[self.rim_dofs[columns], np.arange(len(columns))] = 1.0
+            compliance[:, columns] = self.solve(load)[self.rim_dofs]
+        return (compliance + compliance.T) / 2
+
+    def modes(self, count: int) -> tuple[Array, Array]:
+        """The lowest ``count`` vibration modes of the clamped ring.
+
+        Returns
+        -------
+        eigenvalues : (count,) array
+            Squared frequencies in E b/m_h.
+        shapes : (n_free, count) array
+            Orthonormal in the unit mass.
+        """
+        known = self.__dict__.get("_modes")
+        if known is None or len(known[0]) < count:
+            operator = LinearOperator(self.free_stiffness.shape, self.solve, dtype=float)
+            start = np.random.default_rng(1).standard_normal(len(self.free))  # fixed: the same modes in every run
+            values, shapes = eigsh(self.free_stiffness, max(count, 8), self.free_mass, sigma=0.0, OPinv=operator, v0=start)
+            order = np.argsort(values)
+            known = self.__dict__["_modes"] = (values[order], shapes[:, order])
+        return known[0][:count], known[1][:, :count]
+
+    @cached_property
+    def position_field(self) -> Array:
+        """Undeformed coordinates as a vector of dofs, (n_dofs,)."""
+        field = np.empty(self.basis.N)
+        field[self.mesh.node_dofs] = self.mesh.points
+        return field
+
+    def turned(self, field: Array) -> Array:
+        """A field of dofs turned by a right angle, (y1, y2) -> (-y2, y1); works on columns too."""
+        first, second = self.mesh.node_dofs.T
+        result = np.empty_like(field)
+        result[first], result[second] = -field[second], field[first]
+        return result
+
+    def translation(self, component: int) -> Array:
+        """Unit translation along y1 (0) or y2 (1) as a vector of dofs."""
+        field = np.zeros(self.basis.N)
+        field[self.mesh.node_dofs[:, component]] = 1.0
+        return field
+
+    def expand(self, displacement: Array) -> Array:
+        """Free dofs to nodes: (n_free,) -> (n_nodes, 2), zero at the weld."""
+        full = np.zeros(self.basis.N)
+        full[self.free] = displacement
+        return full[self.mesh.node_dofs]
+
+
+@lru_cache(maxsize=8)
+def _shared_ring(wall: float, elements: int, through: int, weld_half_angle: float, poisson: float) -> Ring:
+    return Ring(ring_mesh(1 - wall, 1.0, elements, through, weld_half_angle), poisson)
+
+
+def ring_of(scene: Scene, through: int = 1) -> Ring:
+    """The ring of a scene; one is built per shape, and shared by all stiffnesses, masses and contacts."""
+    return _shared_ring(scene.wall, scene.solve.elements, through, scene.ring.weld_half_angle, scene.ring.poisson)
