@@ -1,0 +1,169 @@
+"""One scene through one solver, made into a row that can be stored, compared and sent between machines."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from rigid import Motion, Scene, scene_to_dict
+
+from .files import plain
+from .history import Columns, through
+from .measures import measures, phase_sequence
+from .solvers import solver, version
+
+SHARE = 0.1
+"""Numerical error may be this share of the distance that a study reports."""
+
+TIGHTEST = 1e-9
+"""No tolerance below this is tried: round-off of the impulses is not far."""
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """A scene, the solver that runs it, and what is asked of the result.
+
+    Parameters
+    ----------
+    solver : str
+        "rigid", "flexible" or ``module:function``.
+    scene : Scene
+        What is run.
+    against : tuple of (str, float)
+        Values of the first pulse's measures that this case will be compared to. When given, the tolerance is
+        tightened from the scene's until the numerical error is at most ``SHARE`` of each distance.
+    histories : bool
+        Whether the forces through each pulse come back too.
+    """
+
+    solver: str
+    scene: Scene
+    against: tuple[tuple[str, float], ...] = ()
+    histories: bool = False
+
+    @property
+    def key(self) -> str:
+        """Under which the result is stored: a hash of all that determines it, the version of this package
+        too."""
+        described = {
+            "solver": self.solver,
+            "scene": _floats(scene_to_dict(self.scene)),
+            "against": [list(pair) for pair in self.against],
+            "histories": self.histories,
+            "version": version(),
+        }
+        return hashlib.sha256(json.dumps(described, sort_keys=True).encode()).hexdigest()[:32]
+
+
+def _floats(value: Any) -> Any:
+    """Numbers as floats, so that 1 and 1.0 are one scene."""
+    if isinstance(value, Mapping):
+        return {key: _floats(entry) for key, entry in value.items()}
+    return float(value) if isinstance(value, int) else value
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What came of a case."""
+
+    key: str
+    """The case's key."""
+    solver: str
+    """Who ran it."""
+    scene: dict[str, dict[str, Any]]
+    """What was run, as its TOML file would say."""
+    version: str
+    """Version of this package where it ran."""
+    failure: str = ""
+    """Why there is no result, in words; empty when there is one."""
+    ended: str = ""
+    """Why the motion stopped, in words."""
+    seconds: float = 0.0
+    """Wall time of all runs of the case."""
+    rtol: float = 0.0
+    """Tolerance of the run that is reported."""
+    resolved: bool = True
+    """Whether the numerical error is as small as was asked."""
+    pulses: tuple[dict[str, float], ...] = ()
+    """Measures of each pulse."""
+    phases: tuple[list[str], ...] = ()
+    """What the contact does in each pulse, in order."""
+    numerical_error: tuple[dict[str, float], ...] = ()
+    """Change of each measure from twice the tolerance to this one, per pulse; empty when nothing was
+    asked."""
+    motion: dict[str, Any] = field(default_factory=dict)
+    """The motion as JSON prints it."""
+    histories: tuple[Columns, ...] = ()
+    """Forces and the rest through each pulse, if asked for."""
+
+
+def run_case(case: Case) -> Outcome:
+    """Run a case; whatever goes wrong in it is told in the outcome, never raised."""
+    start = time.perf_counter()
+    known = {
+        "key": case.key,
+        "solver": case.solver,
+        "scene": plain(scene_to_dict(case.scene)),
+        "version": version(),
+    }
+    try:
+        found = _resolved(case) if case.against else _once(case, case.scene)
+    except Exception as error:  # a failing case is a row of the table, whatever it failed of
+        kind = type(error).__name__
+        return Outcome(**known, failure=f"{kind}: {error}".rstrip(": "), seconds=time.perf_counter() - start)
+    return Outcome(**known, **found, seconds=time.perf_counter() - start)
+
+
+def _once(case: Case, scene: Scene) -> dict[str, Any]:
+    motion = solver(case.solver)(scene, history=case.histories)
+    return _described(motion, case.histories) | {"rtol": scene.solve.rtol}
+
+
+def _described(motion: Motion, histories: bool) -> dict[str, Any]:
+    return {
+        "ended": motion.ended,
+        "pulses": tuple(measures(motion, pulse) for pulse in motion.pulses),
+        "phases": tuple(phase_sequence(motion, pulse) for pulse in motion.pulses),
+        "motion": plain(motion.to_dict()),
+        "histories": tuple(through(motion, pulse) for pulse in motion.pulses) if histories else (),
+    }
+
+
+def _resolved(case: Case) -> dict[str, Any]:
+    """Run at a tolerance and at half of it, and tighten until the change is a ``SHARE`` of the distance
+    reported."""
+    rtol = case.scene.solve.rtol
+    coarse = _once(case, case.scene)
+    while True:
+        fine = _once(case, case.scene.replace(solve={"rtol": rtol / 2}))
+        if not fine["pulses"]:
+            raise RuntimeError(f"no pulse came to its end: {fine['ended']}")
+        errors = tuple(_changes(old, new) for old, new in zip(coarse["pulses"], fine["pulses"], strict=False))
+        excess = max(
+            (_excess(errors, fine["pulses"], name, value) for name, value in case.against), default=0.0
+        )
+        if excess <= 1 or rtol / 4 < TIGHTEST:
+            return fine | {"numerical_error": errors, "resolved": excess <= 1}
+        if excess <= 2:  # half the tolerance will do, and that run is there already
+            rtol, coarse = rtol / 2, fine
+        else:
+            rtol = max(rtol / min(excess, 30.0), 2 * TIGHTEST)
+            coarse = _once(case, case.scene.replace(solve={"rtol": rtol}))
+
+
+def _changes(old: Mapping[str, float], new: Mapping[str, float]) -> dict[str, float]:
+    return {name: abs(new[name] - old[name]) for name in new}
+
+
+def _excess(
+    errors: tuple[dict[str, float], ...], pulses: tuple[dict[str, float], ...], name: str, value: float
+) -> float:
+    """How many times too large the numerical error of a measure of the first pulse is."""
+    if not errors:
+        return float("inf")
+    error, allowed = errors[0][name], SHARE * abs(pulses[0][name] - value)
+    return 0.0 if error == 0 else error / allowed if allowed > 0 else float("inf")

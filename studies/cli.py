@@ -1,0 +1,202 @@
+"""The command line: parse, call, print. What is computed lives elsewhere and is imported only when asked for.
+
+Exit status: 0 done; 1 done, but some case of a sweep failed; 2 something the user can mend, in one sentence;
+130 interrupted.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+from rigid import Motion, Scene, SceneError, load_scene
+
+from .cli_study import study
+from .files import StudyError, folder, to_json, trouble
+
+NEWCOMER = """\
+A light hoop with a heavy disk inside its rim rolls on a rough floor. Each time the disk sweeps past the floor
+the contact force spikes: an interaction pulse. `rigid` computes the motion in closed form, `flexible` with an
+elastic hoop on a compliant floor, `study` what happens between the two as stiffness grows.
+
+\b
+Try, in this order:
+  hoop rigid paper-3.1                                the paper's example, phase by phase
+  hoop flexible paper-3.3-massless                    the same kind of hoop, elastic
+  hoop study stiffness paper-3.3-massless --out study the limit; then open study/report.html
+  hoop scenes                                         what else is ready to run
+  hoop COMMAND -h                                     the options of a command
+
+SCENE is the name of a shipped scene or a TOML file; `hoop scenes NAME` prints one to start from.
+"""
+
+
+class InOrder(click.Group):
+    """Commands are listed in the order a newcomer meets them."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(self.commands)
+
+
+CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 110}
+
+
+@click.group(cls=InOrder, invoke_without_command=True, help=NEWCOMER, context_settings=CONTEXT)
+@click.option("--version", "show_version", is_flag=True, help="Show the version and exit.")
+@click.pass_context
+def hoop(ctx: click.Context, show_version: bool) -> None:
+    if show_version:
+        from .solvers import versions
+
+        click.echo(", ".join(f"{package} {number}" for package, number in versions().items()))
+    elif ctx.invoked_subcommand is None:
+        click.echo(ctx.get_help())
+
+
+as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
+out_folder = click.option(
+    "--out", type=click.Path(path_type=Path), metavar="DIR", help="Write results into this folder."
+)
+
+
+@hoop.command()
+@click.argument("scene")
+@as_json
+@out_folder
+def rigid(scene: str, as_json: bool, out: Path | None) -> None:
+    """Motion of the rigid hoop: phases, turns, pulses."""
+    _one_motion(load_scene(scene), "rigid", as_json, out)
+
+
+@hoop.command()
+@click.argument("scene")
+@as_json
+@out_folder
+@click.option(
+    "--fields", is_flag=True, help="With --out: also the ring's fields, a PVD series for ParaView or pyvista."
+)
+def flexible(scene: str, as_json: bool, out: Path | None, fields: bool) -> None:
+    """Motion of the flexible hoop, measured like the rigid one, and where the energy went."""
+    if fields and out is None:
+        raise StudyError("--fields needs --out DIR: the fields are files.")
+    _one_motion(load_scene(scene), "flexible", as_json, out, fields)
+
+
+def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, fields: bool = False) -> None:
+    from .progress import bar
+    from .solvers import solver
+
+    target = folder(out) if out is not None else None
+    with bar(f"{name} hoop") as progress:
+        motion = solver(name)(scene, history=target is not None, progress=progress)
+    if target is not None:
+        from .output import write_fields, write_motion
+
+        write_motion(motion, target)
+        if fields:
+            with bar("fields") as progress:
+                write_fields(motion, target, progress)
+    _print_motion(motion, as_json)
+
+
+def _print_motion(motion: Motion, as_json: bool) -> None:
+    if as_json:
+        click.echo(to_json(motion.to_dict()))
+    else:
+        from .tables import motion_tables, show
+
+        show(*motion_tables(motion))
+
+
+@hoop.command()
+@click.argument("name", required=False)
+def scenes(name: str | None) -> None:
+    """List the shipped scenes, or print one as TOML to start your own from."""
+    from .scenes import listing, text
+
+    click.echo(text(name) if name else listing(), nl=False)
+
+
+hoop.add_command(study)
+
+
+@hoop.command()
+@out_folder
+def paper(out: Path | None) -> None:
+    """Every figure and number of the paper, ours beside the printed one."""
+    from .progress import bar
+
+    try:
+        from .paper import reproduce
+    except ModuleNotFoundError as error:
+        raise _not_yet("hoop paper", error) from None
+    target = folder(out if out is not None else Path("out-paper"))
+    with bar("paper") as progress:
+        reproduce(target, progress=progress)
+    click.echo(f"The paper's figures and numbers are in {target}.", err=True)
+
+
+@hoop.command()
+def bench() -> None:
+    """Run time against error."""
+    raise StudyError("hoop bench is not there yet.")
+
+
+@hoop.command()
+def stress() -> None:
+    """Numerical stability over everything a user can type."""
+    raise StudyError("hoop stress is not there yet.")
+
+
+def _not_yet(command: str, error: ModuleNotFoundError) -> StudyError:
+    """A part of this package that is still to come; anything else missing is a broken installation."""
+    if (error.name or "").split(".")[0] in ("studies", "meshes", "flexible", "rigid"):
+        return StudyError(f"{command} is not there yet.")
+    return StudyError(f"{command} needs {error.name}, which is not installed: pip install {error.name}.")
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Run one command line and return its exit status; what a user can mend is one sentence on stderr."""
+    try:
+        status: Any = hoop.main(
+            list(arguments) if arguments is not None else None, prog_name="hoop", standalone_mode=False
+        )
+        sys.stdout.flush()
+        return status if isinstance(status, int) else 0
+    except (SceneError, StudyError) as error:
+        return _say(str(error), 2)
+    except click.ClickException as error:
+        context = getattr(error, "ctx", None)
+        hint = f" See {context.command_path} -h." if context is not None else ""
+        sentence = " ".join(error.format_message().split())
+        return _say((sentence if sentence.endswith((".", "?")) else sentence + ".") + hint, 2)
+    except (KeyboardInterrupt, click.Abort):
+        return _say("Interrupted; what was finished is kept.", 130)
+    except ImportError as error:
+        return _say(f"A part of the installation is missing or broken: {error}.", 2)
+    except OSError as error:
+        _forget_stdout()
+        if error.errno == errno.EPIPE:  # the reader of our output has seen enough
+            return 141
+        return _say(trouble(error), 2)
+
+
+def _say(sentence: str, status: int) -> int:
+    click.echo(f"hoop: {sentence}", err=True)
+    return status
+
+
+def _forget_stdout() -> None:
+    """Stop the interpreter from trying, and failing, to flush stdout once more as it leaves."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def main() -> None:
+    """Entry point of the command ``hoop``."""
+    sys.exit(run())

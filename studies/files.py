@@ -1,0 +1,117 @@
+"""Files written whole or not at all, and file troubles in one sentence."""
+
+from __future__ import annotations
+
+import errno
+import json
+import math
+import os
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+
+class StudyError(Exception):
+    """Something a user can mend, in one sentence."""
+
+
+_TROUBLES = {
+    errno.ENOSPC: "the disk is full",
+    errno.EDQUOT: "the disk quota is used up",
+    errno.EFBIG: "the file would grow past the size this system allows",
+    errno.EACCES: "permission is denied",
+    errno.EPERM: "permission is denied",
+    errno.EROFS: "the file system is read-only",
+    errno.ENOENT: "there is no such file or folder",
+    errno.EEXIST: "a file of that name is in the way",
+    errno.ENOTDIR: "a part of the path is a file, not a folder",
+    errno.EISDIR: "it is a folder",
+    errno.ENAMETOOLONG: "the name is too long",
+}
+
+
+def trouble(error: OSError, path: str | Path | None = None) -> str:
+    """An operating system error as one sentence that names the file."""
+    name = path if path is not None else error.filename
+    reason = _TROUBLES.get(error.errno or 0, (error.strerror or str(error)).lower())
+    return f"{name} cannot be used: {reason}." if name is not None else f"Output cannot be written: {reason}."
+
+
+def folder(path: str | Path) -> Path:
+    """``path`` as a folder that exists and takes a new file.
+
+    Raises
+    ------
+    StudyError
+        It cannot be made, or nothing can be written into it.
+    """
+    path = Path(path)
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=path):
+            pass
+    except OSError as error:
+        raise StudyError(trouble(error, path)) from None
+    return path
+
+
+def write_whole(path: str | Path, write: Callable[[Path], Any]) -> Path:
+    """Let ``write`` fill a temporary file beside ``path``, then rename: a reader sees all of it or none.
+
+    The temporary name keeps the suffix, from which writers of images tell the format.
+
+    Raises
+    ------
+    StudyError
+        The folder cannot be written to or the disk is full; nothing is left behind.
+    """
+    path = Path(path)
+    try:
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=".part-", suffix=path.suffix)
+    except OSError as error:
+        raise StudyError(trouble(error, path)) from None
+    os.close(handle)
+    part = Path(name)
+    try:
+        write(part)
+        with part.open("rb+") as whole:
+            os.fsync(whole.fileno())
+        part.chmod(0o666 & ~_umask())
+        os.replace(part, path)
+    except OSError as error:
+        raise StudyError(trouble(error, path)) from None
+    finally:
+        part.unlink(missing_ok=True)
+    return path
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def write_text(path: str | Path, text: str) -> Path:
+    """Write a text file whole or not at all."""
+    return write_whole(path, lambda part: part.write_text(text, encoding="utf-8"))
+
+
+def plain(value: Any) -> Any:
+    """``value`` in JSON's own types: numpy scalars and arrays unpacked, NaN and infinity as null."""
+    if isinstance(value, Mapping):
+        return {str(key): plain(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain(entry) for entry in value]
+    if hasattr(value, "tolist"):
+        return plain(value.tolist())
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    if isinstance(value, str):
+        return str(value)
+    return value
+
+
+def to_json(value: Any, indent: int | None = 2) -> str:
+    """JSON that any reader takes: no NaN, no infinity."""
+    return json.dumps(plain(value), indent=indent, allow_nan=False, ensure_ascii=False)

@@ -1,0 +1,76 @@
+"""A ladder of stiffness: which of the two stiffnesses of a scene is raised, from where to where."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+
+from rigid import Scene, SceneError
+
+ALONG = ("both", "contact", "bending")
+
+
+@dataclass(frozen=True, slots=True)
+class Ladder:
+    """Rungs spaced evenly in the logarithm.
+
+    Parameters
+    ----------
+    along : {"both", "contact", "bending"}
+        Raise the contact foundation, the ring's bending stiffness, or both in the ratio they have in the
+        scene.
+    low, high : float
+        Foundation (or, along "bending", bending stiffness) of the softest and the stiffest rung.
+    count : int
+        Number of rungs, at least 2.
+    """
+
+    along: str
+    low: float
+    high: float
+    count: int
+
+    def __post_init__(self) -> None:
+        if self.along not in ALONG:
+            raise SceneError(f"along = {self.along!r} is not possible: it must be one of {', '.join(ALONG)}.")
+        if not (isfinite(self.low) and isfinite(self.high) and 0 < self.low < self.high):
+            raise SceneError(
+                f"The range {self.low!r} to {self.high!r} is not possible: it runs upward from above 0."
+            )
+        if not 2 <= self.count <= 1000:
+            raise SceneError(f"count = {self.count!r} is not possible: it is a whole number from 2 to 1000.")
+
+    @classmethod
+    def around(
+        cls,
+        scene: Scene,
+        along: str = "both",
+        low: float | None = None,
+        high: float | None = None,
+        count: int = 9,
+    ) -> Ladder:
+        """The ladder of a scene: six decades that reach from two below its own stiffness to four above."""
+        own = scene.ring.bending_stiffness if along == "bending" else scene.contact.stiffness
+        return cls(along, own * 1e-2 if low is None else low, own * 1e4 if high is None else high, count)
+
+    @property
+    def stiffness(self) -> np.ndarray:
+        """(count,) what is raised, dimensionless."""
+        return np.geomspace(self.low, self.high, self.count)
+
+    @property
+    def label(self) -> str:
+        """What is raised, in words."""
+        return "bending stiffness EI/(mgR²)" if self.along == "bending" else "contact foundation εR²/(mg)"
+
+    def rungs(self, scene: Scene) -> list[Scene]:
+        """The scene at every rung, softest first."""
+        ratio = scene.ring.bending_stiffness / scene.contact.stiffness
+        rungs = []
+        for s in self.stiffness.tolist():
+            ring = {"both": s * ratio, "contact": scene.ring.bending_stiffness, "bending": s}[self.along]
+            contact = scene.contact.stiffness if self.along == "bending" else s
+            rungs.append(scene.replace(ring={"bending_stiffness": ring}, contact={"stiffness": contact}))
+        return rungs

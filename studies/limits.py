@@ -1,0 +1,207 @@
+"""The limit of a sequence y(s) as s grows, and how fast it gets there.
+
+Both need no theory of the solver: a law ``y = L + c s^-p`` is fitted, and its uncertainty says how well it
+holds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, isfinite, nan, sqrt
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import stats
+from scipy.optimize import minimize_scalar
+
+Array = NDArray[np.float64]
+
+CONFIDENCE = 0.95
+"""Level of every interval here."""
+
+_RATES = (0.05, 3.0)
+
+_MISFIT = 0.02
+"""How much the distance to the limit may miss the law, relative to itself: sets the weight of soft against
+stiff points and of misfit against numerical error; the width of an interval follows from the scatter that is
+found."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rate:
+    """How fast a distance d(s) goes to zero: d = c s^-p, fitted on log-log axes."""
+
+    value: float
+    """Observed rate p."""
+    interval: tuple[float, float]
+    """Its t-interval at the level CONFIDENCE, widened by the change of p when a point more or fewer is used;
+    infinite when fewer than three points can be used."""
+    points: int
+    """How many of the stiffest points were used."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """The limit of a measure as stiffness grows, and whether the rigid value is it."""
+
+    value: float
+    """Extrapolated limit L of L + c s^-p."""
+    uncertainty: float
+    """Half width of its interval: scatter about the fit, choice of the fitted points, numerical error of the
+    cases."""
+    exponent: float
+    """The exponent p of that fit, found without knowing the rigid value (or given, where theory knows it)."""
+    rigid: float
+    """The value of the rigid hoop that this limit is expected to be."""
+    rate: float
+    """Observed rate at which the distance to the rigid value goes to zero."""
+    rate_interval: tuple[float, float]
+    """Confidence interval of that rate."""
+    distance: float
+    """Distance to the rigid value at the stiffest case: what is left without any extrapolation."""
+
+    @property
+    def rigid_inside(self) -> bool:
+        """Whether the rigid value lies within the uncertainty of the limit."""
+        return abs(self.value - self.rigid) <= self.uncertainty
+
+    @property
+    def error(self) -> float:
+        """Limit minus rigid value."""
+        return self.value - self.rigid
+
+
+def observed_rate(s: ArrayLike, distance: ArrayLike, error: ArrayLike | None = None) -> Rate:
+    """Rate of ``distance -> 0`` by a straight line through log distance against log s of the stiffest points.
+
+    As many points are used as give the narrowest interval. Points whose numerical ``error`` exceeds half
+    their distance say nothing of the distance and are left out.
+    """
+    s, d = np.asarray(s, float), np.abs(np.asarray(distance, float))
+    e = np.zeros_like(d) if error is None else np.abs(np.asarray(error, float))
+    use = np.isfinite(d) & (d > 0) & ~(e > 0.5 * d)
+    x, y = np.log(s[use]), np.log(d[use])
+    if x.size < 3:
+        slope = float((y[1] - y[0]) / (x[1] - x[0])) if x.size == 2 else nan
+        return Rate(-slope, (-inf, inf), int(x.size))
+    fits = {}
+    for n in range(3, x.size + 1):
+        slope, offset = np.polyfit(x[-n:], y[-n:], 1)
+        residual = y[-n:] - (slope * x[-n:] + offset)
+        spread = sqrt(float(residual @ residual) / (n - 2) / float(((x[-n:] - x[-n:].mean()) ** 2).sum()))
+        fits[n] = (-float(slope), _t(n - 2) * spread)
+    points, half = _narrowest(fits)
+    rate = fits[points][0]
+    return Rate(rate, (rate - half, rate + half), points)
+
+
+def richardson(
+    s: ArrayLike, y: ArrayLike, error: ArrayLike | None = None, exponent: float | None = None
+) -> tuple[float, float, float]:
+    """Limit of ``y(s)`` for s to infinity from ``y = L + c s^-p``, without knowing L.
+
+    Softer points follow the law less well, stiffer ones carry more numerical error: every number of stiffest
+    points is tried and the one with the narrowest interval is taken.
+
+    Parameters
+    ----------
+    s, y : (n,) array_like
+        Stiffness, growing, and the measure there.
+    error : (n,) array_like, optional
+        Numerical error of each ``y``.
+    exponent : float, optional
+        p where it is known; otherwise it is fitted too, between 0.05 and 3.
+
+    Returns
+    -------
+    limit, uncertainty, exponent : float
+        The uncertainty covers the scatter about the fit (t-interval), the change of the limit when one point
+        more or fewer is fitted, and the numerical error carried into the limit. It is infinite with too few
+        points.
+    """
+    x, v = np.asarray(s, float), np.asarray(y, float)
+    e = np.zeros_like(v) if error is None else np.nan_to_num(np.abs(np.asarray(error, float)))
+    use = np.isfinite(v)
+    x, v, e = x[use], v[use], e[use]
+    unknowns = 2 if exponent is not None else 3
+    fits = {n: _fit(x[-n:], v[-n:], e[-n:], exponent) for n in range(unknowns + 1, v.size + 1)}
+    if not fits:
+        return (float(v[-1]) if v.size else nan), inf, nan if exponent is None else exponent
+    points, half = _narrowest({n: (limit, half) for n, (limit, half, _) in fits.items()})
+    return fits[points][0], half, fits[points][2]
+
+
+def _narrowest(fits: dict[int, tuple[float, float]]) -> tuple[int, float]:
+    """Of fits ``{points: (value, half width)}`` the one of the narrowest interval, and that interval's half
+    width.
+
+    The value's change when up to two points more or fewer are fitted counts into the interval: softer points
+    follow the law less well, and the scatter about one fit does not show that.
+    """
+    halves = {}
+    for n, (value, half) in fits.items():
+        near = [abs(value - other) for m, (other, _) in fits.items() if 0 < abs(m - n) <= 2]
+        halves[n] = sqrt(half**2 + max(near, default=0.0) ** 2)
+    points = min(halves, key=lambda n: halves[n])
+    return points, halves[points]
+
+
+def _fit(s: Array, y: Array, error: Array, exponent: float | None) -> tuple[float, float, float]:
+    """L, half width of its interval, and p, by weighted least squares; linear in L and c for each p."""
+    x = s / s[-1]
+    spread = np.ptp(y)
+    if spread == 0:
+        return float(y[-1]), float(error.max()), nan if exponent is None else exponent
+
+    def solve(p: float) -> tuple[Array, Array, Array]:
+        # a residual counts relative to the distance still to go, as softer points miss the law by more
+        sigma = np.sqrt(error**2 + (_MISFIT * spread * x**-p / (x[0] ** -p - 1)) ** 2)
+        design = np.column_stack([np.ones_like(x), x**-p]) / sigma[:, None]
+        found = np.linalg.lstsq(design, y / sigma, rcond=None)[0]
+        return found, y / sigma - design @ found, sigma
+
+    if exponent is None:
+        grid = np.linspace(*_RATES, 60)
+        costs = [_cost(solve(p)) for p in grid]
+        i = int(np.argmin(costs))
+        bounds = (grid[max(i - 1, 0)], grid[min(i + 1, grid.size - 1)])
+        p = float(minimize_scalar(lambda q: _cost(solve(q)), bounds=bounds, method="bounded").x)
+    else:
+        p = exponent
+    (limit, c), residual, sigma = solve(p)
+    columns = [np.ones_like(x), x**-p] + ([-c * np.log(x) * x**-p] if exponent is None else [])
+    jacobian = np.column_stack(columns) / sigma[:, None]
+    free = y.size - jacobian.shape[1]
+    inverse = np.linalg.pinv(jacobian)
+    scatter = _t(free) * sqrt(float(residual @ residual) / free * float(inverse[0] @ inverse[0]))
+    numerical = float(np.abs(inverse[0] / sigma) @ error)  # the worst the cases' own errors can do together
+    half = sqrt(scatter**2 + numerical**2)
+    return float(limit), half if isfinite(half) else inf, p
+
+
+def _cost(solved: tuple[Array, Array, Array]) -> float:
+    """Minus twice the log-likelihood, the scale of the scatter left free."""
+    _, residual, sigma = solved
+    return residual.size * float(np.log(residual @ residual + 1e-300)) + 2 * float(np.log(sigma).sum())
+
+
+def _t(free: int) -> float:
+    return float(stats.t.ppf(0.5 + CONFIDENCE / 2, free))
+
+
+def limit_of(
+    s: ArrayLike, y: ArrayLike, rigid: float, error: ArrayLike | None = None, exponent: float | None = None
+) -> Limit:
+    """The limit of a measure over a ladder of stiffness beside the rigid value it should have."""
+    values = np.asarray(y, float)
+    value, uncertainty, fitted = richardson(s, values, error, exponent)
+    rate = observed_rate(s, values - rigid, error)
+    return Limit(
+        value,
+        uncertainty,
+        fitted,
+        rigid,
+        rate.value,
+        rate.interval,
+        float(abs(values[-1] - rigid)) if values.size else nan,
+    )

@@ -1,0 +1,175 @@
+"""What is measured on a pulse, the same for every solver; a new measure is one function.
+
+Each takes a motion and one of its pulses and returns a number in the units of the scene.
+What a solver does not have (a rigid hoop stores no strain energy) is 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from rigid import Kind, Motion, Phase, Pulse, Scene
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """One measure of a pulse."""
+
+    name: str
+    """Key in tables and JSON."""
+    symbol: str
+    """How figures and tables call it."""
+    unit: str
+    """Unit in the paper's scaling, empty for a pure number."""
+    of: Callable[[Motion, Pulse], float]
+    """The measure itself."""
+
+    def unit_in(self, scene: Scene) -> str:
+        """Unit in the units of ``scene``: the paper's, or SI when R, m or g are given."""
+        hoop = scene.hoop
+        return self.unit if hoop.R == hoop.m == hoop.g == 1 else _SI.get(self.unit, self.unit)
+
+    @property
+    def meaning(self) -> str:
+        """First line of the function's docstring."""
+        return (self.of.__doc__ or "").strip().splitlines()[0]
+
+
+_SI = {"m sqrt(gR)": "N s", "mgR": "J", "mg": "N", "sqrt(R/g)": "s"}
+
+MEASURES: dict[str, Measure] = {}
+
+
+def measure(
+    symbol: str, unit: str = ""
+) -> Callable[[Callable[[Motion, Pulse], float]], Callable[[Motion, Pulse], float]]:
+    """Enter a function of a motion and a pulse among the measures."""
+
+    def enter(function: Callable[[Motion, Pulse], float]) -> Callable[[Motion, Pulse], float]:
+        MEASURES[function.__name__] = Measure(function.__name__, symbol, unit, function)
+        return function
+
+    return enter
+
+
+@measure("J_N", "m sqrt(gR)")
+def normal_impulse(motion: Motion, pulse: Pulse) -> float:
+    """Integral of the normal force over the pulse."""
+    return pulse.normal_impulse
+
+
+@measure("J_F", "m sqrt(gR)")
+def friction_impulse(motion: Motion, pulse: Pulse) -> float:
+    """Integral of the friction force over the pulse, positive to the right."""
+    return pulse.friction_impulse
+
+
+@measure("J_F/J_N")
+def impulse_ratio(motion: Motion, pulse: Pulse) -> float:
+    """Friction impulse over normal impulse."""
+    return pulse.impulse_ratio
+
+
+@measure("J_F/(μ J_N)")
+def impulse_ratio_over_mu(motion: Motion, pulse: Pulse) -> float:
+    """The same over the kinetic coefficient: Whittaker, and Kane and Levinson, have it ±1."""
+    mu = motion.scene.friction.mu
+    return pulse.impulse_ratio / mu if mu > 0 else float("nan")
+
+
+@measure("friction loss", "mgR")
+def friction_loss(motion: Motion, pulse: Pulse) -> float:
+    """Integral of |F v|: what friction takes from the energy during the pulse."""
+    return pulse.friction_loss
+
+
+@measure("damping loss", "mgR")
+def damping_loss(motion: Motion, pulse: Pulse) -> float:
+    """What the dampers of contact and ring take."""
+    return getattr(pulse, "damping_loss", 0.0)
+
+
+@measure("numerical loss", "mgR")
+def numerical_loss(motion: Motion, pulse: Pulse) -> float:
+    """What the time integrator takes."""
+    return getattr(pulse, "numerical_loss", 0.0)
+
+
+@measure("peak N", "mg")
+def peak_normal_force(motion: Motion, pulse: Pulse) -> float:
+    """Largest normal force in the pulse."""
+    return pulse.peak_normal_force
+
+
+@measure("off the floor", "sqrt(R/g)")
+def time_off_floor(motion: Motion, pulse: Pulse) -> float:
+    """Time without contact: hopping, footnote 1 of the paper."""
+    if hasattr(pulse, "time_off_floor"):
+        return pulse.time_off_floor
+    return sum(
+        phase.t_end - phase.t_start
+        for phase in inside(motion, pulse)
+        if phase.kind in (Kind.FLIGHT, Kind.SKIM)
+    )
+
+
+@measure("peak ring energy", "mgR")
+def ring_energy_peak(motion: Motion, pulse: Pulse) -> float:
+    """Largest strain energy of the ring in the pulse."""
+    return getattr(pulse, "ring_energy_peak", 0.0)
+
+
+@measure("peak contact energy", "mgR")
+def contact_energy_peak(motion: Motion, pulse: Pulse) -> float:
+    """Largest energy of the contact's springs in the pulse."""
+    return getattr(pulse, "contact_energy_peak", 0.0)
+
+
+@measure("e Newton")
+def newton_restitution(motion: Motion, pulse: Pulse) -> float:
+    """Vertical velocity of the mass centre after over before, sign changed."""
+    return pulse.newton_restitution
+
+
+@measure("e Poisson")
+def poisson_restitution(motion: Motion, pulse: Pulse) -> float:
+    """Normal impulse of restitution over that of compression."""
+    return pulse.poisson_restitution
+
+
+@measure("e energetic")
+def energetic_restitution(motion: Motion, pulse: Pulse) -> float:
+    """Square root of the work of restitution over that of compression."""
+    return pulse.energetic_restitution
+
+
+@measure("duration", "sqrt(R/g)")
+def duration(motion: Motion, pulse: Pulse) -> float:
+    """Length of the pulse in time."""
+    return pulse.t_end - pulse.t_start
+
+
+def measures(motion: Motion, pulse: Pulse) -> dict[str, float]:
+    """Every measure of a pulse by name."""
+    return {name: float(entry.of(motion, pulse)) for name, entry in MEASURES.items()}
+
+
+def inside(motion: Motion, pulse: Pulse) -> list[Phase]:
+    """The phases within a pulse, those at its ends cut to it."""
+    own = getattr(pulse, "phases", None)
+    if own is not None:
+        return list(own)
+    cut = []
+    for phase in motion.phases:
+        start, end = max(phase.t_start, pulse.t_start), min(phase.t_end, pulse.t_end)
+        if end > start or (phase.kind is Kind.IMPACT and pulse.t_start <= phase.t_start <= pulse.t_end):
+            phi_start = phase.phi_start if phase.t_start >= pulse.t_start else pulse.phi_start
+            phi_end = phase.phi_end if phase.t_end <= pulse.t_end else pulse.phi_end
+            cut.append(Phase(phase.kind, start, end, phi_start, phi_end))
+    return cut
+
+
+def phase_sequence(motion: Motion, pulse: Pulse) -> list[str]:
+    """What the contact does in the pulse, in order."""
+    return [str(phase.kind.value) for phase in inside(motion, pulse)]

@@ -1,0 +1,89 @@
+"""The text of report.html: one self-contained page."""
+
+CAPTIONS = {
+    "pulse": """\
+Normal force, friction force and slip velocity of the contact through the first pulse, from soft (dark) to
+stiff (light), over the rigid hoop (black).""",
+    "impulses": """\
+The same pulse in impulse space. A curve that runs along a dashed line slides; one that leaves it sticks; one
+that turns toward the other line has reversed its slip. The slope from the origin to the end is the impulse
+ratio.""",
+    "distance": """\
+How far the flexible hoop's measures are from the rigid ones. Triangles are the numerical error: the change
+when the tolerance is halved.""",
+    "energy": """\
+Where the energy is and where it goes; below, the small terms on a logarithmic axis.""",
+}
+"""What stands under each figure."""
+
+PAGE = """\
+<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{{ title }}</title>
+<style>
+:root { color-scheme: light; }
+body { font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 62rem; margin: 2rem
+auto; padding: 0 1.2rem; } h1 { font-size: 1.6rem; line-height: 1.25; margin-bottom: .3rem; } h2 { font-size:
+1.15rem; margin-top: 2.2rem; } .lead { font-size: 1.05rem; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-size: .86rem; font-variant-numeric: tabular-nums; }
+th, td { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid #e4e4e4; white-space: nowrap; }
+th:first-child, td:first-child { text-align: left; }
+thead th { border-bottom: 2px solid #999; vertical-align: bottom; }
+tr.rigid td { border-top: 2px solid #999; font-weight: 600; }
+td.bad { color: #a33; text-align: left; white-space: normal; }
+figure { margin: 1.2rem 0 2rem; } figure img { max-width: 100%; height: auto; }
+figcaption { color: #555; font-size: .9rem; max-width: 46rem; }
+code, pre { font: .85rem/1.45 ui-monospace, monospace; background: #f5f5f3; } pre { padding: .7rem 1rem;
+overflow-x: auto; } code { padding: .1rem .3rem; }
+footer { color: #666; font-size: .85rem; margin-top: 3rem; border-top: 1px solid #ddd; padding-top: .8rem; }
+</style>
+</head>
+<body>
+<h1>{{ title }}</h1>
+<p class="lead">{{ verdict }}</p>
+
+<h2>The limit of the first pulse</h2>
+<div class="wide"><table><thead><tr><th>measure</th><th>limit</th><th>uncertainty</th><th>rigid</th><th>limit
+− rigid</th>
+<th>rigid inside?</th><th>rate of the distance</th><th>{{ confidence }} interval</th><th>distance at the
+stiffest</th></tr></thead><tbody>
+{% for row in limits %}<tr>{% for cell in row %}<td>{{ cell }}</td>{% endfor %}</tr>
+{% endfor %}</tbody></table></div>
+<p>The limit is L in L + c s<sup>−p</sup>, s the {{ along }}, fitted to the stiffest cases without knowing the
+rigid value. Its uncertainty covers the scatter about that fit, the choice of the fitted cases and their
+numerical error.
+{{ law }}</p>
+
+{% for name, caption, image in figures %}
+<figure id="{{ name }}"><img alt="{{ caption }}" src="data:image/png;base64,{{ image }}"><figcaption>{{
+caption }}</figcaption></figure>
+{% endfor %}
+
+<h2>Case by case</h2>
+<div class="wide"><table><thead><tr>{% for cell in heading %}<th>{{ cell }}</th>{% endfor
+%}</tr></thead><tbody>
+{% for row in cases %}<tr>{% for cell in row.cells %}<td>{{ cell }}</td>{% endfor %}
+{% if row.failure %}<td class="bad" colspan="{{ heading|length - 2 }}">{{ row.failure }}</td>{% endif %}</tr>
+{% endfor %}<tr class="rigid">{% for cell in rigid %}<td>{{ cell }}</td>{% endfor %}</tr>
+</tbody></table></div>
+<p>± is the numerical error of a case: the change of its value from twice the tolerance to the one it was run
+at, which was tightened until that change was a tenth of the distance to the rigid value.{{ unresolved }}</p>
+
+<h2>All measures of the first pulse, side by side</h2>
+<div class="wide"><table><thead><tr>{% for cell in side_heading %}<th>{{ cell }}</th>{% endfor
+%}</tr></thead><tbody>
+{% for row in side %}<tr>{% for cell in row %}<td>{{ cell }}</td>{% endfor %}</tr>
+{% endfor %}</tbody></table></div>
+
+<h2>The scene</h2>
+<pre>{{ scene }}</pre>
+<h2>How this page was made</h2>
+<pre>{{ command }}</pre>
+<footer>{{ versions }}</footer>
+</body>
+</html>
+"""

@@ -1,0 +1,63 @@
+"""A third solver, made for the tests by one adapter: the rigid motion with measures that miss it by a known law.
+
+The impulse ratio and the friction loss are off by ``C s^-1/3`` with s the contact foundation, and by a numerical error
+of the asked tolerance; so a study of it must find rate 1/3 and the rigid values.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import time
+from pathlib import Path
+
+from rigid import Motion, Scene, simulate
+from studies.stiffness import limit_scene
+
+RATE = 1 / 3
+OFF = 20.0
+"""Relative distance C: 2e-2 at a foundation of 1e9."""
+
+
+def softened(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
+    """The rigid motion of the scene that the contact law tends to, its pulses missed by the law above."""
+    motion = simulate(limit_scene(scene))
+    miss = OFF * scene.contact.stiffness**-RATE
+    pulses = tuple(
+        dataclasses.replace(
+            pulse,
+            friction_impulse=pulse.friction_impulse * (1 + miss) + scene.solve.rtol,
+            friction_loss=pulse.friction_loss * (1 - miss) + scene.solve.rtol,
+        )
+        for pulse in motion.pulses
+    )
+    return dataclasses.replace(motion, scene=scene, pulses=pulses)
+
+
+def slow(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
+    """The same, slowly enough to be interrupted."""
+    time.sleep(0.4)
+    return softened(scene)
+
+
+def failing(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
+    """The same, but above a foundation of 1e10 it gives up."""
+    if scene.contact.stiffness > 1e10:
+        raise ArithmeticError("no step could be found at t = 4.2")
+    return softened(scene)
+
+
+def deadly(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
+    """The same, but at k = 0.3 the process dies under it."""
+    if scene.hoop.k == 0.3:
+        os.kill(os.getpid(), 9)
+    return softened(scene)
+
+
+def deadly_once(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
+    """The same, but at k = 0.3 the first process that gets it dies; a file named by the test remembers that."""
+    mark = Path(os.environ["HOOP_TEST_MARK"])
+    if scene.hoop.k == 0.3 and not mark.exists():
+        mark.touch()
+        os.kill(os.getpid(), 9)
+    return slow(scene)
