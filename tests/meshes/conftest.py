@@ -12,7 +12,7 @@ K, R0 = 0.25, 1 / 1.02
 
 
 def oval_frames(ring, times, amplitude=1e-3):
-    """Frames at ``times`` of a ring with radial displacement ``amplitude`` cos 2 theta, disk at phi = 2.2 + t."""
+    """Frames at ``times``: radial displacement ``amplitude`` cos 2 theta, the disk at phi = 2.2 + t."""
     floor = floor_block(-2.0, 4.0, 0.1)
     cos, sin = np.cos(ring.theta), np.sin(ring.theta)
     for time in times:

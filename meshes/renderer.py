@@ -1,0 +1,55 @@
+"""Is there anything to draw with? VTK crashes the process where it finds no screen, no EGL, no OSMesa."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from functools import cache
+
+_PROBE = """
+import vtkmodules.vtkRenderingOpenGL2
+from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
+window = vtkRenderWindow()
+window.SetOffScreenRendering(1)
+window.SetSize(8, 8)
+window.AddRenderer(vtkRenderer())
+window.Render()
+print("drawn")
+"""
+
+
+class ViewError(ValueError):
+    """A picture that cannot be made: one sentence that says why and what would help."""
+
+
+@cache
+def renderer_problem() -> str | None:
+    """Why nothing can be drawn, in a sentence, or None; found out once, in a process that may crash."""
+    try:
+        probe = subprocess.run([sys.executable, "-c", _PROBE], capture_output=True, timeout=120, check=False)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return f"VTK could not be tried out for rendering: {error}."
+    if probe.returncode == 0 and probe.stdout.strip() == b"drawn":
+        return None
+    if b"ModuleNotFoundError" in probe.stderr:
+        return "pictures need pyvista, which is not installed: pip install pyvista."
+    return (
+        "VTK finds nothing to draw with: without a screen it needs EGL or OSMesa; on Debian or Ubuntu, "
+        "apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri."
+    )
+
+
+def require_renderer() -> None:
+    """Raise :class:`ViewError` where nothing can be drawn."""
+    problem = renderer_problem()
+    if problem is not None:
+        raise ViewError(problem)
+
+
+def require_screen() -> None:
+    """Raise :class:`ViewError` where no window can be opened."""
+    require_renderer()
+    screen = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")
+    if sys.platform.startswith("linux") and not screen:
+        raise ViewError("there is no screen for a window: ask for --png, --gif, --mp4 or --html.")

@@ -1,0 +1,184 @@
+"""The sheet: stage picture, legend and colour bar above, N(t) and F(t) below with the current time marked."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import looks
+from .stage import ABOVE_FLOOR, Colours
+from .subject import Curves, Shot
+
+Image = NDArray[np.uint8]
+
+
+class Sheet:
+    """A page that is laid out once and filled in for one shot after the other.
+
+    Parameters
+    ----------
+    size : (width, height)
+        In pixels, both even.
+    curves : Curves
+        What is drawn below; without any, the stage takes the whole height.
+    span : (start, stop)
+        Of the time axis.
+    colours : Colours or None
+        Of the colour bar.
+    units : mapping
+        Units of fields and of "time", "force".
+    title : str
+        Above the picture.
+    """
+
+    def __init__(
+        self,
+        size: tuple[int, int],
+        curves: Curves,
+        span: tuple[float, float],
+        colours: Colours | None,
+        units: dict[str, str],
+        title: str,
+    ) -> None:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        self.size, self.curves, self.span = size, curves, span
+        self.units = {**looks.UNITS, **units}
+        width, height = size
+        # type is set for a sheet 1280 wide and shrinks less than the sheet does, so that it stays legible
+        self.type = 13.0 * max(0.62, min(width / 1280, height / 900) ** 0.75)
+        self.figure = Figure(figsize=(width / 100, height / 100), dpi=100, facecolor=looks.PAPER)
+        self.canvas = FigureCanvasAgg(self.figure)
+        self._moving: list[Any] = []
+        self._marks: list[tuple[Any, Any, Any, Any]] = []
+        em = self.type * 100 / 72
+        drawn = len(curves.t) > 0
+        below = round(0.31 * height) if drawn else 0
+        top = round(2.6 * em)
+        #: pixels at the right of the stage that the colour bar covers
+        self.covered = round(6.2 * em) if colours else 0
+        #: left, top, width and height of the stage in pixels
+        self.stage_box = (0, top, width // 2 * 2, (height - top - below) // 2 * 2)
+        self._text(1.2 * em, top * 0.62, title, color=looks.INK, weight="bold", va="center")
+        if colours is not None:
+            self._colour_bar(colours, em)
+        if drawn:
+            self._curves(below, em)
+        left, y = 1.2 * em, top + 1.3 * em
+        self._time = self._text(left, y, "", color=looks.INK, moving=True)
+        self._phase = self._text(left, y + 1.5 * em, "", color=looks.INK, moving=True)
+        self._force = self._text(left, y + 3.2 * em, "", color=looks.FORCE, moving=True)
+        self._slip = self._text(left, y + 4.7 * em, "", color=looks.SLIP, moving=True)
+        # beside the deformed hoop, low, where nothing else is
+        low = top + self.stage_box[3] * ABOVE_FLOOR - 0.8 * em
+        self._factor = self._text(left, low, "", color=looks.FAINT, moving=True)
+        self.canvas.draw()
+        self._blank = self.canvas.copy_from_bbox(self.figure.bbox)
+        foot = top + int(self.stage_box[3] * ABOVE_FLOOR) - 4
+        self._bar_box = (slice(top, foot), slice(width - self.covered, width))
+        self._bar = np.array(np.asarray(self.canvas.buffer_rgba())[self._bar_box])
+
+    def fill(self, stage: Image, shot: Shot, factor: float) -> Image:
+        """The page with this stage picture, as (height, width, 3) bytes."""
+        self.canvas.restore_region(self._blank)
+        left, top, width, height = self.stage_box
+        page = np.asarray(self.canvas.buffer_rgba())
+        page[top : top + height, left : left + width, :3] = stage
+        page[self._bar_box] = self._bar
+        self._time.set_text(f"t = {shot.time:.4f} {self.units['time']}")
+        kind = self.curves.phase(shot.time)
+        words, band = looks.PHASES.get(kind, (kind, looks.PAPER)) if kind else ("", looks.PAPER)
+        self._phase.set_text(words)
+        self._phase.set_bbox({"facecolor": band, "edgecolor": "none", "pad": 0.25 * self.type})
+        self._force.set_text("" if not shot.normal_force else "↑ contact force")
+        self._slip.set_text("" if not shot.slip_velocity else "→ slip velocity")
+        rigid = "displacement" not in shot.ring.point_data
+        self._factor.set_text("" if rigid else f"deformation × {factor:g}")
+        for line, dot, t, values in self._marks:
+            line.set_xdata([shot.time, shot.time])
+            dot.set_data([shot.time], [np.interp(shot.time, t, values)])
+        for artist in self._moving:
+            (artist.axes or self.figure).draw_artist(artist)
+        return np.array(np.asarray(self.canvas.buffer_rgba())[..., :3])
+
+    def note(self, text: str) -> None:
+        """Print a line in the middle above the picture, on every page from now on."""
+        top = self.stage_box[1]
+        style = {"color": looks.FAINT, "ha": "center", "va": "center", "fontsize": 0.8 * self.type}
+        self._text(self.size[0] / 2, top * 0.62, text, **style)
+        self.canvas.draw()
+        self._blank = self.canvas.copy_from_bbox(self.figure.bbox)
+
+    def _text(self, x: float, y: float, text: str, *, moving: bool = False, **style: Any) -> Any:
+        style.setdefault("fontsize", self.type)
+        artist = self.figure.text(x / self.size[0], 1 - y / self.size[1], text, animated=moving, **style)
+        if moving:
+            self._moving.append(artist)
+        return artist
+
+    def _axes(self, left: float, top: float, width: float, height: float) -> Any:
+        w, h = self.size
+        return self.figure.add_axes((left / w, 1 - (top + height) / h, width / w, height / h))
+
+    def _colour_bar(self, colours: Colours, em: float) -> None:
+        from matplotlib.cm import ScalarMappable
+        from matplotlib.colors import Normalize
+        from matplotlib.ticker import MaxNLocator
+
+        _, top, width, height = self.stage_box
+        axes = self._axes(width - 5.2 * em, top + 0.8 * em, 0.9 * em, height * ABOVE_FLOOR - 1.8 * em)
+        mapped = ScalarMappable(Normalize(colours.low, colours.high), looks.colormap(colours.field))
+        signed = colours.field in looks.SIGNED
+        bar = self.figure.colorbar(mapped, cax=axes, extend="both" if signed else "max", ticks=MaxNLocator(5))
+        bar.outline.set_visible(False)
+        axes.tick_params(labelsize=0.85 * self.type, length=3, color=looks.FAINT, labelcolor=looks.INK)
+        largest = max(abs(colours.low), abs(colours.high))
+        power = int(np.floor(np.log10(largest))) if largest > 0 else 0
+        power = 0 if -2 <= power < 4 else power
+        axes.yaxis.set_major_formatter(lambda value, _: f"{value / 10.0**power:g}")
+        ten = f"$10^{{{power}}}$" if power else ""
+        unit = " ".join(filter(None, [ten, looks.unit(colours.field, self.units)]))
+        name = looks.label(colours.field) + (f"  [{unit}]" if unit else "")
+        self._text(self.size[0] - 1.2 * em, top * 0.62, name, color=looks.INK, ha="right", va="center")
+
+    def _curves(self, below: int, em: float) -> None:
+        start = self.size[1] - below + 1.2 * em
+        left, right, foot, gap = 5.2 * em, 1.6 * em, 3.1 * em, 0.7 * em
+        #: first and last pixel of the time axis
+        self.time_axis = left, self.size[0] - right
+        height = (below - 1.2 * em - foot - gap) / 2
+        curves = self.curves
+        for row, (values, colour, name) in enumerate([
+            (curves.normal_force, looks.NORMAL, "N"),
+            (curves.friction_force, looks.FRICTION, "F"),
+        ]):
+            axes = self._axes(left, start + row * (height + gap), self.size[0] - left - right, height)
+            for kind, t0, t1 in curves.phases:
+                if t1 > t0:
+                    axes.axvspan(t0, t1, color=looks.PHASES.get(kind, ("", "#f2f2f2"))[1], lw=0, zorder=0)
+            axes.axhline(0, color=looks.FAINT, lw=0.6, zorder=1)
+            axes.plot(curves.t, values, color=colour, lw=0.13 * self.type, zorder=3)
+            axes.set_xlim(*self.span)
+            low, high = float(np.nanmin(values)), float(np.nanmax(values))
+            room = 0.12 * ((high - low) or 1.0)
+            axes.set_ylim(min(low, 0.0) - room, max(high, 0.0) + room)
+            for side in ("top", "right"):
+                axes.spines[side].set_visible(False)
+            for side in ("left", "bottom"):
+                axes.spines[side].set_color(looks.FAINT)
+            axes.tick_params(labelsize=0.85 * self.type, color=looks.FAINT, labelcolor=looks.INK, length=3)
+            axes.locator_params(axis="y", nbins=3)
+            if row == 0:
+                axes.tick_params(labelbottom=False)
+            else:
+                axes.set_xlabel(f"t  [{self.units['time']}]", fontsize=self.type, color=looks.INK, labelpad=1)
+            axes.set_ylabel(f"{name}  [{self.units['force']}]", fontsize=self.type, color=colour)
+            axes.yaxis.set_label_coords(-3.6 * em / (self.size[0] - left - right), 0.5)
+            line = axes.axvline(0, color=looks.INK, lw=1.0, zorder=4, animated=True)
+            (dot,) = axes.plot([], [], "o", color=colour, zorder=5, animated=True)
+            dot.set(markersize=0.42 * self.type, markeredgecolor="white", markeredgewidth=0.06 * self.type)
+            self._moving += [line, dot]
+            self._marks.append((line, dot, curves.t, values))

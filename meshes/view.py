@@ -1,0 +1,261 @@
+"""Pictures, animations and a window, of the fields of a flexible run or of any motion.
+
+::
+
+    from meshes import read
+    from meshes.view import picture, animate, window
+
+    picture(read("out"), "pulse.png", time=1.8, field="von_mises")
+    animate(motion, "rolling.gif")
+
+pyvista and matplotlib are loaded when something is drawn and not before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Motion
+
+from . import film, looks
+from .renderer import ViewError, require_renderer, require_screen
+from .scales import field_names, limits, sampled, scale_of, tidy_factor
+from .series import Series
+from .sheet import Sheet
+from .stage import Colours, Stage
+from .subject import Shot, Subject, subject_of
+
+Image = NDArray[np.uint8]
+Progress = Callable[[int, int], None]
+
+__all__ = ["ViewError", "animate", "picture", "render", "window"]
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Everything about a view that stays the same from one instant to the next."""
+
+    subject: Subject
+    first: Shot
+    colours: Colours | None
+    factor: float
+    largest: dict[str, float]
+    reach: tuple[float, float]  # of the hoop over the whole run, in x
+
+
+def setting(thing: Series | Motion, field: str | None = None, factor: float | None = None) -> Setting:
+    """Scales and colours taken from the whole run.
+
+    Raises
+    ------
+    ViewError
+        A field that is not there, a factor that is no number.
+    SeriesError
+        A damaged series.
+    """
+    if factor is not None and not (np.isfinite(factor) and factor >= 0):
+        raise ViewError(f"factor = {factor!r} is not possible: it must be a number from 0.")
+    subject = subject_of(thing)
+    shots = sampled(subject)
+    first = shots[0]
+    names = field_names(first.ring)
+    chosen = field or (names[0] if names else None)
+    colours = None
+    if chosen is not None:
+        colours = Colours(chosen, *limits(shots, chosen, chosen in looks.SIGNED))
+    if factor is None:
+        stored = first.ring.field_data.get("display_factor")
+        factor = tidy_factor(shots) if stored is None else float(stored[0])
+    x = [float(shot.centre[0]) for shot in shots]
+    reach = (min(x) - 1.2 * first.radius, max(x) + 1.2 * first.radius)
+    return Setting(subject, first, colours, factor, dict(scale_of(subject.curves, shots)), reach)
+
+
+class Camera:
+    """Draws the pages of one setting at one size; close it when done."""
+
+    oversampling = 2
+
+    def __init__(self, chosen: Setting, size: tuple[int, int]) -> None:
+        require_renderer()
+        self.setting = chosen
+        subject = chosen.subject
+        self.sheet = Sheet(size, subject.curves, subject.span, chosen.colours, subject.units, subject.title)
+        _, _, width, height = self.sheet.stage_box
+        self.height = 2.45 * chosen.first.radius
+        # where the hoop may be: left of the colour bar
+        self.width = self.height * (width - self.sheet.covered) / height
+        self.aside = self.height * self.sheet.covered / height / 2
+        more = self.oversampling
+        pixels = (more * width, more * height)
+        self.stage = Stage(chosen.first, pixels, self.height, chosen.colours, chosen.largest)
+
+    def __enter__(self) -> Camera:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stage.close()
+
+    def page(self, time: float) -> Image:
+        """The page at ``time`` as (height, width, 3) bytes."""
+        shot = self.setting.subject.shot(time)
+        self.stage.show(shot, self.setting.factor, self._middle(shot))
+        fine, more = self.stage.image(), self.oversampling
+        total = np.zeros((fine.shape[0] // more, fine.shape[1] // more, 3), dtype=np.uint16)
+        for i in range(more):
+            for j in range(more):
+                total += fine[i::more, j::more]
+        return self.sheet.fill((total // more**2).astype(np.uint8), shot, self.setting.factor)
+
+    def _middle(self, shot: Shot) -> float:
+        """The view stands still if the whole run fits in it, or else goes with the hoop."""
+        left, right = self.setting.reach
+        if right - left <= self.width:
+            return (left + right) / 2 + self.aside
+        half = self.width / 2
+        return float(np.clip(shot.centre[0], left + half, right - half)) + self.aside
+
+
+def render(
+    thing: Series | Motion,
+    time: float | None = None,
+    field: str | None = None,
+    factor: float | None = None,
+    size: tuple[int, int] = (1280, 900),
+) -> Image:
+    """The picture of one instant as (height, width, 3) bytes; see :func:`picture`."""
+    chosen = setting(thing, field, factor)
+    start, stop = chosen.subject.span
+    if time is None:
+        time = _liveliest(chosen.subject)
+    if not start <= time <= stop:
+        raise ViewError(f"time = {time!r} is not possible: the run goes from {start:g} to {stop:g}.")
+    with Camera(chosen, size) as camera:
+        return camera.page(time)
+
+
+def picture(
+    thing: Series | Motion,
+    png: str | Path,
+    time: float | None = None,
+    field: str | None = None,
+    factor: float | None = None,
+    size: tuple[int, int] = (1280, 900),
+) -> None:
+    """Draw one instant into a PNG file.
+
+    Parameters
+    ----------
+    thing : Series or Motion
+        Fields of a flexible run, or any motion, drawn undeformed.
+    png : path
+        Where to.
+    time : float, optional
+        In the run's unit; a series shows its nearest frame. By default the instant of the largest N.
+    field : str, optional
+        What colours the ring: a point field of the series, "stress xx", "stress yy" or "stress xy"; by
+        default the von Mises stress.
+    factor : float, optional
+        Exaggeration of the deformation, printed in the picture; by default the series' own
+        ``display_factor``, or one that makes the largest displacement a few per cent of the radius.
+    size : (width, height)
+        In pixels.
+
+    Raises
+    ------
+    ViewError
+        Nothing to draw with, no such field or time.
+    SeriesError
+        A damaged series.
+    """
+    film.write_png(Path(png), render(thing, time, field, factor, size))
+
+
+def animate(
+    thing: Series | Motion,
+    path: str | Path,
+    field: str | None = None,
+    factor: float | None = None,
+    frames: int | None = None,
+    fps: int = 20,
+    start: float | None = None,
+    stop: float | None = None,
+    size: tuple[int, int] | None = None,
+    progress: Progress | None = None,
+) -> None:
+    """Draw the run into a .gif, .mp4 or .html file.
+
+    The page (.html) is one file that needs nothing else: a slider for the time, keys to step and play.
+
+    Parameters
+    ----------
+    thing, field, factor
+        As for :func:`picture`.
+    path : path
+        The suffix chooses the kind.
+    frames : int, optional
+        Number of pictures, evenly spaced in time; 60 for a gif or a page, 150 for a film.
+    fps : int
+        Pictures per second.
+    start, stop : float, optional
+        Stretch of time; the whole run by default.
+    size : (width, height), optional
+        In pixels; 640 x 480 for a gif, 960 x 720 for a page, 1280 x 900 for a film.
+    progress : callable, optional
+        Called with the number of pictures done and their total.
+
+    Raises
+    ------
+    ViewError
+        As for :func:`picture`, and for another suffix.
+    """
+    path = Path(path)
+    kind = film.KINDS.get(path.suffix.lower())
+    if kind is None:
+        raise ViewError(f"{path} cannot be an animation: its name must end in .gif, .mp4 or .html.")
+    count = kind.frames if frames is None else frames
+    if count < 2 or fps < 1:
+        raise ViewError(f"{count} frames at {fps} per second are no animation: it takes 2 at 1 per second.")
+    chosen = setting(thing, field, factor)
+    first, last = chosen.subject.span
+    start, stop = first if start is None else start, last if stop is None else stop
+    if not first <= start < stop <= last:
+        raise ViewError(f"{start!r} to {stop!r} is not possible: the run goes from {first:g} to {last:g}.")
+    times = np.linspace(start, stop, count)
+
+    def pages() -> Iterator[Image]:
+        with Camera(chosen, size or kind.size) as camera:
+            for done, time in enumerate(times, 1):
+                yield camera.page(float(time))
+                if progress is not None:
+                    progress(done, count)
+
+    kind.write(path, pages(), fps, times)
+
+
+def window(thing: Series | Motion, field: str | None = None, factor: float | None = None) -> None:
+    """Open a window with a time slider; space plays, [ and ] change the factor, c changes the field.
+
+    Raises
+    ------
+    ViewError
+        No screen, or as for :func:`picture`.
+    """
+    require_screen()
+    from .window import Window
+
+    Window(setting(thing, field, factor)).open()
+
+
+def _liveliest(subject: Subject) -> float:
+    curves = subject.curves
+    if not len(curves.t):
+        return subject.span[0]
+    best: Any = curves.t[int(np.nanargmax(curves.normal_force))]
+    return float(np.clip(best, *subject.span))

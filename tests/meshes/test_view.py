@@ -1,0 +1,288 @@
+"""Pictures off-screen: not blank, the hoop where it should be, and a sentence where nothing can be drawn."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from meshes import SeriesError, SeriesWriter, read
+from meshes import renderer as renderer_module
+from meshes.renderer import renderer_problem
+from meshes.stage import ABOVE_FLOOR, deformed
+from meshes.subject import SeriesSubject
+from meshes.view import Camera, ViewError, animate, picture, render, setting, window
+from rigid import Friction, Hoop, Motion, Phase, Release, Scene, States
+
+SIZE = (640, 480)
+TIMES = np.linspace(0, 1.2, 7)
+
+needs_renderer = pytest.mark.skipif(renderer_problem() is not None, reason=str(renderer_problem()))
+
+
+@pytest.fixture(scope="module")
+def series(tmp_path_factory, ring, ovals):
+    directory = tmp_path_factory.mktemp("view")
+    with SeriesWriter(directory, title="oval") as writer:
+        writer.history(**ovals.history(TIMES))
+        for frame in ovals.frames(ring, TIMES):
+            writer.add(frame)
+    return read(directory)
+
+
+def rolling_motion(R=1.0, g=1.0):
+    """A hoop that rolls steadily: phi = pi/2 + t, N = 1 + t, F = 0.1, slip 0.2 in the second half."""
+
+    def sample(t):
+        one = np.ones_like(t)
+        return States(
+            t=t, phi=np.pi / 2 + t, omega=one, x_C=R * t, y_C=R * one, energy=one,
+            slip_velocity=np.where(t > 1, 0.2, 0.0), normal_force=1 + t, friction_force=0.1 * one,
+        )  # fmt: skip
+
+    phases = (Phase("roll", 0, 1, 0, 1), Phase("skid", 1, 2, 1, 2))
+    scene = Scene(Hoop(k=0.25, R=R, g=g), Friction(0.35, 0.3), Release(np.pi / 2))
+    return Motion(scene=scene, phases=phases, turns=(), pulses=(), ended="made up", sample=sample)
+
+
+def pixel(camera, point, middle):
+    """Column and row of the page at which a point of the world lies."""
+    left, top, width, height = camera.sheet.stage_box
+    scale = height / camera.height
+    return (
+        left + width / 2 + (point[..., 0] - middle) * scale,
+        top + ABOVE_FLOOR * height - point[..., 1] * scale,
+    )
+
+
+def coloured(page):
+    """Where the page has ring colours: neither white nor any of the greys."""
+    spread = page.max(axis=2).astype(int) - page.min(axis=2)
+    return spread > 30
+
+
+@needs_renderer
+def test_the_ring_is_where_it_should_be(series):
+    """Strongly stressed points of the exaggerated ring are painted, the paper inside the hoop is not."""
+    chosen = setting(series, field="hoop_stress", factor=40)
+    with Camera(chosen, SIZE) as camera:
+        page = camera.page(TIMES[3])
+        shot = chosen.subject.shot(TIMES[3])
+        middle = camera._middle(shot)
+        points, _ = deformed(shot, 40)
+        mid_wall = shot.ring.cells[::6, 8]
+        strong = np.abs(shot.ring.point_data["hoop_stress"][mid_wall]) > 0.6 * chosen.colours.high
+        columns, rows = pixel(camera, points[mid_wall[strong]], middle)
+        hits = [coloured(page)[int(r) - 1 : int(r) + 3, int(c) - 1 : int(c) + 3].any()
+                for c, r in zip(columns, rows, strict=True)]  # fmt: skip
+        assert len(hits) > 10
+        assert all(hits)
+        column, row = pixel(camera, shot.centre + np.array([-0.4, 0.4]), middle)
+        assert (page[int(row), int(column)] == 255).all()
+
+
+@needs_renderer
+def test_floor_and_disk_are_where_they_should_be(series):
+    chosen = setting(series)
+    with Camera(chosen, SIZE) as camera:
+        page = camera.page(0.0).astype(int)
+        shot = chosen.subject.shot(0.0)
+        middle = camera._middle(shot)
+        column, row = pixel(camera, shot.disk.points[0] + [0.05, 0, 0], middle)
+        assert page[int(row), int(column)].max() < 150
+        column, row = pixel(camera, np.array([middle + 0.3, -0.12]), middle)
+        assert (np.abs(page[int(row), int(column)] - [0xE9, 0xE6, 0xE1]) <= 1).all()
+
+
+@needs_renderer
+def test_the_time_mark_moves_with_time(series):
+    """The black vertical line through both panels stands at the fraction of the time axis that has passed."""
+    chosen = setting(series)
+    with Camera(chosen, SIZE) as camera:
+        for time in TIMES[[1, 4]]:
+            page = camera.page(time)
+            below = page[camera.sheet.stage_box[1] + camera.sheet.stage_box[3] :]
+            dark = (below.max(axis=2) < 110).sum(axis=0)
+            left, right = camera.sheet.time_axis
+            expected = left + (right - left) * time / TIMES[-1]
+            assert abs(int(dark.argmax()) - expected) <= 2
+
+
+@needs_renderer
+def test_a_picture_of_a_series(series, tmp_path):
+    from PIL import Image
+
+    picture(series, tmp_path / "a.png", time=0.4, field="stress xy", factor=10, size=SIZE)
+    with Image.open(tmp_path / "a.png") as image:
+        assert image.size == SIZE
+        assert len(image.getcolors(maxcolors=SIZE[0] * SIZE[1])) > 100
+    assert list(tmp_path.iterdir()) == [tmp_path / "a.png"]
+
+
+@needs_renderer
+def test_a_rigid_motion_with_its_arrows():
+    motion = rolling_motion()
+    with Camera(setting(motion), SIZE) as camera:
+        page = camera.page(2.0)
+        shot = camera.setting.subject.shot(2.0)
+        middle = camera._middle(shot)
+        # the force arrow of the largest force is 0.7 R long, steeply up from the contact
+        column, row = pixel(camera, np.array([2.0 + 0.01, 0.3]), middle)
+        assert page[int(row) - 2 : int(row) + 3, int(column) - 3 : int(column) + 4].max(axis=2).min() < 80
+        # the slip arrow lies under it and is teal
+        column, row = pixel(camera, np.array([2.0 + 0.45, -0.1]), middle)
+        patch = page[int(row) - 2 : int(row) + 3, int(column) - 2 : int(column) + 3].astype(int)
+        assert (patch[..., 1] - patch[..., 0]).max() > 40
+        assert not coloured(camera.page(0.5))[int(row), int(column)]  # rolling: no slip arrow
+
+
+@needs_renderer
+def test_a_picture_does_not_depend_on_the_unit_of_length():
+    one, other = (render(rolling_motion(R=R), 1.7, size=SIZE) for R in (1.0, 250.0))
+    top = slice(100, 300)  # above: units and title; below: nothing differs but round-off in the raster
+    differing = (np.abs(one[top].astype(int) - other[top]).max(axis=2) > 40).mean()
+    assert differing < 0.002
+
+
+@needs_renderer
+@pytest.mark.parametrize("suffix", [".gif", ".mp4", ".html"])
+def test_animations(series, tmp_path, suffix):
+    path = tmp_path / f"film{suffix}"
+    done = []
+    animate(series, path, frames=4, size=(480, 360), progress=lambda i, n: done.append((i, n)))
+    assert done == [(1, 4), (2, 4), (3, 4), (4, 4)]
+    content = path.read_bytes()
+    if suffix == ".gif":
+        from PIL import Image
+
+        with Image.open(path) as image:
+            assert image.n_frames == 4
+            assert image.convert("RGB").getpixel((2, 2)) == (255, 255, 255)
+    elif suffix == ".mp4":
+        assert content[4:8] == b"ftyp"
+        imageio = pytest.importorskip("imageio.v3")
+        assert imageio.imread(path, index=None).shape == (4, 360, 480, 3)
+    else:
+        text = content.decode()
+        assert text.count("iVBOR") == 4  # how every PNG begins in base64
+        assert "http" not in text  # it needs nothing else
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@needs_renderer
+def test_a_gif_of_a_pulse_is_below_a_megabyte(series, tmp_path):
+    animate(series, tmp_path / "a.gif", frames=30)
+    assert (tmp_path / "a.gif").stat().st_size < 0.5e6  # half of the default number of frames
+
+
+@needs_renderer
+def test_the_window_steps_stretches_and_changes_colours(series):
+    from meshes.window import Window
+
+    opened = Window(setting(series), off_screen=True, size=SIZE)
+    before = opened.stage.image()
+    opened.step(100)
+    assert opened.time == pytest.approx(0.6, rel=1e-12)
+    opened.stretch(2.0)
+    assert opened.factor == 2 * opened.setting.factor
+    opened.next_field()
+    assert opened.colours.field != "von_mises"
+    assert (opened.stage.image() != before).any(axis=2).mean() > 0.02
+    opened.stage.close()
+
+
+def test_exaggeration_keeps_the_height_over_the_floor(series):
+    shot = SeriesSubject(series).shot(0.0)
+    true = (shot.ring.points + shot.displacement)[:, 1].min()
+    for factor in (0.0, 1.0, 300.0):
+        points, _ = deformed(shot, factor)
+        assert points[:, 1].min() == pytest.approx(true, abs=1e-12)  # 300 times round-off of a point near 1
+    np.testing.assert_array_equal(deformed(shot, 1.0)[1], 0)
+
+
+def test_the_display_factor_is_1_2_or_5_times_a_power_of_ten(series):
+    factor = setting(series).factor
+    assert factor == 50  # 1e-3 R is to be shown as at most 0.06 R
+    assert setting(series, factor=3.5).factor == 3.5
+    assert setting(rolling_motion()).factor == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"field": "colour"}, "there is no field 'colour'"),
+        ({"time": 9.0}, "the run goes from 0 to 1.2"),
+        ({"time": np.nan}, "the run goes from"),
+        ({"factor": -1.0}, "factor"),
+    ],
+)
+def test_bad_wishes_are_one_sentence(series, tmp_path, arguments, words):
+    with pytest.raises(ViewError, match=words) as caught:
+        picture(series, tmp_path / "a.png", **arguments)
+    assert "\n" not in str(caught.value)
+
+
+def test_bad_animations_are_one_sentence(series, tmp_path):
+    for name, arguments in (("a.avi", {}), ("a.gif", {"frames": 1}), ("a.gif", {"start": 1.0, "stop": 0.5})):
+        with pytest.raises(ViewError):
+            animate(series, tmp_path / name, **arguments)
+
+
+def test_a_damaged_frame_is_one_sentence(tmp_path, ring, ovals):
+    with SeriesWriter(tmp_path) as writer:
+        for frame in ovals.frames(ring, [0.0, 1.0]):
+            writer.add(frame)
+    (tmp_path / "fields" / "ring-00001.vtu").write_bytes(b"not a mesh")
+    with pytest.raises(SeriesError, match="ring-00001"):
+        picture(read(tmp_path), tmp_path / "a.png")
+
+
+def test_nothing_to_draw_with_is_a_sentence(monkeypatch, series, tmp_path):
+    """Where VTK crashes, only the probe dies."""
+    monkeypatch.setattr(renderer_module, "_PROBE", "import os; os.abort()")
+    renderer_problem.cache_clear()
+    try:
+        with pytest.raises(ViewError, match="apt-get install libegl1"):
+            picture(series, tmp_path / "a.png")
+        monkeypatch.setattr(renderer_module, "_PROBE", "import no_such_module_here")
+        renderer_problem.cache_clear()
+        with pytest.raises(ViewError, match="pip install pyvista"):
+            picture(series, tmp_path / "a.png")
+    finally:
+        renderer_problem.cache_clear()
+    assert not list(tmp_path.iterdir())
+
+
+@needs_renderer
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="hides EGL from the loader of Linux")
+def test_without_egl_the_process_survives(series, tmp_path):
+    code = (
+        "from meshes import read; from meshes.view import picture, ViewError\n"
+        f"try: picture(read({str(series.pvd)!r}), {str(tmp_path / 'a.png')!r})\n"
+        "except ViewError as error: print(error)"
+    )
+    hidden = {name: value for name, value in os.environ.items() if not name.endswith("DISPLAY")}
+    hidden["__EGL_VENDOR_LIBRARY_DIRS"] = str(tmp_path)
+    options = {"cwd": Path(__file__).parents[2], "capture_output": True, "text": True}
+    done = subprocess.run([sys.executable, "-c", code], env=hidden, **options)
+    assert done.returncode == 0
+    assert "EGL" in done.stdout or (tmp_path / "a.png").exists()  # the latter where OSMesa is installed
+
+
+def test_no_screen_is_a_sentence(monkeypatch, series):
+    if renderer_problem() is not None or not sys.platform.startswith("linux"):
+        pytest.skip("says something else here")
+    monkeypatch.delenv("DISPLAY", raising=False)
+    monkeypatch.delenv("WAYLAND_DISPLAY", raising=False)
+    with pytest.raises(ViewError, match="no screen"):
+        window(series)
+
+
+def test_importing_the_view_loads_no_graphics():
+    heavy = {"pyvista", "vtkmodules", "matplotlib", "PIL", "meshio"}
+    code = f"import sys, meshes, meshes.view; print({heavy} & set(sys.modules))"
+    options = {"cwd": Path(__file__).parents[2], "capture_output": True, "text": True}
+    done = subprocess.run([sys.executable, "-c", code], check=True, **options)
+    assert done.stdout.strip() == "set()"
