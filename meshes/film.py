@@ -48,13 +48,18 @@ def write_gif(path: Path, pages: Iterator[Image], fps: int, times: NDArray[np.fl
     model[:16, : len(swatches)] = swatches
     palette = Pillow.fromarray(model).quantize(colors=128, method=Pillow.Quantize.MEDIANCUT)
     table = np.array(palette.getpalette()).reshape(-1, 3)
-    table[table.min(axis=1) >= 250] = 255  # white paper stays white, whichever of them Pillow takes
+    white = int(table.sum(axis=1).argmax())
+    table[white] = 255
     palette.putpalette(table.ravel().tolist())
-    # without dithering, which would flicker and does not compress
-    flat = [
-        Pillow.fromarray(page).quantize(palette=palette, dither=Pillow.Dither.NONE)
-        for page in itertools.chain([first], pages)
-    ]
+
+    def flatten(page: Image) -> Pillow.Image:
+        # without dithering, which would flicker and does not compress; Pillow's search for the nearest entry is
+        # coarse and takes near-white for white, which shows against the page around the gif
+        image = Pillow.fromarray(page).quantize(palette=palette, dither=Pillow.Dither.NONE)
+        image.paste(white, mask=Pillow.fromarray((page == 255).all(axis=2)))
+        return image
+
+    flat = [flatten(page) for page in itertools.chain([first], pages)]
     duration = round(1000 / fps)
     last = [duration] * (len(flat) - 1) + [1000]
 
