@@ -15,6 +15,7 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
 from .motion import Kind, Motion, Phase, Pulse, States, Turn
 from .scene import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, SceneError, Solve
 from .scenefile import load_scene, scene_from_dict, scene_names, scene_to_dict
+from .solve import simulate
 
 __all__ = [
     "Contact",
@@ -37,4 +38,5 @@ __all__ = [
     "scene_from_dict",
     "scene_names",
     "scene_to_dict",
+    "simulate",
 ]

@@ -6,6 +6,7 @@ All values are in the units of the scene (R, m, g unless it is SI); angles in ra
 from __future__ import annotations
 
 import dataclasses
+from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -105,7 +106,7 @@ class States:
 class Motion:
     """What a solver returns: phases, turns and pulses as plain values, and any instant between on demand.
 
-    ``ended`` says in words why the motion stops.
+    ``ended`` says in words why the motion stops; ``period`` is that of a motion that will roll for ever.
     """
 
     scene: Scene
@@ -114,6 +115,7 @@ class Motion:
     pulses: tuple[Pulse, ...]
     ended: str
     sample: Callable[[Array], States] = field(repr=False, compare=False)
+    period: float | None = None
 
     @property
     def t_end(self) -> float:
@@ -133,6 +135,13 @@ class Motion:
         if times.size and not (times.min() >= -slack and times.max() <= self.t_end + slack):
             raise ValueError(f"times must lie in [0, {self.t_end}]")
         return self.sample(np.clip(times, 0.0, self.t_end))
+
+    def phase_at(self, t: float) -> Phase:
+        """The phase at a time; an instant that two phases share belongs to the later one."""
+        if not self.phases:
+            raise ValueError("a motion without phases")
+        found = bisect_right(self.phases, t, key=lambda phase: phase.t_start)
+        return self.phases[max(found - 1, 0)]
 
     def to_dict(self) -> dict[str, Any]:
         """The motion as the command line's JSON prints it."""

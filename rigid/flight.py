@@ -1,0 +1,88 @@
+"""Off the floor: G falls on a parabola, phidot is constant, and the next touch-down is found without stepping over it."""
+
+from __future__ import annotations
+
+from math import pi, sin, sqrt
+
+from .angle import chart, trig
+from .kernel import kernel
+from .layout import ANGLE, ECC, GAP, OMEGA, SLIP, TOP, UN, WHOLE, X_C, T
+
+
+@kernel
+def height(e, gap, un, omega, s, c, time):
+    """Height of the lowest point and its rate after ``time`` of flight."""
+    half = 0.5 * omega * time
+    sh = sin(half)
+    ch = sin(0.5 * pi - half)
+    # cos(phi + 2 half) - cos phi and sin(phi + 2 half) without cancellation for short flights
+    dc = -2 * sh * (s * ch + c * sh)
+    ds = 2 * sh * (c * ch - s * sh)
+    ydot = un - e * s * omega
+    return gap + ydot * time - 0.5 * time * time - e * dc, un - time + e * omega * ds
+
+
+@kernel
+def lifts(e, omega, s, c):
+    """Whether the contact point leaves the floor by itself: e c phidot^2 > 1, (and growing, where it equals 1 to round-off)."""
+    w = omega * omega
+    curve = e * c * w - 1
+    if abs(curve) <= 1e-14 * (1 + e * w):
+        return s * omega < 0
+    return curve > 0
+
+
+@kernel
+def touch_down(e, gap, un, omega, a, top):
+    """Time until the contact point is back on the floor; inf never happens under gravity.
+
+    |gap''| <= 1 + e phidot^2 =: B makes gap + gap' dt - B dt^2/2 a lower bound: its zero is a step that cannot pass a
+    touch-down. Above 1 + e the disk's side of the hoop cannot reach the floor, so that part of the parabola is skipped.
+    """
+    s, c, _, _ = trig(a, top)
+    w = omega * omega
+    bound = 1 + e * w
+    time = 0.0
+    if gap <= 0.0 and un <= 0.0:
+        curve = e * c * w - 1
+        jerk = -e * s * w * omega
+        if curve > 1e-14 * bound:
+            time = min(1.0, curve / (e * w * abs(omega)))
+        elif jerk > 0.0:
+            time = min(1.0, jerk / (e * w * w))
+        else:
+            return 0.0
+    y_g = gap + 1 + e * c
+    ydot = un - e * s * omega
+    for _ in range(2000):
+        y, rate = height(e, gap, un, omega, s, c, time)
+        clear = y_g + ydot * time - 0.5 * time * time - (1 + e)
+        fall = ydot - time
+        if clear > 0.0:
+            time += (fall + sqrt(fall * fall + 2 * clear)) if fall > 0 else 2 * clear / (sqrt(fall * fall + 2 * clear) - fall)
+            # the parabola is down at 1 + e
+            continue
+        if y <= 0.0 and time > 0.0:
+            break
+        root = sqrt(rate * rate + 2 * bound * max(y, 0.0))
+        step = (rate + root) / bound if rate > 0 else 2 * y / (root - rate)
+        if not step > 4e-16 * time:
+            break
+        time += step
+    return time
+
+
+@kernel
+def fly(par, state, time):
+    """Advance a state in flight."""
+    e, omega, a, top = par[ECC], state[OMEGA], state[ANGLE], state[TOP]
+    s, c, _, _ = trig(a, top)
+    gap, rate = height(e, state[GAP], state[UN], omega, s, c, time)
+    xdot_g = state[SLIP] + omega + e * c * omega
+    a, top, whole = chart(a + omega * time, top, state[WHOLE])
+    s1, c1, _, _ = trig(a, top)
+    state[T] += time
+    state[ANGLE], state[TOP], state[WHOLE] = a, top, whole
+    state[X_C] += xdot_g * time - e * (s1 - s)
+    state[SLIP] = xdot_g - omega - e * c1 * omega
+    state[GAP], state[UN] = gap, rate

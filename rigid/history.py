@@ -1,0 +1,138 @@
+"""Any instant of a motion on demand: the phases are evaluated again, from their starting states."""
+
+from __future__ import annotations
+
+from math import floor, inf
+
+from .angle import angle_of, trig
+from .flight import fly
+from .kernel import kernel
+from .layout import (
+    ANGLE,
+    FLIGHT,
+    GAP,
+    GYR,
+    MU,
+    OMEGA,
+    ROLL,
+    SKID,
+    SKIM,
+    SLIP,
+    SPIN,
+    TOP,
+    WHOLE,
+    WIDTH,
+    X_C,
+    ZETA,
+    T,
+)  # fmt: skip
+from .pointmass import drop, roll_point_mass
+from .polynomial import polish, value
+from .pulse import energy
+from .rolling import angle_at_time, ceiling, rolling_forces, rolling_time
+from .slide import carry
+from .slipping import ORDER, S_T, normal_force, series
+from .swing import arrive, place
+
+COLUMNS = 8  # phi, omega, x_C, height of the contact point, slip velocity, N, F, energy
+
+
+@kernel
+def write_state(par, state, normal, friction, out, i):
+    """One row of ``out``."""
+    j = i * COLUMNS
+    out[j] = angle_of(state[ANGLE], state[TOP], state[WHOLE])
+    out[j + 1], out[j + 2], out[j + 3] = state[OMEGA], state[X_C], state[GAP]
+    out[j + 4], out[j + 5], out[j + 6], out[j + 7] = state[SLIP], normal, friction, energy(par, state)
+
+
+@kernel
+def roll_on(par, state, time):
+    """Advance rolling by ``time``, over any number of turns."""
+    zeta, omega, a, top = par[ZETA], state[OMEGA], state[ANGLE], state[TOP]
+    s, _, h, low = trig(a, top)
+    if (omega == 0.0 and a == 0.0) or time == 0.0:
+        return
+    g, below = ceiling(zeta, omega, h, low)
+    d = 1.0 if (omega > 0 or (omega == 0.0 and s > 0)) else -1.0
+    bottom = state[WHOLE]
+    if top != 0.0 and (a < 0.0 or (a == 0.0 and d < 0)):
+        bottom -= 1.0
+    side = a if top == 0.0 else -a
+    if a == 0.0:
+        side = d if top == 0.0 else -d
+    t_turn = rolling_time(zeta, g, min(g, 2.0), max(below, 0.0), max(-below, 0.0))
+    since = rolling_time(zeta, g, h, low, 0.5 * omega * omega * (zeta + 2 * h))
+    reach = (since if side * d > 0 else -since) + time
+    if t_turn < inf:
+        passes = floor((reach + t_turn) / (2 * t_turn))
+        reach -= 2 * t_turn * passes
+        if below <= 0:
+            bottom += d * passes
+        elif passes % 2 == 1:
+            d = -d
+    x_start, whole = state[X_C], state[WHOLE]
+    offset, chart_now, rest = angle_at_time(zeta, g, below, min(abs(reach), t_turn))
+    place(state, d if reach > 0 else -d, offset, chart_now, bottom)
+    arrive(state, zeta, rest, d, x_start, a, top, whole)
+
+
+@kernel
+def entry_sample(par, phases, count, times, out, work, state, tape):
+    """Rows of ``out`` for increasing ``times``; ``phases`` are ``count`` records of the tape.
+
+    An instant that two phases share belongs to the later one.
+    """
+    p = 0
+    i = 0
+    while i < len(times):
+        while p + 1 < count and phases[(p + 1) * WIDTH + 1] <= times[i]:
+            p += 1
+        kind = phases[p * WIDTH]
+        until = phases[(p + 1) * WIDTH + 1] if p + 1 < count else inf
+        for j in range(X_C + 1):
+            state[j] = phases[p * WIDTH + 1 + j]
+        start = state[T]
+        if kind == SKID or kind == SPIN:
+            mu_hat = par[MU] if kind == SKID else -par[MU]
+            while i < len(times) and times[i] < until:
+                length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], state[SLIP], work)
+                tt = work[S_T]
+                duration = value(tt, ORDER, length)
+                before = state[T]
+                keep = (state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C])
+                while i < len(times) and times[i] < until and times[i] <= before + duration:
+                    x = 0.0
+                    if times[i] > before:
+                        tt[0] = before - times[i]
+                        x = polish(tt, ORDER, 0.0, length)
+                        tt[0] = 0.0
+                        carry(par, state, mu_hat, work, x)
+                    normal = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
+                    write_state(par, state, normal, -mu_hat * normal, out, i)
+                    state[T] = before
+                    state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C] = keep
+                    i += 1
+                carry(par, state, mu_hat, work, length)
+            continue
+        while i < len(times) and times[i] < until:
+            for j in range(X_C + 1):
+                state[j] = phases[p * WIDTH + 1 + j]
+            time = times[i] - start
+            normal = 0.0
+            friction = 0.0
+            if kind == ROLL and par[GYR] > 0.0:
+                roll_on(par, state, time)
+                normal, friction = rolling_forces(par, state[OMEGA], state[ANGLE], state[TOP])
+            elif kind == ROLL:
+                roll_point_mass(par, state, tape, start + time)
+                s, _, h, _ = trig(state[ANGLE], state[TOP])
+                w = state[OMEGA] * state[OMEGA]
+                normal = h - 0.5 * (h + w * h)
+                friction = s * (1 - 0.5 * (1 + w))
+            elif kind == FLIGHT:
+                fly(par, state, time)
+            elif kind == SKIM:
+                drop(state, time)
+            write_state(par, state, normal, friction, out, i)
+            i += 1

@@ -1,0 +1,90 @@
+"""Impact with friction in the impulse variable (Darboux, Keller): landing, and the jam of Painlevé.
+
+During an impact the configuration is frozen, so the velocity of the contact point is piecewise linear in the normal
+impulse I:  d(un)/dI = D/K while it slips (D of :mod:`rigid.slipping`, which may be negative),
+dv/dI = -mu^ (1 + (1 + e c)^2/K) - e s (1 + e c)/K, and v = 0 while it sticks.
+Slip that stops sticks if mu_s can hold it, else it reverses. Compression ends when un = 0; restitution ends when the
+normal force has given back the square of the coefficient times the work of compression (Stronge).
+
+A jam (un = 0, D < 0, pressed to the floor) has no bounded normal force: it is an impact without collision. Friction
+drives the contact point into the floor, which takes the slip away (always: D < 0 needs mu beyond the value at which dv/dI
+changes sign) until stick or reversal gives D > 0 and turns un back to zero.
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+
+from .angle import trig
+from .kernel import kernel
+from .layout import ANGLE, ECC, GYR, MU, MU_S, OMEGA, ONE_MINUS_E, SLIP, TOP, UN
+
+
+@kernel
+def strike(par, state, restitution):
+    """Change phidot, slip and normal velocity of ``state`` by the impact; True if phidot changed its sign."""
+    e, gyr, mu = par[ECC], par[GYR], par[MU]
+    s, _, h, _ = trig(state[ANGLE], state[TOP])
+    es = e * s
+    arm = par[ONE_MINUS_E] + e * h
+    v, un = state[SLIP], min(state[UN], 0.0)
+    impulse_n = 0.0
+    impulse_t = 0.0
+    work = 0.0  # of the normal force: negative in compression
+    needed = inf  # what restitution has to give back
+    for _ in range(12):
+        if v != 0.0:
+            friction = -mu if v > 0 else mu
+        elif abs(es * arm) <= par[MU_S] * (gyr + arm * arm):
+            friction = es * arm / (gyr + arm * arm)
+        else:
+            friction = mu if s > 0 else -mu
+        stick = v == 0.0 and abs(es * arm) <= par[MU_S] * (gyr + arm * arm)
+        un_rate = (gyr + es * (es - friction * arm)) / gyr
+        v_rate = 0.0 if stick else (friction * (gyr + arm * arm) - es * arm) / gyr
+        # next: the slip stops, compression ends, or restitution is complete
+        to_stop = -v / v_rate if v * v_rate < 0 else inf
+        to_end = inf
+        over = False
+        if un < 0.0 or (un == 0.0 and needed == inf and un_rate < 0):
+            if un_rate > 0:
+                to_end = -un / un_rate
+        elif needed == inf:
+            needed = -restitution * restitution * work
+            if needed <= 0.0:
+                un = 0.0
+                break
+        if needed < inf:
+            # un dI + un_rate dI^2/2 = what is left
+            if un_rate == 0.0:
+                to_end = needed / un if un > 0 else inf
+            else:
+                root = un * un + 2 * un_rate * needed
+                to_end = 2 * needed / (un + sqrt(root)) if root >= 0 and un + sqrt(max(root, 0.0)) > 0 else inf
+            over = True
+        step = min(to_stop, to_end)
+        if step == inf:
+            break
+        gain = step * (un + 0.5 * un_rate * step)
+        impulse_n += step
+        impulse_t += friction * step
+        un_before = un
+        un += un_rate * step
+        v += v_rate * step
+        if to_stop <= to_end:
+            v = 0.0
+        if over:
+            needed -= gain
+            if to_end <= to_stop:
+                un = max(un, 0.0)
+                break
+        else:
+            work += gain
+            if to_end <= to_stop:
+                un = 0.0
+        if un_before == un and step == 0.0 and to_stop > to_end and over:
+            break
+    omega = state[OMEGA] + (es * impulse_n - arm * impulse_t) / gyr
+    reverses = omega * state[OMEGA] < 0
+    state[OMEGA], state[SLIP], state[UN] = omega, v, un
+    return reverses

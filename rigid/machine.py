@@ -1,0 +1,184 @@
+"""The phase machine: which phase comes next, and each phase run to its end.
+
+``entry_run`` advances a state until its tape is full, its allowance of work is spent, or the motion is over; it can be
+called again to go on. Rules where Coulomb's law leaves a choice:
+
+* contact point at rest: roll if |F| <= mu_s N with N >= 0; else the slip starts in the direction in which the contact
+  point would move without friction. (That slip never lies in Painlevé's D < 0: if it did, rolling would be admissible.)
+* slipping with D > 0: contact while 1 - e c phidot^2 > 0, else flight.
+* slipping with D < 0 (only a release or a landing can be there): flight if 1 - e c phidot^2 <= 0 (contact would be
+  consistent too), else an impact without collision.
+* a rebound slower than ``SLOWEST_HOP`` sqrt(g R) is no hop: the landing is taken without restitution. So an
+  accumulation of ever smaller hops ends.
+"""
+
+from __future__ import annotations
+
+from .angle import trig
+from .flight import fly, lifts, touch_down
+from .impact import strike
+from .kernel import kernel
+from .layout import (
+    ANGLE,
+    CHOOSE,
+    ECC,
+    FIRST_PULSE,
+    FLIGHT,
+    GAP,
+    GYR,
+    HOPS,
+    IMPACT,
+    MODE,
+    MORE,
+    MU,
+    MU_S,
+    OMEGA,
+    ONE_MINUS_E,
+    PULSE_OVER,
+    RECORDS,
+    RESTITUTION,
+    ROLL,
+    SKID,
+    SKIM,
+    SLIP,
+    SPIN,
+    STALLS,
+    STEPS,
+    T_END,
+    TIME_REACHED,
+    TOP,
+    TURNS_REACHED,
+    UN,
+    UNTIL,
+    WIDTH,
+    WORK_BOUND,
+    T,
+)  # fmt: skip
+from .pointmass import choose_point_mass, roll_point_mass, skim
+from .pulse import watch
+from .rolling import TIE, rolling_forces
+from .slide import slide
+from .slipping import denominator
+from .swing import PHASE_OVER, roll
+from .tape import ROOM, begin, turn
+
+SLOWEST_HOP = 1e-6
+
+
+@kernel
+def choose_slip(par, state, tape):
+    """Slip, flight or a jam, where rolling is out of the question."""
+    a, top, omega = state[ANGLE], state[TOP], state[OMEGA]
+    s, c, h, _ = trig(a, top)
+    e, gyr, v = par[ECC], par[GYR], state[SLIP]
+    if lifts(e, omega, s, c):
+        begin(state, FLIGHT, tape)
+        return
+    if v == 0.0:
+        # acceleration of the contact point under the normal force of a smooth floor
+        arm = par[ONE_MINUS_E] + e * h
+        n = gyr * (1 - e * c * omega * omega) / (gyr + e * e * s * s)
+        v = e * s * omega * omega - arm * e * s * n / gyr
+    sign = 1.0 if v > 0 else -1.0
+    if denominator(par, par[MU] * sign, a, top) > 0.0:
+        begin(state, SKID if sign > 0 else SPIN, tape)
+    else:
+        state[MODE] = IMPACT
+
+
+@kernel
+def choose(par, state, tape):
+    """What the contact does from here on."""
+    a, top, omega = state[ANGLE], state[TOP], state[OMEGA]
+    if state[GAP] > 0.0 or state[UN] > 0.0:
+        begin(state, FLIGHT, tape)
+        return
+    state[GAP] = 0.0
+    state[UN] = 0.0
+    if par[GYR] == 0.0:
+        choose_point_mass(par, state, tape)
+        return
+    if state[SLIP] == 0.0:
+        n, f = rolling_forces(par, omega, a, top)
+        if n >= 0.0 and abs(f) <= par[MU_S] * n * (1 + TIE) + 1e-300:
+            begin(state, ROLL, tape)
+            return
+    choose_slip(par, state, tape)
+
+
+@kernel
+def soar(par, state, tape):
+    """Fly to the next touch-down and strike the floor."""
+    if watch(par, state, 0.0, tape) and par[UNTIL] == FIRST_PULSE:
+        return PULSE_OVER
+    time = touch_down(par[ECC], state[GAP], state[UN], state[OMEGA], state[ANGLE], state[TOP])
+    if state[T] + time >= par[T_END]:
+        fly(par, state, par[T_END] - state[T])
+        state[T] = par[T_END]
+        return TIME_REACHED
+    fly(par, state, time)
+    state[GAP] = 0.0
+    state[UN] = min(state[UN], 0.0)
+    state[HOPS] += 1.0
+    return PHASE_OVER
+
+
+@kernel
+def hit(par, state, tape):
+    """An impact, and what follows it: a hop or contact."""
+    begin(state, IMPACT, tape)
+    omega, slip, un = state[OMEGA], state[SLIP], state[UN]
+    reverses = strike(par, state, par[RESTITUTION])
+    if state[UN] <= SLOWEST_HOP:
+        state[OMEGA], state[SLIP], state[UN] = omega, slip, un
+        reverses = strike(par, state, 0.0)
+        state[UN] = 0.0
+    if reverses and turn(par, state, tape):
+        return TURNS_REACHED
+    return PHASE_OVER
+
+
+@kernel
+def entry_run(par, state, work, tape):
+    """Run until the tape is full (MORE), the allowance of steps is spent (WORK_BOUND) or the motion is over."""
+    while True:
+        if state[RECORDS] * WIDTH + ROOM * WIDTH > len(tape):
+            return MORE
+        if state[STEPS] <= 0.0:
+            return WORK_BOUND
+        state[STEPS] -= 1.0
+        mode = state[MODE]
+        code = PHASE_OVER
+        before = state[T]
+        if mode == CHOOSE:
+            choose(par, state, tape)
+            continue
+        if mode == ROLL:
+            if par[GYR] == 0.0:
+                code = roll_point_mass(par, state, tape, par[T_END])
+            else:
+                code = roll(par, state, work, tape)
+                if code == PHASE_OVER:
+                    choose_slip(par, state, tape)
+        elif mode == SKID or mode == SPIN:
+            code = slide(par, state, work, tape)
+            if state[MODE] == FLIGHT:
+                begin(state, FLIGHT, tape)
+                if code == PHASE_OVER:
+                    continue
+        elif mode == FLIGHT:
+            code = soar(par, state, tape)
+            if code == PHASE_OVER:
+                state[MODE] = IMPACT
+                continue
+        elif mode == IMPACT:
+            code = hit(par, state, tape)
+        elif mode == SKIM:
+            code = skim(par, state, tape)
+        if code != PHASE_OVER:
+            return code
+        state[STALLS] = state[STALLS] + 1.0 if state[T] == before else 0.0
+        if state[STALLS] > 50.0:
+            return WORK_BOUND
+        if state[MODE] == mode:
+            state[MODE] = CHOOSE

@@ -1,0 +1,188 @@
+"""A slipping phase: Taylor steps in tau, cut at every event, so that each event is the end of a step.
+
+Events: the slip stops, lift-off (1 - e c phidot^2 = 0), a turn, the bottom, N = M g, and the end of the run. All are
+roots of the step's own polynomials.
+"""
+
+from __future__ import annotations
+
+from .angle import chart, trig
+from .kernel import kernel
+from .layout import (
+    ANGLE,
+    ECC,
+    FIRST_PULSE,
+    FLIGHT,
+    GAP,
+    GYR,
+    LOSSLESS_TURNS,
+    MODE,
+    MORE,
+    MU,
+    OMEGA,
+    P_OPEN,
+    P_PEAK,
+    PULSE_OVER,
+    RECORDS,
+    REST,
+    SKID,
+    SLIDES,
+    SLIP,
+    STEPS,
+    T_END,
+    TIME_REACHED,
+    TOP,
+    TURNS_REACHED,
+    UN,
+    UNTIL,
+    WHOLE,
+    WIDTH,
+    WORK_BOUND,
+    X_C,
+    T,
+)  # fmt: skip
+from .polynomial import first_crossing, value, value_and_slope
+from .pulse import cross_bottom, velocity_of_g, watch
+from .slipping import ORDER, S_B, S_D, S_N1, S_OMEGA, S_PHI, S_SLIP, S_T, normal_force, series
+from .swing import PHASE_OVER
+from .tape import ROOM, turn
+
+
+@kernel
+def peak_force(gyr, work, length):
+    """Largest N = K b/D over a step."""
+    b, d = work[S_B], work[S_D]
+    top = 0.0
+    x0, slope0 = 0.0, 0.0
+    for k in range(5):
+        x = 0.25 * length * k
+        y, dy = value_and_slope(b, ORDER, x)
+        z, dz = value_and_slope(d, ORDER, x)
+        top = max(top, gyr * y / z)
+        slope = dy * z - y * dz
+        if k > 0 and slope0 > 0 and slope < 0:
+            low, high = x0, x
+            slope_low, slope_high = slope0, slope
+            middle = low
+            # regula falsi (Illinois): the peak is flat, so eight digits of its place are sixteen of its height
+            for _ in range(12):
+                middle = (low * slope_high - high * slope_low) / (slope_high - slope_low)
+                y, dy = value_and_slope(b, ORDER, middle)
+                z, dz = value_and_slope(d, ORDER, middle)
+                slope_m = dy * z - y * dz
+                if slope_m > 0:
+                    low, slope_low = middle, slope_m
+                    slope_high *= 0.5
+                else:
+                    high, slope_high = middle, slope_m
+                    slope_low *= 0.5
+                if high - low < 1e-9 * length or slope_m == 0.0:
+                    break
+            top = max(top, gyr * y / z)
+        x0, slope0 = x, slope
+    return top
+
+
+@kernel
+def carry(par, state, mu_hat, work, x):
+    """Advance the state along the series by x <= the step's length."""
+    e = par[ECC]
+    s0, _, h0, _ = trig(state[ANGLE], state[TOP])
+    xdot, ydot = velocity_of_g(par, state)
+    dt = value(work[S_T], ORDER, x)
+    a, top, whole = chart(state[ANGLE] + value(work[S_PHI], ORDER, x), state[TOP], state[WHOLE])
+    s1, _, h1, _ = trig(a, top)
+    # xddot_G = -mu^ (1 + yddot_G), integrated twice
+    along = xdot * dt - mu_hat * (0.5 * dt * dt + e * (h1 - h0) - ydot * dt)
+    state[X_C] += along - e * (s1 - s0)
+    state[T] += dt
+    state[ANGLE], state[TOP], state[WHOLE] = a, top, whole
+    state[OMEGA] = value(work[S_OMEGA], ORDER, x)
+    state[SLIP] = value(work[S_SLIP], ORDER, x)
+
+
+@kernel
+def slide(par, state, work, tape):
+    """Slip until the contact point rests or lifts, or the run is over."""
+    sign = 1.0 if state[MODE] == SKID else -1.0
+    mu_hat = par[MU] * sign
+    gyr = par[GYR]
+    at_edge = False
+    state[LOSSLESS_TURNS] = 0.0
+    n = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
+    if watch(par, state, n, tape) and par[UNTIL] == FIRST_PULSE:
+        return PULSE_OVER
+    while True:
+        if state[RECORDS] * WIDTH + ROOM * WIDTH > len(tape):
+            return MORE
+        if state[STEPS] <= 0.0:
+            return WORK_BOUND
+        state[STEPS] -= 1.0
+        length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], state[SLIP], work)
+        event = 0
+        b, v, om, n1, ph, tt = work[S_B], work[S_SLIP], work[S_OMEGA], work[S_N1], work[S_PHI], work[S_T]
+        if v[0] == 0.0 and abs(v[1]) <= 1e-13 * (abs(om[1]) + gyr):
+            v[1] = 0.0
+        if abs(b[0]) <= 1e-14 * (1 + par[ECC] * om[0] * om[0]):
+            b[0] = 0.0
+        x = first_crossing(v, ORDER, length, sign)
+        if x >= 0:
+            length, event = x, 1
+        x = first_crossing(b, ORDER, length, 1.0)
+        if x >= 0:
+            length, event = x, 2
+        if par[T_END] - state[T] < value(tt, ORDER, length):
+            left = par[T_END] - state[T]
+            tt[0] = -left
+            x = first_crossing(tt, ORDER, length, -1.0)
+            tt[0] = 0.0
+            if x >= 0:
+                length, event = x, 3
+        heading = om[0] if om[0] != 0.0 else om[1]
+        x = first_crossing(om, ORDER, length, 1.0 if heading > 0 else -1.0)
+        if x > 0:
+            length, event = x, 4
+        if state[TOP] == 0.0:
+            a = state[ANGLE]
+            ph[0] = a
+            side = a if a != 0.0 else heading
+            x = first_crossing(ph, ORDER, length, 1.0 if side > 0 else -1.0)
+            ph[0] = 0.0
+            if x > 0:
+                length, event = x, 5
+        if at_edge:
+            n1[0] = 0.0
+        x = first_crossing(n1, ORDER, length, 1.0 if state[P_OPEN] != 0.0 else -1.0)
+        if x > 0 or (x == 0.0 and not at_edge):
+            length, event = x, 6
+        at_edge = False
+        if state[P_OPEN] != 0.0:
+            state[P_PEAK] = max(state[P_PEAK], peak_force(gyr, work, length))
+        if length > 0.0:
+            carry(par, state, mu_hat, work, length)
+        if event == 1:
+            state[SLIP] = 0.0
+            return PHASE_OVER
+        if event == 2:
+            state[GAP] = 0.0
+            state[UN] = 0.0
+            state[MODE] = FLIGHT
+            return PHASE_OVER
+        if event == 3:
+            state[T] = par[T_END]
+            return TIME_REACHED
+        if event == 4:
+            state[OMEGA] = 0.0
+            state[LOSSLESS_TURNS] += 1.0
+            if turn(par, state, tape):
+                return TURNS_REACHED
+        elif event == 5:
+            state[ANGLE] = 0.0
+            state[LOSSLESS_TURNS] += 0.5
+            cross_bottom(state)
+        elif event == 6:
+            at_edge = True
+            if watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, tape) and par[UNTIL] == FIRST_PULSE:
+                return PULSE_OVER
+        if par[MU] == 0.0 and par[UNTIL] == REST and state[LOSSLESS_TURNS] >= 3.0:
+            return SLIDES

@@ -1,0 +1,116 @@
+"""Skidding and spinning: (10) to (16), with the normal impulse as the independent variable.
+
+With dt = D dtau, where D = K + e s P and P = e s + mu^ (1 + e c), the equation of motion (12) loses its denominator:
+
+    dphi/dtau = D w,   dw/dtau = P b,   b = 1 - e c w^2,   d(impulse) = N dt = K b dtau      (w = phidot).
+
+All of it is polynomial in (s, 1 + c, w), so its Taylor series follow from convolutions and every step is summed to
+round-off. tau is proportional to the normal impulse, so neither the pulse of a tiny disk (D ~ k^2) nor a near-jam
+(D -> 0+, N ~ 1/D) needs small steps: both are passed in a number of steps that grows like the logarithm.
+The slip velocity is the first integral xdot_G + mu^ (ydot_G + t) = const; N = K b/D, and N - 1 is the slope of ydot_G.
+"""
+
+from __future__ import annotations
+
+from math import exp, log, sqrt
+
+from .angle import trig
+from .kernel import kernel
+from .layout import ECC, GYR, ONE_MINUS_E
+
+ORDER = 22
+TOLERANCE = -40.0  # log of the neglected term over the leading one
+SERIES = 14  # arrays of a workspace; their names are the indices below
+S_SIN, S_H, S_OMEGA, S_CO, S_P, S_D, S_B, S_YDOT, S_SLIP, S_PHI, S_T, S_N1, S_PLUS, S_MINUS = range(SERIES)
+
+
+@kernel
+def series(par, mu_hat, a, top, omega, slip, work):
+    """Taylor coefficients in tau of one step, and the length over which they are exact to round-off.
+
+    ``work`` holds, by index: sin phi, 1 + cos phi, phidot, phidot cos phi, P, D, b, ydot_G, slip velocity, angle and
+    time (both from the start of the step), and N - 1 times D.
+    """
+    e, one_minus_e, gyr = par[ECC], par[ONE_MINUS_E], par[GYR]
+    sn, hh, om, co, pp, dd = work[S_SIN], work[S_H], work[S_OMEGA], work[S_CO], work[S_P], work[S_D]
+    bb, yd, vv, ph, tt, n1 = work[S_B], work[S_YDOT], work[S_SLIP], work[S_PHI], work[S_T], work[S_N1]
+    s, _, h, _ = trig(a, top)
+    sn[0], hh[0], om[0], vv[0], ph[0], tt[0] = s, h, omega, slip, 0.0, 0.0
+    yd[0] = -e * s * omega
+    me = mu_hat * e
+    for n in range(ORDER + 1):
+        pp[n] = e * sn[n] + me * hh[n]
+        if n == 0:
+            pp[0] += mu_hat * one_minus_e
+        h_omega = 0.0
+        s_p = 0.0
+        for j in range(n + 1):
+            h_omega += hh[j] * om[n - j]
+            s_p += sn[j] * pp[n - j]
+        co[n] = h_omega - om[n]
+        co_omega = 0.0
+        for j in range(n + 1):
+            co_omega += co[j] * om[n - j]
+        bb[n] = -e * co_omega
+        dd[n] = e * s_p
+        n1[n] = gyr * bb[n] - dd[n]
+        if n == 0:
+            bb[0] += 1.0
+            dd[0] += gyr
+        else:
+            vv[n] = -mu_hat * gyr * bb[n - 1] / n - one_minus_e * om[n] - e * h_omega
+        if n == ORDER:
+            break
+        p_b = 0.0
+        co_d = 0.0
+        y_d = 0.0
+        d_om = 0.0
+        for j in range(n + 1):
+            d = dd[n - j]
+            p_b += pp[j] * bb[n - j]
+            co_d += co[j] * d
+            y_d += yd[j] * d
+            d_om += om[j] * d
+        m = n + 1
+        om[m] = p_b / m
+        sn[m] = co_d / m
+        hh[m] = y_d / (e * m)
+        yd[m] = n1[n] / m
+        ph[m] = d_om / m
+        tt[m] = dd[n] / m
+    return min(step_length(om, 0), step_length(ph, 1), 1e3 / (abs(dd[0]) + 1e-6))
+
+
+@kernel
+def step_length(c, first):
+    """The x at which the last two terms drop below round-off of one of the leading two."""
+    big0 = log(abs(c[first]) + 1e-300)
+    big1 = log(abs(c[first + 1]) + 1e-300)
+    length = 690.0
+    for n in range(ORDER - 1, ORDER + 1):
+        last = log(abs(c[n]) + 1e-300)
+        reach = max((TOLERANCE + big0 - last) / (n - first), (TOLERANCE + big1 - last) / (n - first - 1))
+        length = min(length, reach)
+    return exp(length)
+
+
+@kernel
+def normal_force(par, mu_hat, omega, a, top):
+    """N = K (1 - e c phidot^2)/D over M g, (13); F = -mu^ N."""
+    e, gyr = par[ECC], par[GYR]
+    s, c, h, _ = trig(a, top)
+    d = gyr + e * s * (e * s + mu_hat * (par[ONE_MINUS_E] + e * h))
+    return gyr * (1 - e * c * omega * omega) / d
+
+
+@kernel
+def denominator(par, mu_hat, a, top):
+    """D = K + e s P; the contact point is free to leave the floor with acceleration D/K per unit of normal force."""
+    s, _, h, _ = trig(a, top)
+    return par[GYR] + par[ECC] * s * (par[ECC] * s + mu_hat * (par[ONE_MINUS_E] + par[ECC] * h))
+
+
+@kernel
+def reference_length(par):
+    """Angle over which D varies near the bottom."""
+    return sqrt(par[GYR])

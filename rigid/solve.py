@@ -1,0 +1,236 @@
+"""A scene goes in, a motion comes out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import floor, inf, pi
+from typing import Any
+
+import numpy as np
+
+from . import history
+from . import layout as at
+from .angle import PI_LOW, angle_of, chart
+from .kernel import compiled
+from .machine import entry_run
+from .motion import Array, Kind, Motion, Phase, Pulse, States, Turn
+from .scene import Scene
+from .slipping import ORDER, SERIES
+
+KINDS = {
+    at.ROLL: Kind.ROLL, at.SKID: Kind.SKID, at.SPIN: Kind.SPIN,
+    at.FLIGHT: Kind.FLIGHT, at.SKIM: Kind.SKIM, at.IMPACT: Kind.IMPACT,
+}  # fmt: skip
+TAPE_RECORDS = 128
+STEPS = 200_000  # the work bound of one motion: Taylor steps and phases
+MOST_RECORDS = 200_000  # and its phases, turns and pulses together
+PATIENCE = 4_000  # interpreted steps, some 0.4 s, after which a process goes over to the compiled kernel
+
+_UNTIL = {None: at.NOTHING, "pulse": at.FIRST_PULSE, "rest": at.REST}
+_REASONS = {
+    at.TIME_REACHED: "the time to run is over",
+    at.PULSE_OVER: "the first pulse is over",
+    at.RESTS: "rests: nothing moves any more",
+    at.SLIDES: "slides for ever: a smooth floor takes no energy",
+    at.HITS_FLOOR: "the point mass hits the floor",
+    at.CREEPS: "creeps up to the top and never gets there",
+    at.LIFTED: "the point mass rises out of the hoop's reach and takes it off the floor",
+}
+_interpreted_steps = 0
+
+
+def parameters(scene: Scene) -> list[float]:
+    """The constants of a motion, R = g = M = 1 (see :mod:`rigid.layout`)."""
+    hoop, run = scene.hoop, scene.run
+    gyr, one_minus_e, e = hoop.K, hoop.one_minus_e, hoop.e
+    if gyr < 1e-100 and one_minus_e < 1e-40:
+        gyr, one_minus_e, e = 0.0, 0.0, 1.0
+    zeta = (gyr + one_minus_e**2) / e
+    turns = inf if run.turns is None else float(run.turns)
+    t_end = inf if run.t_end is None else run.t_end / scene.time_unit
+    friction = scene.friction
+    bounce = scene.landing.restitution
+    return [e, one_minus_e, gyr, zeta, friction.mu_s, friction.mu, bounce, turns, t_end, float(_UNTIL[run.until])]
+
+
+def release_state(scene: Scene) -> list[float]:
+    """The state at t = 0 (see :mod:`rigid.layout`)."""
+    release = scene.release
+    state = [0.0] * at.STATE
+    turns = float(floor(release.phi0 / (2 * pi) + 0.5))
+    a = (release.phi0 - turns * (2 * pi)) - turns * (2 * PI_LOW)
+    state[at.ANGLE], state[at.TOP], state[at.WHOLE] = chart(a, 1.0, turns)
+    state[at.OMEGA] = float(release.omega0 * scene.time_unit)
+    state[at.SLIP] = float(release.slip0 / scene.velocity_unit)
+    state[at.STEPS] = float(STEPS)
+    return state
+
+
+def _run(par: list[float], state: list[float]) -> tuple[int, list[list[float]], list[float]]:
+    """Run to the end: why it ended, the records, the final state. Interpreted at first, compiled for longer work."""
+    global _interpreted_steps
+    records: list[list[float]] = []
+    run: Any = entry_run
+    constants: Any = par
+    here: Any = state
+    tape: Any = [0.0] * (TAPE_RECORDS * at.WIDTH)
+    work: Any = [[0.0] * (ORDER + 1) for _ in range(SERIES)]
+    left = float(STEPS)
+    fast = False
+    while True:
+        if not fast and _interpreted_steps >= PATIENCE:
+            fast, run = True, compiled()["entry_run"]
+            constants, here, tape, work = np.array(par), np.array(here), np.array(tape), np.array(work)
+        allowance = left if fast else min(left, float(PATIENCE - _interpreted_steps))
+        here[at.RECORDS] = 0.0
+        here[at.STEPS] = allowance
+        code = run(constants, here, work, tape)
+        spent = allowance - here[at.STEPS]
+        left -= spent
+        if not fast:
+            _interpreted_steps += int(spent)
+        count = int(here[at.RECORDS])
+        rows = tape[: count * at.WIDTH].tolist() if fast else tape[: count * at.WIDTH]
+        records += [rows[i : i + at.WIDTH] for i in range(0, len(rows), at.WIDTH)]
+        stalled = here[at.STALLS] > 50.0
+        if code == at.WORK_BOUND and not stalled and left > 0 and not fast:
+            continue
+        if code == at.MORE and len(records) < MOST_RECORDS:
+            continue
+        return (at.WORK_BOUND if code == at.MORE else code), records, list(here)
+
+
+def simulate(scene: Scene) -> Motion:
+    """The rigid motion of a scene, exact to round-off.
+
+    Parameters
+    ----------
+    scene : Scene
+        Hoop, friction, release and how far to run; its ring and contact are not looked at.
+
+    Returns
+    -------
+    Motion
+        Phases, turns and pulses in the units of the scene; ``at(t)`` gives any instant between. ``period`` is that of
+        a motion that ends rolling for ever. A motion never fails: what stops it is said in ``ended``.
+    """
+    par = parameters(scene)
+    code, records, final = _run(par, release_state(scene))
+    time, mass = scene.time_unit, 1 + scene.hoop.mass_ratio
+    impulse, energy, force = mass * scene.impulse_unit, mass * scene.energy_unit, mass * scene.force_unit
+    starts: list[list[float]] = []
+    turns: list[Turn] = []
+    pulses: list[Pulse] = []
+    for row in records:
+        tag = row[0]
+        if tag == at.TURN:
+            turns.append(
+                Turn(row[1] * time, angle_of(row[2], row[3], row[4]), row[6] * scene.velocity_unit, row[10] * energy)
+            )
+        elif tag == at.PULSE:
+            measures = (row[9] * impulse, row[10] * impulse, row[11] * energy, row[12] * force, *row[13:16])
+            pulses.append(_pulse(row[1] * time, row[5] * time, row[2:5], row[6:9], measures))
+        else:
+            starts.append(row)
+    end = [float(at.END), *final[: at.X_C + 1]]
+    starts = _merged(starts, end)
+    edges = [*starts, end]
+    phases = tuple(
+        Phase(KINDS[int(a[0])], a[1] * time, b[1] * time, angle_of(a[2], a[3], a[4]), angle_of(b[2], b[3], b[4]))
+        for a, b in zip(edges, edges[1:], strict=False)
+    )
+    period = final[at.PERIOD] * time if code in (at.ROLLS, at.WHIRLS) or 0 < final[at.PERIOD] < inf else None
+    sample = Sampler(tuple(par), tuple(map(tuple, starts)), scene)
+    return Motion(scene, phases, tuple(turns), tuple(pulses), _reason(code, scene, period, final), sample, period)
+
+
+def _pulse(t0: float, t1: float, start: list[float], stop: list[float], measures: tuple[float, ...]) -> Pulse:
+    normal, friction, loss, peak, newton, poisson, energetic = measures
+    return Pulse(
+        t_start=t0,
+        t_end=t1,
+        phi_start=angle_of(*start),
+        phi_end=angle_of(*stop),
+        normal_impulse=normal,
+        friction_impulse=friction,
+        friction_loss=loss,
+        peak_normal_force=peak,
+        newton_restitution=newton,
+        poisson_restitution=poisson,
+        energetic_restitution=energetic,
+    )
+
+
+def _merged(starts: list[list[float]], end: list[float]) -> list[list[float]]:
+    """Phases that last (an impact need not), neighbours of one kind as one."""
+    kept: list[list[float]] = []
+    for row, following in zip(starts, [*starts[1:], end], strict=True):
+        if row[0] != at.IMPACT and following[1] <= row[1] and len(starts) > 1:
+            continue
+        if kept and kept[-1][0] == row[0] and row[0] != at.IMPACT:
+            continue
+        kept.append(row)
+    return kept or starts[:1]
+
+
+def _reason(code: int, scene: Scene, period: float | None, final: list[float]) -> str:
+    if code == at.TURNS_REACHED:
+        return f"turn {scene.run.turns} is reached"
+    if code == at.ROLLS:
+        return f"rolls for ever: |F| < mu_s N over the whole swing, period {period:.12g}"
+    if code == at.WHIRLS:
+        return f"rolls for ever, over the top in every revolution of {period:.12g}: there is no turn"
+    if code == at.WORK_BOUND:
+        return f"the work bound is reached after {final[at.T] * scene.time_unit:.6g}: the motion goes on"
+    return _REASONS[code]
+
+
+@dataclass(frozen=True)
+class Sampler:
+    """Evaluates a motion at given times from the starting states of its phases; a plain value."""
+
+    par: tuple[float, ...]
+    starts: tuple[tuple[float, ...], ...]
+    scene: Scene
+
+    def __call__(self, t: Array) -> States:
+        """States at times of any shape, in the units of the scene."""
+        scene = self.scene
+        order = np.argsort(t, axis=None, kind="stable")
+        times = t.ravel()[order] / scene.time_unit
+        rows = self._rows(times)
+        table = np.empty_like(rows)
+        table[order] = rows
+        columns = [column.reshape(t.shape) for column in table.T]
+        phi, omega, x, gap, slip, normal, friction, energy = columns
+        hoop = scene.hoop
+        mass = 1 + hoop.mass_ratio
+        return States(
+            t=t,
+            phi=phi,
+            omega=omega / scene.time_unit,
+            x_C=x * hoop.R,
+            y_C=(1 + gap) * hoop.R,
+            slip_velocity=slip * scene.velocity_unit,
+            normal_force=normal * mass * scene.force_unit,
+            friction_force=friction * mass * scene.force_unit,
+            energy=energy * mass * scene.energy_unit,
+        )
+
+    def _rows(self, times: Array) -> Array:
+        width = history.COLUMNS
+        padded = [list(row) + [0.0] * (at.WIDTH - len(row)) for row in self.starts]
+        flat = [number for row in padded for number in row]
+        if _interpreted_steps < PATIENCE and len(times) < PATIENCE:
+            out: Any = [0.0] * (len(times) * width)
+            work: Any = [[0.0] * (ORDER + 1) for _ in range(SERIES)]
+            tape = [0.0] * (16 * at.WIDTH)
+            state = [0.0] * at.STATE
+            history.entry_sample(list(self.par), flat, len(padded), times.tolist(), out, work, state, tape)
+            return np.array(out, dtype=float).reshape(len(times), width)
+        out = np.zeros(len(times) * width)
+        work = np.zeros((SERIES, ORDER + 1))
+        compiled()["entry_sample"](
+            np.array(self.par), np.array(flat), len(padded), times, out, work, np.zeros(at.STATE), np.zeros(16 * at.WIDTH)
+        )
+        return out.reshape(len(times), width)

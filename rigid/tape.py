@@ -1,0 +1,40 @@
+"""What a motion leaves behind: phases, turns and pulses, one record of ``WIDTH`` numbers each on a flat tape."""
+
+from __future__ import annotations
+
+from .kernel import kernel
+from .layout import IMPACT, LAST_KIND, MODE, RECORDS, TURN, TURNS, TURNS_DONE, WIDTH, X_C
+from .pulse import energy
+
+ROOM = 8  # records that one turn of a loop may add
+
+
+@kernel
+def record(state, tag, tape):
+    """Put the state on the tape."""
+    r = int(state[RECORDS]) * WIDTH
+    tape[r] = tag
+    for i in range(X_C + 1):
+        tape[r + 1 + i] = state[i]
+    state[RECORDS] += 1
+
+
+@kernel
+def begin(state, kind, tape):
+    """Enter a phase; one that goes on with the same kind is no new phase."""
+    state[MODE] = kind
+    if state[LAST_KIND] != kind or kind == IMPACT:
+        record(state, kind, tape)
+        state[LAST_KIND] = kind
+
+
+@kernel
+def turn(par, state, tape):
+    """phidot = 0: note it; True if it was the last one wanted."""
+    r = int(state[RECORDS]) * WIDTH
+    record(state, TURN, tape)
+    tape[r + 10] = energy(par, state)
+    state[TURNS_DONE] += 1
+    return state[TURNS_DONE] >= par[TURNS]
+
+
