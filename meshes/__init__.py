@@ -1,29 +1,40 @@
 """The ring as a mesh, fields in time as files, and pictures of both.
 
-``ring``    the annulus: curved quads, grading, named boundaries, quality
-``fields``  a frame: ring, rim, disk and floor at one instant, as plain arrays
-``vtu``     a block to a VTU file and back
-``series``  frames in time to PVD + VTU and back
-``view``    pictures, animations and a window (import it by name: it is not loaded here)
+``ring``     the annulus: curved quads, grading, named boundaries, quality
+``placing``  from the disk's frame to the world; von Mises, hoop and bending stress
+``times``    which instants become frames
+``fields``   a frame: ring, rim, disk and floor at one instant, as plain arrays
+``vtu``      a block to a VTU file and back
+``series``   frames in time to PVD + VTU and back
+``view``     pictures, animations and a window: ``picture``, ``animate``, ``window`` (not loaded here);
+             behind it ``subject`` (what is shown), ``scales``, ``looks``, ``stage`` (VTK),
+             ``sheet`` (type and curves), ``film`` (files), ``window``, ``renderer`` (is there one)
 """
 
 from .fields import Block, Frame, SeriesError, disk_block, floor_block, rim_block, ring_block
+from .placing import Placement, bending_stress, hoop_stress, von_mises
 from .ring import MeshError, Quality, RingMesh, ring_mesh
 from .series import Series, SeriesWriter, read
+from .times import frame_times
 
 __all__ = [
     "Block",
     "Frame",
     "MeshError",
+    "Placement",
     "Quality",
     "RingMesh",
     "Series",
     "SeriesError",
     "SeriesWriter",
+    "bending_stress",
     "disk_block",
     "floor_block",
+    "frame_times",
+    "hoop_stress",
     "read",
     "rim_block",
     "ring_block",
     "ring_mesh",
+    "von_mises",
 ]

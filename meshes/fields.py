@@ -102,7 +102,7 @@ def rim_block(ring: RingMesh, points: Array, **fields: AnyArray) -> Block:
     return Block(points, _circle(ring.around), QUADRATIC_EDGE, fields)
 
 
-def disk_block(centre: ArrayLike, radius: float, angle: float, sectors: int = 48) -> Block:
+def disk_block(centre: ArrayLike, radius: float, angle: float, sectors: int = 120) -> Block:
     """A disk as a fan of triangles, turned clockwise by ``angle``, which the cell field ``half`` shows."""
     turn = np.arange(sectors) * (2 * pi / sectors) - angle
     rim = np.column_stack([np.cos(turn), np.sin(turn)]) * radius

@@ -53,8 +53,8 @@ def write_gif(path: Path, pages: Iterator[Image], fps: int, times: NDArray[np.fl
     palette.putpalette(table.ravel().tolist())
 
     def flatten(page: Image) -> Pillow.Image:
-        # without dithering, which would flicker and does not compress; Pillow's search for the nearest entry is
-        # coarse and takes near-white for white, which shows against the page around the gif
+        # without dithering, which would flicker and does not compress; Pillow's search for the nearest entry
+        # is coarse and takes near-white for white, which shows against the page around the gif
         image = Pillow.fromarray(page).quantize(palette=palette, dither=Pillow.Dither.NONE)
         image.paste(white, mask=Pillow.fromarray((page == 255).all(axis=2)))
         return image

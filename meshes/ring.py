@@ -58,6 +58,8 @@ class RingMesh:
         Coordinates (y1, y2).
     radius, theta : (n_nodes,) arrays
         Polar coordinates as constructed, theta in [-pi, pi].
+    grid : (2 through + 1, 2 around) array
+        Every node by layer from inside out and by angle; row 0 is the inner, row -1 the outer rim.
     quad9 : (n_elements, 9) array
         Node indices in VTK's order of a biquadratic quad: corners, then mid-sides, then the centre.
     node_dofs : (n_nodes, 2) array
@@ -77,6 +79,7 @@ class RingMesh:
     points: Array
     radius: Array
     theta: Array
+    grid: Indices
     quad9: Indices
     node_dofs: Indices
     rim_nodes: Indices
@@ -207,6 +210,7 @@ def ring_mesh(
         points=np.ascontiguousarray(mesh.p.T),
         radius=radius,
         theta=angle,
+        grid=grid,
         quad9=np.ascontiguousarray(mesh.dofs.element_dofs.T, dtype=np.int64),
         node_dofs=2 * np.arange(node.size)[:, None] + np.array([0, 1]),
         rim_nodes=grid[-1].copy(),

@@ -80,6 +80,7 @@ class Sheet:
         foot = top + int(self.stage_box[3] * ABOVE_FLOOR) - 4
         self._bar_box = (slice(top, foot), slice(width - self.covered, width))
         self._bar = np.array(np.asarray(self.canvas.buffer_rgba())[self._bar_box])
+        self._bar_ink = (self._bar[..., :3] < 255).any(axis=2)
 
     def fill(self, stage: Image, shot: Shot, factor: float) -> Image:
         """The page with this stage picture, as (height, width, 3) bytes."""
@@ -87,7 +88,7 @@ class Sheet:
         left, top, width, height = self.stage_box
         page = np.asarray(self.canvas.buffer_rgba())
         page[top : top + height, left : left + width, :3] = stage
-        page[self._bar_box] = self._bar
+        page[self._bar_box][self._bar_ink] = self._bar[self._bar_ink]
         self._time.set_text(f"t = {shot.time:.4f} {self.units['time']}")
         kind = self.curves.phase(shot.time)
         words, band = looks.PHASES.get(kind, (kind, looks.PAPER)) if kind else ("", looks.PAPER)
@@ -177,8 +178,8 @@ class Sheet:
                 axes.set_xlabel(f"t  [{self.units['time']}]", fontsize=self.type, color=looks.INK, labelpad=1)
             axes.set_ylabel(f"{name}  [{self.units['force']}]", fontsize=self.type, color=colour)
             axes.yaxis.set_label_coords(-3.6 * em / (self.size[0] - left - right), 0.5)
-            line = axes.axvline(0, color=looks.INK, lw=1.0, zorder=4, animated=True)
+            line = axes.axvline(0, color=looks.INK, lw=0.07 * self.type, zorder=4, animated=True)
             (dot,) = axes.plot([], [], "o", color=colour, zorder=5, animated=True)
-            dot.set(markersize=0.42 * self.type, markeredgecolor="white", markeredgewidth=0.06 * self.type)
+            dot.set(markersize=0.42 * self.type, markeredgecolor="white", markeredgewidth=0.04 * self.type)
             self._moving += [line, dot]
             self._marks.append((line, dot, curves.t, values))

@@ -18,10 +18,22 @@ from .subject import Shot
 Array = NDArray[np.float64]
 # a nine-node quad as four straight ones, whose corners are all nodes: nothing of the curve is lost
 _SPLIT = np.array([[0, 4, 8, 7], [4, 1, 5, 8], [8, 5, 2, 6], [7, 8, 6, 3]])
+#: height of a view that shows the whole hoop, in radii
+VIEW_HEIGHT = 2.45
+
 #: share of the height of a view that lies above the floor
 ABOVE_FLOOR = 0.93
 
-_LAYERS = {"floor": -0.04, "ghost": -0.02, "ring": 0.0, "edge": 0.01, "disk": 0.02, "arrow": 0.04}
+# what lies over what
+_LAYERS = {
+    "floor": -0.04,
+    "ghost": -0.02,
+    "ring": 0.0,
+    "edge": 0.01,
+    "disk": 0.02,
+    "halo": 0.03,
+    "arrow": 0.04,
+}
 
 
 @dataclass(frozen=True)
@@ -42,8 +54,8 @@ class Stage:
         Sets the connectivities, which all shots share.
     size : (width, height)
         In pixels.
-    height : float
-        Height of the view in the world's unit of length.
+    zoom : float
+        1 shows the whole hoop, more a part of it about the contact.
     colours : Colours or None
         None for a ring of one colour.
     largest : mapping
@@ -56,7 +68,7 @@ class Stage:
         self,
         first: Shot,
         size: tuple[int, int],
-        height: float,
+        zoom: float,
         colours: Colours | None,
         largest: Mapping[str, float],
         off_screen: bool = True,
@@ -66,8 +78,10 @@ class Stage:
             os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
         import pyvista
 
-        self.size, self.height, self.colours, self.largest = size, height, colours, largest
+        self.size, self.zoom, self.colours, self.largest = size, zoom, colours, largest
         self.R = first.radius
+        #: of the view, in the world's unit of length
+        self.height = VIEW_HEIGHT * self.R / zoom
         options: dict[str, Any] = {"window_size": list(size), "lighting": "none", "border": False}
         plotter: Any = pyvista.Plotter(off_screen=off_screen, **options)
         plotter.set_background(looks.PAPER)
@@ -98,10 +112,13 @@ class Stage:
         self.plotter.add_mesh(self._floor_line, color=looks.FLOOR_EDGE, line_width=1.5 * width, **flat)
         self._ticks = _lines(np.zeros((80, 3)), np.arange(80).reshape(-1, 2))
         self.plotter.add_mesh(self._ticks, color=looks.FLOOR_EDGE, line_width=0.8 * width, **flat)
-        self._force = _polygons(np.zeros((7, 3)), _ARROW)
-        self.plotter.add_mesh(self._force, color=looks.FORCE, **flat)
-        self._slip = _polygons(np.zeros((7, 3)), _ARROW)
-        self.plotter.add_mesh(self._slip, color=looks.SLIP, **flat)
+        self._arrows = {}
+        for name, colour in (("force", looks.FORCE), ("slip", looks.SLIP)):
+            inked, halo = (_polygons(np.zeros((7, 3)), _ARROW) for _ in range(2))
+            self.plotter.add_mesh(inked, color=colour, **flat)
+            # paper round it, so that it shows on the disk too
+            self.plotter.add_mesh(halo, color=looks.PAPER, style="wireframe", line_width=4 * width, **flat)
+            self._arrows[name] = inked, halo
 
     def paint(self, colours: Colours | None) -> None:
         """Colour the ring by another field."""
@@ -145,12 +162,12 @@ class Stage:
         self.plotter.close()
 
     def _lay_floor(self, middle: float) -> None:
-        R, reach = self.R, self.height * self.size[0] / self.size[1]
+        R, reach = self.R / self.zoom, self.height * self.size[0] / self.size[1]
         left, right = middle - reach, middle + reach
         corners = np.array([[left, -R, 0], [right, -R, 0], [right, 0, 0], [left, 0, 0]], dtype=float)
         self._floor.points = _at(corners, "floor")
         self._floor_line.points = _at(corners[[3, 2]], "edge")
-        # marks every half radius stay where they are while the view moves on
+        # marks every half radius (enlarged: less) stay where they are while the view moves on
         x = (np.round(middle / (R / 2)) + np.arange(-20, 20)) * (R / 2)
         ends = np.zeros((40, 2, 3))
         ends[:, :, 0] = x[:, None]
@@ -158,16 +175,18 @@ class Stage:
         self._ticks.points = _at(ends.reshape(-1, 3), "edge")
 
     def _point_arrows(self, shot: Shot) -> None:
-        R, foot = self.R, np.array([shot.centre[0], 0.0])
+        R, foot = self.R / self.zoom, np.array([shot.centre[0], 0.0])
         force = np.array([shot.friction_force or 0.0, shot.normal_force or 0.0])
         slip = np.array([shot.slip_velocity or 0.0, 0.0])
-        for name, arrow, vector, reach, tail in (
-            ("force", self._force, force, 0.7 * R, foot),
-            ("slip", self._slip, slip, 0.5 * R, foot - [0.0, 0.1 * R]),
+        for name, vector, reach, tail in (
+            ("force", force, 0.7 * R, foot),
+            ("slip", slip, 0.5 * R, foot - [0.0, 0.1 * R]),
         ):
             largest = self.largest.get(name, 0.0)
             scaled = vector * (reach / largest) if largest > 0 else 0.0 * vector
-            arrow.points = _at(_arrow(tail, scaled, 0.014 * R), "arrow")
+            points = _arrow(tail, scaled, 0.014 * R)
+            inked, halo = self._arrows[name]
+            inked.points, halo.points = _at(points, "arrow"), _at(points, "halo")
 
 
 def deformed(shot: Shot, factor: float) -> tuple[Array, Array]:

@@ -47,20 +47,25 @@ class Setting:
     factor: float
     largest: dict[str, float]
     reach: tuple[float, float]  # of the hoop over the whole run, in x
+    zoom: float  # 1 shows the whole hoop
 
 
-def setting(thing: Series | Motion, field: str | None = None, factor: float | None = None) -> Setting:
+def setting(
+    thing: Series | Motion, field: str | None = None, factor: float | None = None, zoom: float = 1.0
+) -> Setting:
     """Scales and colours taken from the whole run.
 
     Raises
     ------
     ViewError
-        A field that is not there, a factor that is no number.
+        A field that is not there, a factor or an enlargement that is no number.
     SeriesError
         A damaged series.
     """
     if factor is not None and not (np.isfinite(factor) and factor >= 0):
         raise ViewError(f"factor = {factor!r} is not possible: it must be a number from 0.")
+    if not (np.isfinite(zoom) and zoom >= 1):
+        raise ViewError(f"zoom = {zoom!r} is not possible: it must be a number from 1.")
     subject = subject_of(thing)
     shots = sampled(subject)
     first = shots[0]
@@ -71,10 +76,10 @@ def setting(thing: Series | Motion, field: str | None = None, factor: float | No
         colours = Colours(chosen, *limits(shots, chosen, chosen in looks.SIGNED))
     if factor is None:
         stored = first.ring.field_data.get("display_factor")
-        factor = tidy_factor(shots) if stored is None else float(stored[0])
+        factor = tidy_factor(shots, 0.06 / zoom) if stored is None else float(stored[0])
     x = [float(shot.centre[0]) for shot in shots]
     reach = (min(x) - 1.2 * first.radius, max(x) + 1.2 * first.radius)
-    return Setting(subject, first, colours, factor, dict(scale_of(subject.curves, shots)), reach)
+    return Setting(subject, first, colours, factor, dict(scale_of(subject.curves, shots)), reach, zoom)
 
 
 class Camera:
@@ -88,13 +93,12 @@ class Camera:
         subject = chosen.subject
         self.sheet = Sheet(size, subject.curves, subject.span, chosen.colours, subject.units, subject.title)
         _, _, width, height = self.sheet.stage_box
-        self.height = 2.45 * chosen.first.radius
+        pixels = (self.oversampling * width, self.oversampling * height)
+        self.stage = Stage(chosen.first, pixels, chosen.zoom, chosen.colours, chosen.largest)
+        self.height = self.stage.height
         # where the hoop may be: left of the colour bar
         self.width = self.height * (width - self.sheet.covered) / height
         self.aside = self.height * self.sheet.covered / height / 2
-        more = self.oversampling
-        pixels = (more * width, more * height)
-        self.stage = Stage(chosen.first, pixels, self.height, chosen.colours, chosen.largest)
 
     def __enter__(self) -> Camera:
         return self
@@ -116,6 +120,8 @@ class Camera:
     def _middle(self, shot: Shot) -> float:
         """The view stands still if the whole run fits in it, or else goes with the hoop."""
         left, right = self.setting.reach
+        if self.setting.zoom > 1:
+            return float(shot.centre[0]) + self.aside
         if right - left <= self.width:
             return (left + right) / 2 + self.aside
         half = self.width / 2
@@ -127,10 +133,11 @@ def render(
     time: float | None = None,
     field: str | None = None,
     factor: float | None = None,
+    zoom: float = 1.0,
     size: tuple[int, int] = (1280, 900),
 ) -> Image:
     """The picture of one instant as (height, width, 3) bytes; see :func:`picture`."""
-    chosen = setting(thing, field, factor)
+    chosen = setting(thing, field, factor, zoom)
     start, stop = chosen.subject.span
     if time is None:
         time = _liveliest(chosen.subject)
@@ -146,6 +153,7 @@ def picture(
     time: float | None = None,
     field: str | None = None,
     factor: float | None = None,
+    zoom: float = 1.0,
     size: tuple[int, int] = (1280, 900),
 ) -> None:
     """Draw one instant into a PNG file.
@@ -164,6 +172,8 @@ def picture(
     factor : float, optional
         Exaggeration of the deformation, printed in the picture; by default the series' own
         ``display_factor``, or one that makes the largest displacement a few per cent of the radius.
+    zoom : float
+        1 shows the whole hoop, more enlarges what is about the contact.
     size : (width, height)
         In pixels.
 
@@ -174,7 +184,7 @@ def picture(
     SeriesError
         A damaged series.
     """
-    film.write_png(Path(png), render(thing, time, field, factor, size))
+    film.write_png(Path(png), render(thing, time, field, factor, zoom, size))
 
 
 def animate(
@@ -182,10 +192,12 @@ def animate(
     path: str | Path,
     field: str | None = None,
     factor: float | None = None,
+    zoom: float = 1.0,
     frames: int | None = None,
     fps: int = 20,
     start: float | None = None,
     stop: float | None = None,
+    pace: str = "time",
     size: tuple[int, int] | None = None,
     progress: Progress | None = None,
 ) -> None:
@@ -195,16 +207,19 @@ def animate(
 
     Parameters
     ----------
-    thing, field, factor
+    thing, field, factor, zoom
         As for :func:`picture`.
     path : path
         The suffix chooses the kind.
     frames : int, optional
-        Number of pictures, evenly spaced in time; 60 for a gif or a page, 150 for a film.
+        Number of pictures; 60 for a gif or a page, 150 for a film.
     fps : int
         Pictures per second.
     start, stop : float, optional
         Stretch of time; the whole run by default.
+    pace : {"time", "frames"}
+        "time" runs evenly in time; "frames" evenly through the frames of a series, which is slow motion where
+        they are dense.
     size : (width, height), optional
         In pixels; 640 x 480 for a gif, 960 x 720 for a page, 1280 x 900 for a film.
     progress : callable, optional
@@ -222,12 +237,17 @@ def animate(
     count = kind.frames if frames is None else frames
     if count < 2 or fps < 1:
         raise ViewError(f"{count} frames at {fps} per second are no animation: it takes 2 at 1 per second.")
-    chosen = setting(thing, field, factor)
+    chosen = setting(thing, field, factor, zoom)
     first, last = chosen.subject.span
     start, stop = first if start is None else start, last if stop is None else stop
     if not first <= start < stop <= last:
         raise ViewError(f"{start!r} to {stop!r} is not possible: the run goes from {first:g} to {last:g}.")
     times = np.linspace(start, stop, count)
+    if pace == "frames" and isinstance(thing, Series):
+        kept = thing.times[(thing.times >= start) & (thing.times <= stop)]
+        times = np.interp(np.linspace(0, len(kept) - 1, count), np.arange(len(kept)), kept)
+    elif pace not in ("time", "frames"):
+        raise ViewError(f"pace = {pace!r} is not possible: it is 'time' or 'frames'.")
 
     def pages() -> Iterator[Image]:
         with Camera(chosen, size or kind.size) as camera:
@@ -239,7 +259,9 @@ def animate(
     kind.write(path, pages(), fps, times)
 
 
-def window(thing: Series | Motion, field: str | None = None, factor: float | None = None) -> None:
+def window(
+    thing: Series | Motion, field: str | None = None, factor: float | None = None, zoom: float = 1.0
+) -> None:
     """Open a window with a time slider; space plays, [ and ] change the factor, c changes the field.
 
     Raises
@@ -250,7 +272,7 @@ def window(thing: Series | Motion, field: str | None = None, factor: float | Non
     require_screen()
     from .window import Window
 
-    Window(setting(thing, field, factor)).open()
+    Window(setting(thing, field, factor, zoom)).open()
 
 
 def _liveliest(subject: Subject) -> float:

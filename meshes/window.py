@@ -41,8 +41,8 @@ class Window:
         self.time, self.playing = self.span[0], False
         self.fields = field_names(chosen.first.ring)
         self._lay_out()
-        self.height = 2.45 * chosen.first.radius * size[1] / self.sheet.stage_box[3]
-        self.stage = Stage(chosen.first, size, self.height, chosen.colours, chosen.largest, off_screen)
+        zoom = chosen.zoom * self.sheet.stage_box[3] / size[1]
+        self.stage = Stage(chosen.first, size, zoom, chosen.colours, chosen.largest, off_screen)
         self.plotter: Any = self.stage.plotter
         self.plotter.title = "hoop-pulse"
         self._overlay = Overlay(self.plotter, size, self.sheet.stage_box)
@@ -82,7 +82,7 @@ class Window:
         # from the stage's own framing to that of the upper part of the window
         camera, (_, top, _, height) = self.plotter.camera, self.sheet.stage_box
         floor = (top + ABOVE_FLOOR * height) / self.size[1]
-        y = self.height * (floor - 0.5)
+        y = self.stage.height * (floor - 0.5)
         camera.position = (camera.position[0], y, camera.position[2])
         camera.focal_point = (camera.focal_point[0], y, 0.0)
         self._overlay.show(self.sheet.fill(self._paper, shot, self.factor))

@@ -1,0 +1,80 @@
+"""From the disk's frame to the world, and from there to the fields that people look at."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .ring import RingMesh
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Where the disk's frame is: angle ``phi`` (clockwise from the top) and the hoop's centre C in the world.
+
+    ``y1`` points to the disk, along (sin phi, cos phi) in the world; ``y2`` is 90 degrees clockwise from it,
+    along (cos phi, -sin phi).
+    """
+
+    phi: float
+    x_C: float
+    y_C: float
+
+    @property
+    def axes(self) -> Array:
+        """(2, 2): the directions of y1 and y2 in the world, one per row."""
+        sin, cos = np.sin(self.phi), np.cos(self.phi)
+        return np.array([[sin, cos], [cos, -sin]])
+
+    def points(self, y: Array) -> Array:
+        """World positions of points ``y`` (n, 2) of the disk's frame."""
+        return np.array([self.x_C, self.y_C]) + y @ self.axes
+
+    def vectors(self, u: Array) -> Array:
+        """World components of vectors ``u`` (n, 2)."""
+        return u @ self.axes
+
+    def velocities(self, y: Array, u: Array, u_rate: Array, velocity_C: ArrayLike, omega: float) -> Array:
+        """World velocities of points ``y`` displaced by ``u``, both (n, 2), the frame turning with ``omega``.
+
+        ``u_rate`` is the rate of ``u`` seen in the frame, ``velocity_C`` the world velocity of C.
+        """
+        first, second = self.axes
+        at = y + u
+        turning = omega * (at[:, :1] * second - at[:, 1:] * first)
+        return np.asarray(velocity_C, dtype=float) + turning + u_rate @ self.axes
+
+    def stress(self, stress: Array) -> Array:
+        """World components (xx, yy, xy) of a stress given by its components (11, 22, 12), (n, 3)."""
+        full = np.stack([stress[:, [0, 2]], stress[:, [2, 1]]], axis=1)
+        world = np.einsum("ai,nab,bj->nij", self.axes, full, self.axes)
+        return np.column_stack([world[:, 0, 0], world[:, 1, 1], world[:, 0, 1]])
+
+
+def von_mises(stress: Array) -> Array:
+    """Von Mises stress of plane stress components (11, 22, 12), (n, 3); the same in any frame."""
+    s1, s2, s12 = stress.T
+    return np.sqrt(s1**2 - s1 * s2 + s2**2 + 3 * s12**2)
+
+
+def hoop_stress(ring: RingMesh, stress: Array) -> Array:
+    """Circumferential stress at the nodes, from components (11, 22, 12) in the disk's frame, (n_nodes, 3)."""
+    sin, cos = np.sin(ring.theta), np.cos(ring.theta)
+    s1, s2, s12 = stress.T
+    return s1 * sin**2 + s2 * cos**2 - 2 * s12 * sin * cos
+
+
+def bending_stress(ring: RingMesh, hoop: Array) -> Array:
+    """What the hoop stress has beyond its mean through the wall (Simpson's rule over the layers of nodes)."""
+    layers = len(ring.grid)
+    weights = np.full(layers, 2.0)
+    weights[1::2] = 4.0
+    weights[[0, -1]] = 1.0
+    through = hoop[ring.grid]
+    bending = np.empty_like(hoop)
+    bending[ring.grid] = through - weights @ through / weights.sum()
+    return bending

@@ -1,0 +1,49 @@
+"""Which instants of a run become frames."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+
+def frame_times(
+    start: float,
+    stop: float,
+    count: int,
+    t: ArrayLike | None = None,
+    normal_force: ArrayLike | None = None,
+    share: float = 0.5,
+) -> Array:
+    """``count`` ascending times from ``start`` to ``stop``, denser where the normal force changes.
+
+    Parameters
+    ----------
+    t, normal_force : array_like, optional
+        The force over the run; without it the times are evenly spaced.
+    share : float
+        Share of the frames that follows the force, 0 (evenly spaced) to below 1; the rest is evenly spaced,
+        so that no stretch of time goes without.
+
+    Raises
+    ------
+    ValueError
+        Fewer than 2 frames, no stretch of time, or a share outside [0, 1).
+    """
+    if count < 2 or not start < stop or not 0 <= share < 1:
+        raise ValueError(f"{count} frames from {start} to {stop} with a share of {share} cannot be chosen.")
+    even = np.linspace(start, stop, count)
+    if t is None or normal_force is None:
+        return even
+    at, force = np.asarray(t, dtype=float), np.asarray(normal_force, dtype=float)
+    inside = (at > start) & (at < stop)
+    times = np.concatenate([[start], np.unique(at[inside]), [stop]])
+    change = np.abs(np.diff(np.interp(times, at, force)))
+    if not change.sum() > 0:
+        return even
+    density = (1 - share) * np.diff(times) / (stop - start) + share * change / change.sum()
+    passed = np.concatenate([[0.0], np.cumsum(density)])
+    chosen = np.interp(np.linspace(0, passed[-1], count), passed, times)
+    chosen[[0, -1]] = start, stop
+    return chosen
