@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import errno
 import os
+import shlex
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -18,6 +19,7 @@ import click
 from rigid import Motion, Scene, SceneError, load_scene
 
 from .cli_study import study
+from .cli_view import view
 from .files import StudyError, folder, to_json, trouble
 
 NEWCOMER = """\
@@ -31,6 +33,7 @@ Try, in this order:
   hoop flexible paper-3.3-massless                    the same kind of hoop, elastic
   hoop study stiffness paper-3.3-massless --out study the limit; then open study/report.html
   hoop scenes                                         what else is ready to run
+  hoop view paper-3.1 --gif rolling.gif               a moving picture
   hoop COMMAND -h                                     the options of a command
 
 SCENE is the name of a shipped scene or a TOML file; `hoop scenes NAME` prints one to start from.
@@ -124,6 +127,7 @@ def scenes(name: str | None) -> None:
 
 
 hoop.add_command(study)
+hoop.add_command(view)
 
 
 @hoop.command()
@@ -163,9 +167,10 @@ def _not_yet(command: str, error: ModuleNotFoundError) -> StudyError:
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run one command line and return its exit status; what a user can mend is one sentence on stderr."""
+    line = list(arguments) if arguments is not None else sys.argv[1:]
     try:
         status: Any = hoop.main(
-            list(arguments) if arguments is not None else None, prog_name="hoop", standalone_mode=False
+            line, prog_name="hoop", standalone_mode=False, obj=shlex.join(["hoop", *line])
         )
         sys.stdout.flush()
         return status if isinstance(status, int) else 0

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-import shlex
-import sys
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 import click
 
 from rigid import load_scene
 
 from .files import folder, to_json, write_text
+
+if TYPE_CHECKING:
+    from .stiffness import StiffnessStudy
 
 as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
 workers = click.option(
@@ -110,7 +112,7 @@ def stiffness(
         )
     if target is not None:
         with bar("figures and report") as progress:
-            _write_study(found, target, progress)
+            _write_study(found, target, ctx.obj, progress)
     if as_json:
         click.echo(to_json(found.to_dict()))
     else:
@@ -123,7 +125,7 @@ def stiffness(
         ctx.exit(1)
 
 
-def _write_study(found: Any, target: Path, progress: Any) -> None:
+def _write_study(found: StiffnessStudy, target: Path, line: str, progress: Callable[[float], None]) -> None:
     from . import figures
     from .report import stiffness_report
 
@@ -133,7 +135,7 @@ def _write_study(found: Any, target: Path, progress: Any) -> None:
     for number, (name, figure) in enumerate(drawn.items()):
         images[name] = figures.save(figure, target / f"{name}.png")
         progress((number + 1) / (len(drawn) + 1))
-    stiffness_report(found, images, shlex.join(["hoop", *sys.argv[1:]]), target / "report.html")
+    stiffness_report(found, images, line, target / "report.html")
 
 
 @study.command()

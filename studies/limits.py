@@ -35,7 +35,7 @@ class Rate:
     """Observed rate p."""
     interval: tuple[float, float]
     """Its t-interval at the level CONFIDENCE, widened by the change of p when a point more or fewer is used;
-    infinite when fewer than three points can be used."""
+    infinite when fewer than four points can be used."""
     points: int
     """How many of the stiffest points were used."""
 
@@ -72,7 +72,7 @@ class Limit:
 
 
 def observed_rate(s: ArrayLike, distance: ArrayLike, error: ArrayLike | None = None) -> Rate:
-    """Rate of ``distance -> 0`` by a straight line through log distance against log s of the stiffest points.
+    """Rate of ``distance -> 0`` by a line through log distance against log s of the stiffest points.
 
     As many points are used as give the narrowest interval. Points whose numerical ``error`` exceeds half
     their distance say nothing of the distance and are left out.
@@ -80,19 +80,34 @@ def observed_rate(s: ArrayLike, distance: ArrayLike, error: ArrayLike | None = N
     s, d = np.asarray(s, float), np.abs(np.asarray(distance, float))
     e = np.zeros_like(d) if error is None else np.abs(np.asarray(error, float))
     use = np.isfinite(d) & (d > 0) & ~(e > 0.5 * d)
-    x, y = np.log(s[use]), np.log(d[use])
-    if x.size < 3:
-        slope = float((y[1] - y[0]) / (x[1] - x[0])) if x.size == 2 else nan
+    x, y, off = np.log(s[use]), np.log(d[use]), e[use] / d[use]
+    if x.size < 4:
+        slope = float(np.polyfit(x, y, 1)[0]) if x.size > 1 else nan
         return Rate(-slope, (-inf, inf), int(x.size))
-    fits = {}
-    for n in range(3, x.size + 1):
-        slope, offset = np.polyfit(x[-n:], y[-n:], 1)
-        residual = y[-n:] - (slope * x[-n:] + offset)
-        spread = sqrt(float(residual @ residual) / (n - 2) / float(((x[-n:] - x[-n:].mean()) ** 2).sum()))
-        fits[n] = (-float(slope), _t(n - 2) * spread)
+    fits = {n: _slope(x[-n:], y[-n:], off[-n:]) for n in range(4, x.size + 1)}
     points, half = _narrowest(fits)
     rate = fits[points][0]
     return Rate(rate, (rate - half, rate + half), points)
+
+
+def _slope(x: Array, y: Array, error: Array) -> tuple[float, float]:
+    """p and the half width of its interval in y = a - p x + b exp(-p x): a power law and the next term of its
+    series.
+
+    Without that term the soft points would bend the line by more than their scatter about it shows.
+    """
+    x = x - x[-1]
+    p = float(np.clip(-np.polyfit(x, y, 1)[0], *_RATES))
+    for _ in range(3):  # p in the small term is that of the round before
+        design = np.column_stack([np.ones_like(x), -x, np.exp(-p * x)])
+        found = np.linalg.lstsq(design, y, rcond=None)[0]
+        p = float(np.clip(found[1], *_RATES))
+    residual = y - design @ found
+    free = x.size - 3
+    weights = np.linalg.pinv(design)[1]
+    scatter = _t(free) * sqrt(float(residual @ residual) / free * float(weights @ weights))
+    numerical = float(np.abs(weights) @ error)  # the worst the cases' own errors can do together
+    return float(found[1]), sqrt(scatter**2 + numerical**2)
 
 
 def richardson(

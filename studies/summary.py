@@ -132,7 +132,7 @@ def law_sentence(study: StiffnessStudy) -> str:
     mu_s, mu = study.scene.friction.mu_s, study.scene.friction.mu
     if study.scene.contact.law == "patch":
         return (
-            f"The stick threshold acts on the patch's resultants: the limit has mu_s = {mu_s:g}, mu = {mu:g}."
+            f"The stick threshold acts on the patch's resultants: it keeps mu_s = {mu_s:g} and mu = {mu:g}."
         )
     if study.reference_mu_s == mu_s:
         return f"A brush with mu_s = mu = {mu:g} tends to the rigid hoop of the same coefficients."

@@ -1,7 +1,8 @@
-"""A third solver, made for the tests by one adapter: the rigid motion with measures that miss it by a known law.
+"""A third solver, made for the tests by one adapter: the rigid motion with measures that miss it by a known
+law.
 
-The impulse ratio and the friction loss are off by ``C s^-1/3`` with s the contact foundation, and by a numerical error
-of the asked tolerance; so a study of it must find rate 1/3 and the rigid values.
+The impulse ratio and the friction loss are off by ``C s^-1/3`` with s the contact foundation, and by a
+numerical error of the asked tolerance; so a study of it must find rate 1/3 and the rigid values.
 """
 
 from __future__ import annotations
@@ -55,7 +56,7 @@ def deadly(scene: Scene, *, history: bool = False, progress: object = None) -> M
 
 
 def deadly_once(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
-    """The same, but at k = 0.3 the first process that gets it dies; a file named by the test remembers that."""
+    """The same, but at k = 0.3 the first process that gets it dies; a file named by the test remembers it."""
     mark = Path(os.environ["HOOP_TEST_MARK"])
     if scene.hoop.k == 0.3 and not mark.exists():
         mark.touch()

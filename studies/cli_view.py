@@ -1,0 +1,98 @@
+"""`hoop view ...`: pictures and animations of a run, or a window to look around in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import click
+
+from rigid import load_scene
+
+from .files import StudyError
+
+FILE = click.Path(path_type=Path, dir_okay=False)
+
+
+@click.command()
+@click.argument("path")
+@click.option(
+    "--png", type=FILE, metavar="FILE", help="Draw one instant, at --time or else at the peak of N."
+)
+@click.option("--time", type=float, metavar="T", help="The instant of --png.")
+@click.option("--gif", type=FILE, metavar="FILE", help="Animate the run.")
+@click.option("--mp4", type=FILE, metavar="FILE", help="Animate the run.")
+@click.option("--html", type=FILE, metavar="FILE", help="Animate the run in a page with a slider.")
+@click.option("--field", metavar="NAME", help="What is coloured, von_mises for instance.")
+@click.option("--factor", type=float, metavar="X", help="How much the deformation is exaggerated.")
+@click.option("--start", type=float, metavar="T", help="Begin the animation at this time.")
+@click.option("--stop", type=float, metavar="T", help="End it at this time.")
+@click.option("--frames", type=click.IntRange(2, 100_000), metavar="N", help="Frames of the animation.")
+def view(
+    path: str,
+    png: Path | None,
+    time: float | None,
+    gif: Path | None,
+    mp4: Path | None,
+    html: Path | None,
+    field: str | None,
+    factor: float | None,
+    start: float | None,
+    stop: float | None,
+    frames: int | None,
+) -> None:
+    """Look at a run.
+
+    PATH is the folder of `hoop flexible ... --out DIR --fields`, or a scene, whose rigid motion is shown.
+    Without a file to draw into, a window opens.
+    """
+    films = [file for file in (gif, mp4, html) if file is not None]
+    for file, suffix in ((png, ".png"), (gif, ".gif"), (mp4, ".mp4"), (html, ".html")):
+        if file is not None and file.suffix.lower() != suffix:
+            raise StudyError(f"{file} is not possible: a file for --{suffix[1:]} ends in {suffix}.")
+    if time is not None and png is None:
+        raise StudyError("--time needs --png FILE: it is the instant that is drawn.")
+
+    from meshes import SeriesError
+    from meshes.view import ViewError, animate, picture, window
+
+    from .progress import bar
+
+    try:
+        thing = _thing(path)
+        if png is not None:
+            picture(thing, png, time, field, factor)
+        for file in films:
+            with bar(file.name) as told:
+                animate(
+                    thing,
+                    file,
+                    field=field,
+                    factor=factor,
+                    frames=frames,
+                    start=start,
+                    stop=stop,
+                    progress=partial(_fraction, told),
+                )
+        if png is None and not films:
+            window(thing, field, factor)
+    except (ViewError, SeriesError) as error:
+        raise StudyError(str(error)) from None
+
+
+def _fraction(told: Callable[[float], None], done: int, total: int) -> None:
+    told(done / max(total, 1))
+
+
+def _thing(path: str) -> Any:
+    """The field series at ``path``, or the rigid motion of the scene that it names."""
+    place = Path(path)
+    if place.is_dir() or place.suffix == ".pvd":
+        from meshes import read
+
+        return read(place)
+    from .solvers import solver
+
+    return solver("rigid")(load_scene(path))

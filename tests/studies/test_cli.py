@@ -1,0 +1,182 @@
+"""The command line: what a newcomer sees, what a script gets, and one sentence for every mistake."""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from command_line import SCENE, command, environment, is_one_sentence, process
+
+HEAVY = ("skfem", "meshio", "pyvista", "vtk", "matplotlib", "pandas", "dask", "distributed", "jinja2")
+
+
+@pytest.mark.parametrize("arguments", [(), ("-h",), ("--help",)])
+def test_a_newcomer_is_told_what_to_do_next(hoop, arguments):
+    status, out, err = hoop(*arguments)
+    assert status == 0
+    assert err == ""
+    for word in ("hoop rigid paper-3.1", "hoop flexible", "hoop study stiffness", "hoop scenes"):
+        assert word in out
+
+
+def test_scenes_are_listed_and_printed(hoop):
+    status, out, _ = hoop("scenes")
+    assert status == 0
+    assert "paper-3.1 " in out
+    assert "point-mass" in out
+    status, out, _ = hoop("scenes", "paper-3.1")
+    assert status == 0
+    assert "[friction]" in out
+
+
+def test_json_has_the_keys_of_the_contract_and_nothing_beside(hoop):
+    status, out, err = hoop("rigid", "paper-3.1", "--json")
+    assert (status, err) == (0, "")
+    found = json.loads(out, parse_constant=lambda word: pytest.fail(f"{word} is not JSON"))
+    assert set(found) == {"scene", "phases", "turns", "pulses", "ended"}
+    assert set(found["phases"][0]) == {"kind", "t_start", "t_end", "phi_start", "phi_end"}
+    assert set(found["turns"][0]) == {"t", "phi", "slip_velocity", "energy"}
+    asked = "t_start t_end phi_start phi_end normal_impulse friction_impulse impulse_ratio friction_loss"
+    assert {*asked.split(), "peak_normal_force"} <= set(found["pulses"][0])
+
+
+def test_rigid_prints_a_table_for_people(hoop):
+    status, out, _ = hoop("rigid", "paper-3.1")
+    assert status == 0
+    assert "Phases" in out
+    assert "J_F/J_N" in out
+    assert "Ended:" in out
+
+
+def test_out_leaves_the_motion_and_its_history(hoop, tmp_path):
+    status, _, _ = hoop("rigid", "paper-3.1", "--out", tmp_path / "new" / "folder")
+    assert status == 0
+    out = tmp_path / "new" / "folder"
+    assert json.loads((out / "motion.json").read_text())["phases"]
+    header, *rows = (out / "history.csv").read_text().splitlines()
+    assert header.startswith("t,phi,omega")
+    peak = max(float(row.split(",")[header.split(",").index("normal_force")]) for row in rows)
+    told = max(p["peak_normal_force"] for p in json.loads((out / "motion.json").read_text())["pulses"])
+    assert peak == pytest.approx(told, rel=5e-3)  # the history is drawn to 2e-3 of the range of N
+    assert [path.name for path in out.iterdir() if path.name.startswith(".")] == []
+
+
+BAD_SCENES = {
+    "k": ("k = 0.1", "k = 1.5", "hoop.k = 1.5"),
+    "r": ("r = 1.02", "r = 0.9", "hoop.r = 0.9"),
+    "mu": ("mu = 0.3", "mu = 0.4", "friction.mu = 0.4"),
+    "nan": ("k = 0.1", "k = nan", "hoop.k = nan"),
+    "word": ("k = 0.1", "k = 'tiny'", "hoop.k = 'tiny'"),
+    "key": ("mu_s = 0.35", "mus = 0.35", "friction.mus"),
+    "part": ("[release]", "[releese]", "releese"),
+    "toml": ("[release]", "[release", "is not TOML"),
+}
+
+
+@pytest.mark.parametrize("mistake", BAD_SCENES)
+@pytest.mark.parametrize("verb", [("rigid",), ("flexible",), ("study", "stiffness")])
+def test_a_bad_scene_is_one_sentence(hoop, tmp_path, mistake, verb):
+    right, wrong, told = BAD_SCENES[mistake]
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE.format(k=0.1).replace(right, wrong))
+    status, out, err = hoop(*verb, scene, "--json")
+    assert (status, out) == (2, "")
+    assert is_one_sentence(err)
+    assert told in err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (("rigd",), "rigid"),
+        (("rigid",), "SCENE"),
+        (("rigid", "paper-9.9"), "paper-9.9"),
+        (("rigid", "paper-3.1", "--jsn"), "--json"),
+        (("flexible", "paper-3.3-massless", "--fields"), "--out"),
+        (("bench",), "not there yet"),
+        (("stress",), "not there yet"),
+        (("study", "sweep", "nowhere.toml"), "nowhere.toml"),
+        (("study", "stiffness", "paper-3.1", "--count", "1"), "count = 1"),
+        (("study", "stiffness", "paper-3.1", "--count", "many"), "many"),
+        (("study", "stiffness", "paper-3.1", "--low", "1e9", "--high", "1e5"), "range"),
+        (("study", "stiffness", "paper-3.1", "--low", "nan"), "range"),
+        (("study", "stiffness", "paper-3.1", "--solver", "nobody"), "nobody"),
+        (("study", "stiffness", "paper-3.1", "--solver", "no.such:solver"), "no.such"),
+        (("study", "stiffness", "paper-3.1", "--workers", "0"), "workers"),
+        (("scenes", "paper-9.9"), "paper-9.9"),
+        (("view", "paper-9.9"), "paper-9.9"),
+        (("view", "nowhere.pvd", "--png", "a.png"), "nowhere.pvd"),
+        (("view", "paper-3.1", "--png", "a.gif"), ".png"),
+        (("view", "paper-3.1", "--time", "1"), "--png"),
+    ],
+)
+def test_a_mistake_on_the_command_line_is_one_sentence(hoop, arguments, told):
+    status, out, err = hoop(*arguments)
+    assert (status, out) == (2, "")
+    assert is_one_sentence(err)
+    assert told in err
+
+
+def test_a_folder_that_cannot_be_is_one_sentence_before_anything_is_computed(hoop, tmp_path):
+    (tmp_path / "file").write_text("in the way")
+    for verb in (("rigid", "paper-3.1"), ("study", "stiffness", "paper-3.1")):
+        status, out, err = hoop(*verb, "--out", tmp_path / "file")
+        assert (status, out) == (2, "")
+        assert is_one_sentence(err)
+        status, _, err = hoop(*verb, "--out", tmp_path / "file" / "below")
+        assert status == 2
+        assert is_one_sentence(err)
+    assert os.listdir(tmp_path) == ["file"]
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write anywhere")
+def test_a_read_only_folder_is_one_sentence(hoop, tmp_path):
+    tmp_path.chmod(0o500)
+    status, _, err = hoop("rigid", "paper-3.1", "--out", tmp_path)
+    tmp_path.chmod(0o700)
+    assert status == 2
+    assert is_one_sentence(err)
+    assert "permission" in err
+
+
+def test_a_file_that_outgrows_its_place_leaves_nothing_behind(tmp_path):
+    """A limit on the size of files stands in for a full disk: the write fails in the middle either way."""
+    limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (500, 500))  # noqa: E731
+    done = process("rigid", "paper-3.1", "--out", tmp_path, preexec_fn=limit)
+    assert done.returncode == 2
+    assert is_one_sentence(done.stderr)
+    assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+def test_a_full_disk_under_stdout_is_one_sentence():
+    with open("/dev/full", "w") as full:
+        options = {"capture_output": False, "stdout": full, "stderr": subprocess.PIPE}
+        done = process("rigid", "paper-3.1", "--json", **options)
+    assert done.returncode == 2
+    assert is_one_sentence(done.stderr)
+    assert "full" in done.stderr
+
+
+def test_a_reader_that_leaves_early_is_no_trouble():
+    line = " ".join(f"'{word}'" for word in command("rigid", "paper-3.1", "--json"))
+    done = subprocess.run(
+        ["sh", "-c", f"{line} | head -c 10"], env=environment(), capture_output=True, timeout=60
+    )
+    assert done.stderr == b""
+
+
+def test_the_rigid_command_imports_nothing_heavy():
+    code = (
+        "import sys; from studies.cli import run; run(['rigid', 'paper-3.1', '--json']); "
+        f"print([name for name in {HEAVY!r} if name in sys.modules], file=sys.stderr)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=environment(), capture_output=True, text=True, timeout=60
+    )
+    assert done.stderr.strip() == "[]"

@@ -1,0 +1,70 @@
+"""Rates and limits of sequences whose rate and limit are known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from studies.limits import limit_of, observed_rate, richardson
+
+S = np.geomspace(1e7, 1e13, 9)
+
+
+@pytest.mark.parametrize("p", [0.25, 1 / 3, 0.5, 1.0])
+def test_a_pure_power_gives_its_rate_and_limit(p):
+    y = 0.17 + 3e-2 * (S / S[0]) ** -p
+    rate = observed_rate(S, y - 0.17)
+    assert rate.value == pytest.approx(p, abs=1e-6)
+    limit, uncertainty, exponent = richardson(S, y)
+    assert exponent == pytest.approx(p, abs=1e-3)
+    assert abs(limit - 0.17) <= uncertainty
+    assert uncertainty < 1e-6  # four orders below the last distance, 3e-4 at the slowest rate
+    limit, uncertainty, _ = richardson(S, y, exponent=p)
+    assert limit == pytest.approx(0.17, abs=1e-12)
+
+
+def test_intervals_hold_the_truth_as_often_as_they_say():
+    """Sequences with a next term (rate 2/3) as large as a third of the first at the soft end, and noise of 1
+    %."""
+    random = np.random.default_rng(2009)
+    limits = rates = 0
+    for sign in [-1, 1] * 50:
+        x = S / S[0]
+        distance = sign * 0.02 * x ** (-1 / 3) * (1 + 0.33 * random.uniform(-1, 1) * x ** (-1 / 3))
+        error = 0.01 * np.abs(distance)
+        found = limit_of(S, 0.17 + distance + error * random.uniform(-1, 1, S.size), 0.17, error)
+        limits += found.rigid_inside
+        rates += found.rate_interval[0] <= 1 / 3 <= found.rate_interval[1]
+        assert (
+            found.uncertainty < 0.5 * found.distance
+        )  # extrapolating must have told more than the last case
+    # 95 of 100 is the level; 88 is two standard deviations below it
+    assert limits >= 88
+    assert rates >= 88
+
+
+def test_a_wrong_rigid_value_is_found_to_be_wrong():
+    found = limit_of(S, 0.17 + 1e-2 * (S / S[0]) ** (-1 / 3), 0.175)
+    assert not found.rigid_inside
+    assert found.error == pytest.approx(-0.005, abs=1e-5)
+
+
+def test_cases_that_are_all_numerical_error_say_nothing_of_the_rate():
+    distance = (S / S[0]) ** -1.0
+    noisy = np.where(S > 1e10, 1e-3, distance)
+    error = np.where(S > 1e10, 2e-3, 0.0)
+    assert observed_rate(S, noisy, error).value == pytest.approx(1.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("count", [0, 1, 2, 3])
+def test_too_few_cases_give_no_false_certainty(count):
+    found = limit_of(S[:count], (0.17 + S**-0.3)[:count], 0.17)
+    assert found.uncertainty == np.inf
+    if count < 4:
+        assert found.rate_interval == (-np.inf, np.inf)
+
+
+def test_a_measure_that_does_not_change_is_its_own_limit():
+    found = limit_of(S, np.full(S.size, 2.942), 2.942)
+    assert (found.value, found.uncertainty) == (2.942, 0.0)
+    assert found.rigid_inside

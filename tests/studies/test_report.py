@@ -1,0 +1,139 @@
+"""Figures and the page: what a browser shows of them."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from rigid import load_scene
+from studies import figures, history
+from studies.solvers import solver
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+QUIET = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    from studies import cli
+
+    out = tmp_path_factory.mktemp("study")
+    arguments = [
+        "study",
+        "stiffness",
+        "paper-3.3-massless",
+        "--solver",
+        "third_solver:softened",
+        "--workers",
+        "1",
+    ]
+    assert cli.run([*arguments, "--out", str(out)]) == 0
+    return out
+
+
+def pixels(path: Path) -> np.ndarray:
+    """An image as (height, width, 3) floats from 0 to 1."""
+    from matplotlib.image import imread
+
+    return imread(path)[..., :3]
+
+
+def test_the_folder_holds_table_figures_and_page(folder):
+    names = {path.name for path in folder.iterdir()}
+    assert {"study.json", "report.html", "pulse.png", "impulses.png", "distance.png", "study.sqlite"} <= names
+    assert not [name for name in names if name.startswith(".part")]
+
+
+@pytest.mark.parametrize("name", ["pulse", "impulses", "distance"])
+def test_a_figure_is_not_blank(folder, name):
+    image = pixels(folder / f"{name}.png")
+    assert image.shape[0] > 400
+    inked = (image < 0.9).any(axis=2)
+    assert 0.005 < inked.mean() < 0.6
+
+
+def test_the_page_needs_nothing_but_itself(folder):
+    page = (folder / "report.html").read_text()
+    assert not re.findall(r"""(?:src|href)\s*=\s*["'](?!data:)""", page)
+    assert "http" not in re.sub(r"data:[^\"]*", "", page)
+    for word in ("hoop study stiffness", "numpy", "[hoop]", "J_F/J_N", "numerical error"):
+        assert word in page
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium here to open the page in")
+def test_a_browser_shows_the_figures(folder, tmp_path):
+    """The page's own images, decoded by the browser, have a size; and the screenshot holds their ink."""
+    page = (folder / "report.html").read_text()
+    widths_of_images = "[...document.images].map(i => i.complete ? i.naturalWidth : 0).join(' ')"
+    probe = f"<script>onload = () => {{ document.title = {widths_of_images} }}</script></body>"
+    (tmp_path / "probe.html").write_text(page.replace("</body>", probe))
+    line = [CHROMIUM, *QUIET, f"--user-data-dir={tmp_path / 'profile'}"]
+    address = (tmp_path / "probe.html").as_uri()
+    dom = subprocess.run(
+        [*line, "--virtual-time-budget=5000", "--dump-dom", address],
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    widths = re.search(r"<title>([\d ]+)</title>", dom.stdout)
+    assert widths is not None, dom.stderr[-2000:]
+    assert len(widths[1].split()) >= 3
+    assert all(int(width) > 600 for width in widths[1].split())
+
+    shot = tmp_path / "page.png"
+    subprocess.run(
+        [*line, "--window-size=1100,3600", f"--screenshot={shot}", address], capture_output=True, timeout=120
+    )
+    image = pixels(shot)
+    blue = (np.abs(image - np.array([0x00, 0x72, 0xB2]) / 255) < 0.06).all(axis=2)
+    assert blue.sum() > 100  # the points and the line of the fitted rate
+    half = image.shape[0] // 2
+    assert (image[:half] < 0.5).any(axis=2).mean() > 0.003
+
+
+def test_a_history_is_straight_between_its_times():
+    """Between two of its times N and F of the history are straight to 2e-3 of their range."""
+    motion = solver("rigid")(load_scene("paper-3.3-massless"))
+    pulse = motion.pulses[0]
+    columns = history.through(motion, pulse)
+    t = columns["t"]
+    assert t[0] == pulse.t_start
+    assert t[-1] == pulse.t_end
+    middle = 0.5 * (t[1:] + t[:-1])[np.diff(t) > 1e-9]  # not across the jump of F at a change of phase
+    true = motion.at(middle)
+    for name in ("normal_force", "friction_force"):
+        off = np.abs(getattr(true, name) - np.interp(middle, t, columns[name]))
+        assert off.max() <= 2e-3 * np.ptp(columns[name])
+    assert columns["normal_impulse"][-1] == pytest.approx(pulse.normal_impulse, rel=1e-3)
+
+
+def test_the_energy_ledger_is_drawn_where_there_is_one():
+    t = np.linspace(0.0, 1.0, 50)
+    columns = {
+        "t": t,
+        "kinetic": 1 - t,
+        "gravity": 1 + 0 * t,
+        "friction_loss": t,
+        "ring_strain": 1e-3 * np.sin(3 * t) ** 2,
+    }
+    assert figures.energy(columns) is not None
+    assert figures.energy({"t": t, "phi": t}) is None
+
+
+def test_stiffness_is_written_as_people_write_it():
+    assert figures.power_of_ten(1e7) == "$10^{7}$"
+    assert figures.power_of_ten(3.16e8) == r"$3.2\cdot 10^{8}$"

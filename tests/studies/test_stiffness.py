@@ -1,0 +1,172 @@
+"""The ladder study, judged on a third solver whose limit and rate are known by construction."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+from third_solver import OFF, RATE
+
+from rigid import Friction as Coefficients
+from rigid import Hoop, Release, Scene, SceneError, load_scene
+from studies.case import SHARE
+from studies.files import StudyError
+from studies.ladder import Ladder
+from studies.stiffness import effective_mu_s, limit_scene, stiffness_study
+
+THIRD = "third_solver:softened"
+
+
+@pytest.fixture(scope="module")
+def study():
+    return stiffness_study(load_scene("paper-3.3-massless"), solver=THIRD)
+
+
+def test_the_ladder_has_at_least_eight_rungs_over_six_decades(study):
+    stiffness = [rung.contact_stiffness for rung in study.rungs]
+    assert len(stiffness) >= 8
+    assert stiffness[-1] / stiffness[0] == pytest.approx(1e6)
+    ratios = [rung.contact_stiffness / rung.bending_stiffness for rung in study.rungs]
+    assert ratios == pytest.approx([ratios[0]] * len(ratios))
+
+
+@pytest.mark.parametrize(
+    ("along", "moves"), [("contact", (True, False)), ("bending", (False, True)), ("both", (True, True))]
+)
+def test_the_ladder_raises_what_is_asked(along, moves):
+    scene = load_scene("paper-3.3-massless")
+    rungs = Ladder.around(scene, along, 1e3, 1e6, 4).rungs(scene)
+    contact = {rung.contact.stiffness for rung in rungs}
+    bending = {rung.ring.bending_stiffness for rung in rungs}
+    assert (len(contact) > 1, len(bending) > 1) == moves
+    assert max(bending if along == "bending" else contact) == pytest.approx(1e6)
+
+
+def test_every_case_is_resolved_to_a_tenth_of_its_distance(study):
+    """The third solver's error is its tolerance, so the tightening can be checked against the truth as
+    well."""
+    for rung in study.rungs:
+        assert rung.outcome.resolved
+        for name in ("impulse_ratio", "friction_loss"):
+            rigid = study.reference.pulses[0][name]
+            assert rung.error(name) <= SHARE * abs(rung.measure(name) - rigid)
+        exact = study.reference.pulses[0]["friction_loss"] * (1 - OFF * rung.contact_stiffness**-RATE)
+        assert abs(rung.measure("friction_loss") - exact) <= 1.001 * rung.error("friction_loss")
+
+
+def test_rate_and_limit_come_out(study):
+    for name in ("impulse_ratio", "friction_loss"):
+        limit = study.limits[name]
+        low, high = limit.rate_interval
+        assert low <= RATE <= high
+        assert limit.rigid_inside
+        assert abs(limit.error) < 0.2 * limit.distance
+
+
+def test_an_unreachable_tolerance_is_told_and_not_hidden(monkeypatch):
+    monkeypatch.setattr("studies.case.TIGHTEST", 1e-4)
+    scene = load_scene("paper-3.3-massless").replace(solve={"rtol": 1e-3})
+    study = stiffness_study(scene, Ladder("contact", 1e9, 1e14, 6), solver=THIRD)
+    assert not study.rungs[-1].outcome.resolved
+    assert study.rungs[0].outcome.resolved
+
+
+def test_effective_coefficient_of_the_brush():
+    assert effective_mu_s(0.35, 0.3) == pytest.approx(0.30247, abs=5e-6)  # PHYSICS, section 2.5
+    assert effective_mu_s(0.3, 0.3) == 0.3
+    # the largest F/N over all shares b, found by trying them
+    shares = [i / 10_000 for i in range(10_001)]
+    best = max(3 * 0.6 * (b**2 - b**3) + 0.2 * (1 - 3 * b**2 + 2 * b**3) for b in shares)
+    assert effective_mu_s(0.6, 0.2) == pytest.approx(best, abs=1e-7)
+
+
+def test_each_law_is_compared_with_the_rigid_hoop_it_should_become():
+    patch = load_scene("paper-3.3-massless")
+    brush = patch.replace(contact={"law": "brush"})
+    assert limit_scene(patch) == patch
+    assert limit_scene(brush).friction.mu_s == effective_mu_s(0.35, 0.3)
+    study = stiffness_study(brush, Ladder("contact", 1e8, 1e13, 6), solver=THIRD)
+    assert study.limits["impulse_ratio"].rigid == study.reference.pulses[0]["impulse_ratio"]
+    assert study.reference.pulses[0]["impulse_ratio"] != study.rigid.pulses[0]["impulse_ratio"]
+    assert study.limits["impulse_ratio"].rigid_inside
+
+
+def test_json_is_the_contract(hoop):
+    status, out, err = hoop(
+        "study", "stiffness", "paper-3.3-massless", "--solver", THIRD, "--workers", 1, "--json"
+    )
+    assert (status, err) == (0, "")
+    found = json.loads(out, parse_constant=lambda word: pytest.fail(f"{word} is not JSON"))
+    assert {"rigid", "cases", "limit"} <= set(found)
+    for case in found["cases"]:
+        asked = """
+            bending_stiffness contact_stiffness numerical_error normal_impulse friction_impulse impulse_ratio
+            impulse_ratio_over_mu friction_loss damping_loss peak_normal_force time_off_floor ring_energy_peak
+            newton_restitution poisson_restitution energetic_restitution phases
+        """
+        assert set(asked.split()) <= set(case)
+    for name in ("impulse_ratio", "friction_loss"):
+        assert {"value", "uncertainty", "rate", "rate_interval"} <= set(found["limit"][name])
+
+
+def test_the_table_names_every_rung_and_the_limit(hoop):
+    status, out, _ = hoop(
+        "study",
+        "stiffness",
+        "paper-3.3-massless",
+        "--solver",
+        THIRD,
+        "--workers",
+        1,
+        "--count",
+        5,
+        "--law",
+        "brush",
+    )
+    assert status == 0
+    for word in ("1e+07", "1e+13", "rigid", "Limit", "mu_eff = 0.30247"):
+        assert word in out
+
+
+def test_failing_rungs_are_told_and_the_rest_is_used(hoop):
+    status, out, _ = hoop(
+        "study",
+        "stiffness",
+        "paper-3.3-massless",
+        "--solver",
+        "third_solver:failing",
+        "--workers",
+        1,
+        "--json",
+    )
+    assert status == 1
+    found = json.loads(out)
+    assert ["failure" in case for case in found["cases"]] == [False] * 5 + [True] * 4
+    assert found["limit"]["impulse_ratio"]["value"] is not None
+
+
+def test_when_no_rung_comes_through_it_is_one_sentence():
+    with pytest.raises(StudyError, match="no step could be found"):
+        stiffness_study(
+            load_scene("paper-3.3-massless"), Ladder("contact", 1e11, 1e13, 3), solver="third_solver:failing"
+        )
+
+
+def test_a_scene_without_a_pulse_is_one_sentence():
+    calm = Scene(Hoop(k=0.75), Coefficients(2.0, 2.0), Release(phi0=3.1))
+    with pytest.raises(StudyError, match="no pulse"):
+        stiffness_study(calm.replace(run={"t_end": 0.01}), solver=THIRD, all_pulses=True)
+
+
+def test_bad_ladders():
+    for low, high, count in ((1.0, 1.0, 5), (-1.0, 1.0, 5), (1.0, float("inf"), 5), (1.0, 2.0, 1)):
+        with pytest.raises(SceneError):
+            Ladder("both", low, high, count)
+
+
+def test_finished_rungs_are_found_again(tmp_path):
+    scene, ladder = load_scene("paper-3.3-massless"), Ladder("contact", 1e8, 1e11, 4)
+    first = stiffness_study(scene, ladder, solver=THIRD, out=tmp_path)
+    again = stiffness_study(scene, ladder, solver=THIRD, out=tmp_path)
+    assert [rung.outcome.seconds for rung in again.rungs] == [rung.outcome.seconds for rung in first.rungs]
+    assert json.dumps(again.to_dict()) == json.dumps(first.to_dict())

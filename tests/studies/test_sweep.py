@@ -1,0 +1,325 @@
+"""Sweeps: the product of what a file lists, safe against everything that can happen to a long run."""
+
+from __future__ import annotations
+
+import json
+import os
+import resource
+import signal
+import sqlite3
+import subprocess
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from command_line import SCENE, command, environment, is_one_sentence, process
+
+from rigid import SceneError, load_scene, scene_from_dict, scene_to_dict
+from studies.case import Case, run_case
+from studies.files import StudyError
+from studies.store import Store
+from studies.sweep import load_sweep, run_sweep, sweep_from_dict
+from studies.workers import Here, pool
+
+KS = "[0.1, 0.15, 0.2, 0.25, 0.3, 0.35]"
+
+
+def sweep_file(folder: Path, solvers: str = "['rigid', 'third_solver:softened']", **lists: str) -> Path:
+    """A sweep over k (six values) and whatever else is given as ``hoop__r="[1.0, 1.02]"``."""
+    text = SCENE.format(k=lists.pop("k", KS)) + f"[sweep]\nsolvers = {solvers}\n"
+    for name, values in lists.items():
+        part, key = name.split("__")
+        text = (
+            text.replace(f"[{part}]\n", f"[{part}]\n{key} = {values}\n")
+            if f"[{part}]" in text
+            else text + f"[{part}]\n{key} = {values}\n"
+        )
+    file = folder / "many.toml"
+    file.write_text(text)
+    return file
+
+
+def wait_for_rows(folder: Path, count: int) -> None:
+    """Wait until a running sweep has kept so many cases."""
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        if (folder / "study.sqlite").exists() and len(Store(folder).done()) >= count:
+            return
+        time.sleep(0.05)
+    raise AssertionError(f"no {count} rows within a minute")
+
+
+def test_every_combination_is_a_row_for_each_solver(hoop, tmp_path):
+    file = sweep_file(tmp_path, k="[0.1, 0.25]", contact__stiffness="[1e8, 1e9, 1e10]")
+    status, out, err = hoop("study", "sweep", file, "--out", tmp_path / "out", "--workers", 1, "--json")
+    assert (status, err) == (0, "")
+    rows = json.loads(out)["rows"]
+    assert len(rows) == 2 * 3 * 2
+    seen = [(row["hoop.k"], row["contact.stiffness"], row["solver"]) for row in rows]
+    assert seen == [
+        (k, s, w) for k in (0.1, 0.25) for s in (1e8, 1e9, 1e10) for w in ("rigid", "third_solver:softened")
+    ]
+    rigid = {row["impulse_ratio"] for row in rows if row["solver"] == "rigid" and row["hoop.k"] == 0.1}
+    assert len(rigid) == 1  # the rigid hoop does not look at the contact
+    third = [row["impulse_ratio"] for row in rows if row["solver"] != "rigid" and row["hoop.k"] == 0.1]
+    assert third[0] > third[1] > third[2] > rigid.pop()
+
+
+def test_the_table_is_a_data_frame_and_a_csv_of_the_same_numbers(tmp_path):
+    pandas = pytest.importorskip("pandas")
+    table = run_sweep(load_sweep(sweep_file(tmp_path, k="[0.1, 0.25]")), Here())
+    frame = table.to_dataframe()
+    assert list(frame["hoop.k"]) == [0.1, 0.1, 0.25, 0.25]
+    (tmp_path / "table.csv").write_text(table.to_csv())
+    read = pandas.read_csv(tmp_path / "table.csv", dtype={"friction_loss": str})
+    assert [float(text) for text in read["friction_loss"]] == list(frame["friction_loss"])
+
+
+def test_a_base_scene_by_name():
+    sweep = sweep_from_dict(
+        {"sweep": {"scene": "paper-3.1", "solvers": "rigid"}, "friction": {"mu": [0.2, 0.3]}}
+    )
+    assert sweep.keys == ("friction.mu",)
+    assert [scene.friction.mu for _, scene in sweep.points] == [0.2, 0.3]
+    assert sweep.points[1][1] == scene_from_dict(scene_to_dict(load_scene("paper-3.1")))
+
+
+def test_a_case_that_fails_is_a_row_with_its_reason(hoop, tmp_path):
+    file = sweep_file(
+        tmp_path,
+        "['third_solver:failing']",
+        k="[0.1]",
+        contact__stiffness="[1e9, 1e11]",
+        friction__mu_s="[0.2, 0.35]",
+    )
+    file.write_text(file.read_text().replace("mu_s = 0.35\n", ""))
+    status, out, err = hoop("study", "sweep", file, "--out", tmp_path / "out", "--workers", 1, "--json")
+    assert status == 1
+    assert "3 of 4" in err
+    rows = {(row["friction.mu_s"], row["contact.stiffness"]): row for row in json.loads(out)["rows"]}
+    assert rows[0.35, 1e9]["failure"] == ""
+    assert "no step could be found at t = 4.2" in rows[0.35, 1e11]["failure"]
+    assert "friction.mu = 0.3" in rows[0.2, 1e9]["failure"]  # mu > mu_s: this scene cannot be
+    assert rows[0.35, 1e11]["impulse_ratio"] is None
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("[hoop]\nk = [0.1]\n[sweep]\nsolvers = ['nobody']", "nobody"),
+        ("[hoop]\nk = [0.1]\n[sweep]\nworkers = 3", "sweep.workers"),
+        ("[hoop]\nk = []\n[friction]\nmu = 1\nmu_s = 1\n[release]\nphi0_deg = 1", "hoop.k"),
+        ("[hoop]\nkk = [0.1]\n[friction]\nmu = 1\nmu_s = 1\n[release]\nphi0_deg = 1", "hoop.kk"),
+        ("[hoop]\nk = [1.5, 2]\n[friction]\nmu = 1\nmu_s = 1\n[release]\nphi0_deg = 1", "hoop.k = 1.5"),
+        ("[hoop]\nk = [0.1]", "missing"),
+        ("[hoop", "TOML"),
+        ("hoop = [1, 2]", "table"),
+    ],
+)
+def test_a_bad_sweep_is_one_sentence(hoop, tmp_path, text, told):
+    (tmp_path / "many.toml").write_text(text)
+    status, out, err = hoop("study", "sweep", tmp_path / "many.toml", "--out", tmp_path / "out")
+    assert (status, out) == (2, "")
+    assert is_one_sentence(err)
+    assert told in err
+
+
+def test_one_key_for_one_scene():
+    data = {"hoop": {"k": 0.5}, "friction": {"mu_s": 1, "mu": 1}, "release": {"phi0_deg": 10}}
+    one = Case("rigid", scene_from_dict(data))
+    data["friction"] = {"mu_s": 1.0, "mu": 1.0}
+    assert Case("rigid", scene_from_dict(data)).key == one.key
+    data["hoop"] = {"k": 0.5000000000000001}
+    others = [
+        Case("rigid", scene_from_dict(data)),
+        Case("flexible", one.scene),
+        Case("rigid", one.scene, (("peak", 1.0),)),
+    ]
+    assert len({one.key, *(other.key for other in others)}) == 4
+
+
+def test_a_result_of_another_version_is_not_taken_for_ours(monkeypatch):
+    case = Case("rigid", load_scene("paper-3.1"))
+    before = case.key
+    monkeypatch.setattr("studies.case.version", lambda: "99.0")
+    assert case.key != before
+
+
+def test_the_store_gives_back_what_it_was_given(tmp_path):
+    outcome = run_case(Case("third_solver:softened", load_scene("paper-3.1"), histories=True))
+    store = Store(tmp_path)
+    store.add(outcome)
+    back = Store(tmp_path).get(outcome.key)
+    assert back is not None
+    assert back.pulses == outcome.pulses
+    assert back.motion == outcome.motion
+    assert len(back.histories) == len(outcome.histories) > 0
+    for mine, theirs in zip(outcome.histories, back.histories, strict=True):
+        assert all(np.array_equal(mine[name], theirs[name]) for name in mine)
+
+
+def test_a_row_is_never_there_without_its_arrays(tmp_path, monkeypatch):
+    """The process dies between the arrays and the row, or in the middle of the arrays."""
+    outcome = run_case(Case("rigid", load_scene("paper-3.1"), histories=True))
+    store = Store(tmp_path)
+
+    def die(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    for moment in ("os.replace", "sqlite3.connect"):
+        monkeypatch.setattr(moment, die)
+        with pytest.raises(KeyboardInterrupt):
+            store.add(outcome)
+        monkeypatch.undo()
+        assert store.get(outcome.key) is None
+        assert [path for path in (tmp_path / "histories").iterdir() if path.name.startswith(".part")] == []
+    store.add(outcome)
+    assert store.get(outcome.key) is not None
+
+
+def test_a_file_that_is_no_study_is_one_sentence(hoop, tmp_path):
+    (tmp_path / "study.sqlite").write_text(
+        "not a database, though it has the name of one, and is long enough to tell" * 20
+    )
+    status, _, err = hoop("study", "sweep", sweep_file(tmp_path), "--out", tmp_path, "--workers", 1)
+    assert status == 2
+    assert is_one_sentence(err)
+    assert "study.sqlite" in err
+
+
+def test_a_full_disk_is_one_sentence_and_the_rest_is_kept(tmp_path):
+    """A limit on the size of files stands in for the disk: SQLite's file reaches it after some rows."""
+    file = sweep_file(tmp_path, "['rigid']", k=str([round(0.1 + 0.005 * i, 3) for i in range(60)]))
+    out = tmp_path / "out"
+    limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))  # noqa: E731
+    done = process("study", "sweep", file, "--out", out, "--workers", 1, preexec_fn=limit)
+    assert done.returncode == 2
+    assert is_one_sentence(done.stderr)
+    kept = len(Store(out).done())
+    assert 0 < kept < 60
+    again = process("study", "sweep", file, "--out", out, "--workers", 1)
+    assert again.returncode == 0
+    assert len(Store(out).done()) == 60
+
+
+def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(tmp_path):
+    file = sweep_file(tmp_path, "['third_solver:slow']")
+    out = tmp_path / "out"
+    line = command("study", "sweep", file, "--out", out, "--workers", 2)
+    running = subprocess.Popen(
+        line, env=environment(), stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+    wait_for_rows(out, 1)
+    os.killpg(running.pid, signal.SIGINT)  # as a terminal does: to the workers too
+    _, err = running.communicate(timeout=30)
+    assert running.returncode == 130
+    assert is_one_sentence(err)
+    assert 1 <= len(Store(out).done()) < 6
+    assert process("study", "sweep", file, "--out", out, "--workers", 1).returncode == 0
+    assert_same_as_undisturbed(file, out, tmp_path)
+
+
+def assert_same_as_undisturbed(file: Path, out: Path, tmp_path: Path) -> None:
+    """The table in ``out`` is, to the byte, that of the same sweep run at once."""
+    calm = tmp_path / "undisturbed"
+    done = process(
+        "study", "sweep", file, "--out", calm, "--workers", 1, env=environment(HOOP_TEST_MARK=str(file))
+    )
+    assert done.returncode == 0
+    assert (calm / "table.csv").read_bytes() == (out / "table.csv").read_bytes()
+
+
+def test_kill_9_loses_no_finished_case_and_leaves_no_worker_behind(tmp_path):
+    file = sweep_file(tmp_path, "['third_solver:slow']")
+    file.write_text(file.read_text() + "histories = true\n")
+    out = tmp_path / "out"
+    line = command("study", "sweep", file, "--out", out, "--workers", 2)
+    running = subprocess.Popen(line, env=environment(), start_new_session=True)
+    wait_for_rows(out, 2)
+    running.kill()
+    running.wait(timeout=30)
+    deadline = time.monotonic() + 20
+    while alive(running.pid):
+        assert time.monotonic() < deadline, "a worker outlived the sweep"
+        time.sleep(0.1)
+    kept = Store(out).done()
+    assert len(kept) >= 2
+    for key in kept:
+        found = Store(out).get(key)
+        assert found is not None
+        assert len(found.histories) == len(found.pulses)
+    assert process("study", "sweep", file, "--out", out, "--workers", 1).returncode == 0
+    assert kept <= Store(out).done()
+    assert_same_as_undisturbed(file, out, tmp_path)
+
+
+def alive(group: int) -> bool:
+    """Whether any process of the group still runs (a dead one that nobody has waited for does not count)."""
+    for entry in Path("/proc").glob("[0-9]*/stat"):
+        try:
+            fields = entry.read_text().rpartition(")")[2].split()
+        except OSError:
+            continue
+        if int(fields[2]) == group and fields[0] != "Z":
+            return True
+    return False
+
+
+def test_two_runs_in_one_folder_agree(tmp_path):
+    file = sweep_file(tmp_path)
+    out = tmp_path / "out"
+    line = command("study", "sweep", file, "--out", out, "--workers", 1)
+    both = [subprocess.Popen(line, env=environment(), stderr=subprocess.PIPE, text=True) for _ in range(2)]
+    for running in both:
+        _, err = running.communicate(timeout=60)
+        assert (running.returncode, err) == (0, "")
+    with sqlite3.connect(out / "study.sqlite") as connection:
+        assert connection.execute("PRAGMA integrity_check").fetchone() == ("ok",)
+    assert len(Store(out).done()) == 12
+    assert_same_as_undisturbed(file, out, tmp_path)
+
+
+def test_a_case_that_kills_its_worker_takes_no_other_with_it(tmp_path):
+    sweep = load_sweep(sweep_file(tmp_path, "['third_solver:deadly']"))
+    with pool(2) as place:
+        table = run_sweep(sweep, place)
+    reasons = {row.values["hoop.k"]: row.outcome.failure for row in table.rows}
+    assert "died" in reasons.pop(0.3)
+    assert set(reasons.values()) == {""}
+
+
+def test_an_unreachable_scheduler_is_one_sentence(hoop, tmp_path):
+    pytest.importorskip("distributed")
+    for address in ("nonsense", "carrier-pigeon://loft"):
+        status, _, err = hoop(
+            "study", "sweep", sweep_file(tmp_path), "--out", tmp_path / "out", "--scheduler", address
+        )
+        assert status == 2
+        assert is_one_sentence(err)
+
+
+def test_a_cluster_that_loses_a_worker_gives_the_same_table(tmp_path, monkeypatch):
+    """A real cluster of two worker processes; the first that gets k = 0.3 is killed under it."""
+    distributed = pytest.importorskip("distributed")
+    mark = tmp_path / "died"
+    monkeypatch.setenv("HOOP_TEST_MARK", str(mark))
+    for name, value in environment().items():
+        monkeypatch.setenv(name, value)
+    file = sweep_file(tmp_path, "['third_solver:deadly_once']")
+    cluster = distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+    )
+    with cluster:
+        line = ("study", "sweep", file, "--out", tmp_path / "out", "--scheduler", cluster.scheduler_address)
+        done = process(*line, env=environment(HOOP_TEST_MARK=str(mark)))
+    assert done.returncode == 0, done.stderr
+    assert mark.exists()
+    assert_same_as_undisturbed(file, tmp_path / "out", tmp_path)
+
+
+def test_nothing_that_can_be_run_is_said_at_once():
+    with pytest.raises(SceneError, match=r"hoop\.k"):
+        sweep_from_dict({"sweep": {"scene": "paper-3.1"}, "hoop": {"k": [1.5, 2.0]}})
+    with pytest.raises((StudyError, SceneError), match="nobody"):
+        sweep_from_dict({"sweep": {"scene": "paper-3.1", "solvers": ["nobody"]}})
