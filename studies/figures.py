@@ -16,13 +16,16 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from .files import write_whole
-from .history import Columns
+from .history import Columns, dimensionless
 from .limits import CONFIDENCE, Limit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .stiffness import Rung, StiffnessStudy
+
+Curve = tuple[str, Columns, Any]
+"""A curve through a pulse: its label, its time histories, its colour."""
 
 STYLE: Any = {
     "figure.dpi": 110,
@@ -83,9 +86,7 @@ def power_of_ten(value: float) -> str:
     return f"$10^{{{exponent}}}$" if abs(mantissa - 1) < 0.02 else f"${mantissa:.2g}\\cdot 10^{{{exponent}}}$"
 
 
-def pulse(
-    curves: Sequence[tuple[str, Columns, str | tuple[float, ...]]], mu: float, title: str = ""
-) -> Figure:
+def pulse(curves: Sequence[Curve], title: str = "") -> Figure:
     """N, F and slip velocity over time through a pulse, one line for each ``(label, columns, colour)``."""
     with matplotlib.rc_context(STYLE):
         figure = _figure(8.0, 8.2)
@@ -109,7 +110,8 @@ def pulse(
         for axes in rows[1:]:
             axes.axhline(0, color="0.6", linewidth=0.8)
         figure.suptitle(title)
-        figure.legend(*rows[0].get_legend_handles_labels(), loc="outside right upper", title="foundation")
+        if len(curves) > 1:
+            figure.legend(*rows[0].get_legend_handles_labels(), loc="outside right upper", title="foundation")
         return figure
 
 
@@ -127,9 +129,7 @@ def _robust_limits(axes: Axes, values: list[np.ndarray], floor: bool = False) ->
         axes.set_ylim(0.0 if floor and low >= -pad else low - pad, high + pad)
 
 
-def impulses(
-    curves: Sequence[tuple[str, Columns, str | tuple[float, ...]]], mu: float, mu_s: float
-) -> Figure:
+def impulses(curves: Sequence[Curve], mu: float) -> Figure:
     """The pulse in impulse space: gathered friction impulse against gathered normal impulse.
 
     A slope of mu is skidding's opposite, spinning; -mu is skidding; anything flatter is rolling.
@@ -184,8 +184,9 @@ def distances(study: StiffnessStudy) -> Figure:
             figure.subplots(1, 2), names, ("#0072B2", "#D55E00"), strict=True
         ):
             limit = study.limits[name]
-            distance = np.abs([rung.measure(name) - limit.rigid for rung in through])
-            error = np.array([rung.error(name) for rung in through])
+            unit = study.scene.energy_unit if name == "friction_loss" else 1.0
+            distance = np.abs([rung.measure(name) - limit.rigid for rung in through]) / unit
+            error = np.array([rung.error(name) for rung in through]) / unit
             shown = np.where(distance > 0, distance, np.nan)
             axes.errorbar(
                 s,
@@ -213,7 +214,7 @@ def distances(study: StiffnessStudy) -> Figure:
                     label=_rate_words(limit),
                 )
             axes.set(xscale="log", yscale="log", xlabel=study.ladder.label, title=words)
-            axes.legend(loc="lower left", fontsize=8)
+            axes.legend(loc="upper right", fontsize=8)
         figure.axes[0].set_ylabel("distance to the rigid value")
         return figure
 
@@ -274,19 +275,21 @@ def chosen(rungs: Sequence[Rung], most: int = 5) -> list[Rung]:
 def of_study(study: StiffnessStudy) -> dict[str, Figure]:
     """All figures of a stiffness study by name."""
     rungs = chosen(study.rungs)
-    rigid = ("rigid", study.reference.histories[0], RIGID)
-    curves = [
-        (power_of_ten(r.contact_stiffness), r.outcome.histories[0], c)
-        for r, c in zip(rungs, colours(len(rungs)), strict=True)
+    through = [dimensionless(rung.outcome.histories[0], study.scene) for rung in rungs]
+    curves: list[Curve] = [
+        (power_of_ten(rung.contact_stiffness), columns, colour)
+        for rung, columns, colour in zip(rungs, through, colours(len(rungs)), strict=True)
     ]
+    curves.append(("rigid", dimensionless(study.reference.histories[0], study.scene), RIGID))
     mu = study.scene.friction.mu
     drawn = {
-        "pulse": pulse([*curves, rigid], mu, "Through the first pulse"),
-        "impulses": impulses([*curves, rigid], mu, study.reference_mu_s),
+        "pulse": pulse(curves, "Through the first pulse"),
+        "impulses": impulses(curves, mu),
         "distance": distances(study),
     }
-    for rung in (rungs[:1] and [rungs[len(rungs) // 2]]) or []:
-        words = f"Where the energy is, foundation {power_of_ten(rung.contact_stiffness)}"
-        if (ledger := energy(rung.outcome.histories[0], words)) is not None:
+    if rungs:
+        middle = len(rungs) // 2
+        words = f"Where the energy is, foundation {power_of_ten(rungs[middle].contact_stiffness)}"
+        if (ledger := energy(through[middle], words)) is not None:
             drawn["energy"] = ledger
     return drawn

@@ -11,10 +11,22 @@ from math import ceil, floor, pi
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Motion, Pulse
+from rigid import Motion, Pulse, Scene
 
 Array = NDArray[np.float64]
 Columns = dict[str, Array]
+
+ENERGIES = (
+    "energy",
+    "kinetic",
+    "gravity",
+    "ring_strain",
+    "contact_spring",
+    "friction_loss",
+    "damping_loss",
+    "numerical_loss",
+)
+"""Columns that are energies."""
 
 
 def through(motion: Motion, pulse: Pulse) -> Columns:
@@ -44,6 +56,21 @@ def whole(motion: Motion) -> Columns:
     if own is not None:
         return own
     return at(motion, times(motion, 0.0, motion.t_end, *(bottom(motion, pulse) for pulse in motion.pulses)))
+
+
+def dimensionless(columns: Columns, scene: Scene) -> Columns:
+    """Columns in the paper's scaling, whatever the units of the scene; angles and shares stay as they are."""
+    units = {
+        "t": scene.time_unit,
+        "omega": 1 / scene.time_unit,
+        "normal_impulse": scene.impulse_unit,
+        "friction_impulse": scene.impulse_unit,
+        **dict.fromkeys(("x_C", "y_C", "patch_length"), scene.hoop.R),
+        **dict.fromkeys(("slip_velocity", "approach_velocity"), scene.velocity_unit),
+        **dict.fromkeys(("normal_force", "friction_force"), scene.force_unit),
+        **dict.fromkeys(ENERGIES, scene.energy_unit),
+    }
+    return {name: values / units.get(name, 1.0) for name, values in columns.items()}
 
 
 def own_steps(motion: Motion) -> Columns | None:

@@ -88,7 +88,7 @@ class Table:
 
     def to_dataframe(self) -> pandas.DataFrame:
         """The table as a pandas data frame."""
-        import pandas  # type: ignore[import-untyped]
+        import pandas
 
         return pandas.DataFrame.from_records(self.records())
 

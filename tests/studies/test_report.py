@@ -14,6 +14,7 @@ from rigid import load_scene
 from studies import figures, history
 from studies.solvers import solver
 
+SCENE = load_scene("paper-3.3-massless")
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 QUIET = [
     "--headless",
@@ -107,7 +108,7 @@ def test_a_browser_shows_the_figures(folder, tmp_path):
 
 def test_a_history_is_straight_between_its_times():
     """Between two of its times N and F of the history are straight to 2e-3 of their range."""
-    motion = solver("rigid")(load_scene("paper-3.3-massless"))
+    motion = solver("rigid")(SCENE)
     pulse = motion.pulses[0]
     columns = history.through(motion, pulse)
     t = columns["t"]
@@ -119,6 +120,24 @@ def test_a_history_is_straight_between_its_times():
         off = np.abs(getattr(true, name) - np.interp(middle, t, columns[name]))
         assert off.max() <= 2e-3 * np.ptp(columns[name])
     assert columns["normal_impulse"][-1] == pytest.approx(pulse.normal_impulse, rel=1e-3)
+
+
+def test_a_scene_in_si_units_draws_the_same_curves():
+    """A hoop of 0.3 m and 2 kg: the same numbers as R = m = g = 1 once divided by R, m and g."""
+    curves = []
+    for scene in (SCENE, SCENE.replace(hoop={"R": 0.3, "m": 2.0, "g": 9.81})):
+        motion = solver("rigid")(scene)
+        columns = history.through(motion, motion.pulses[0])
+        curves.append(
+            (history.dimensionless(columns, scene), motion.pulses[0].friction_loss / scene.energy_unit)
+        )
+    (one, loss), (other, other_loss) = curves
+    assert other_loss == pytest.approx(loss, rel=1e-9)
+    for name in ("normal_force", "friction_impulse", "slip_velocity", "energy", "omega"):
+        grid = np.linspace(0.0, one["t"][-1] - one["t"][0], 50)
+        mine = np.interp(grid, one["t"] - one["t"][0], one[name])
+        theirs = np.interp(grid, other["t"] - other["t"][0], other[name])
+        assert theirs == pytest.approx(mine, abs=5e-3 * np.ptp(one[name])), name  # as fine as both are drawn
 
 
 def test_the_energy_ledger_is_drawn_where_there_is_one():
