@@ -69,10 +69,11 @@ def limits(shots: list[Shot], field: str, signed: bool) -> tuple[float, float]:
 
 
 def scale_of(curves: Curves, shots: list[Shot]) -> Mapping[str, float]:
-    """Largest force and slip velocity of the run, for the lengths of the arrows."""
+    """Largest force and slip velocity of the run, and the usual force if far below: for the arrows."""
     force = np.hypot(curves.normal_force, curves.friction_force)
     slip = [abs(shot.slip_velocity) for shot in shots if shot.slip_velocity is not None]
     return {
         "force": float(np.nanmax(force)) if len(force) else 0.0,
         "slip": max(slip, default=0.0),
+        "usual": curves.usual or 0.0,
     }

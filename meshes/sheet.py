@@ -94,7 +94,8 @@ class Sheet:
         words, band = looks.PHASES.get(kind, (kind, looks.PAPER)) if kind else ("", looks.PAPER)
         self._phase.set_text(words)
         self._phase.set_bbox({"facecolor": band, "edgecolor": "none", "pad": 0.25 * self.type})
-        self._force.set_text("" if not shot.normal_force else "↑ contact force")
+        how = "" if self.curves.usual is None else " (log)"
+        self._force.set_text("" if not shot.normal_force else f"↑ contact force{how}")
         self._slip.set_text("" if not shot.slip_velocity else "→ slip velocity")
         rigid = "displacement" not in shot.ring.point_data
         self._factor.set_text("" if rigid else f"deformation × {factor:g}")
@@ -104,6 +105,20 @@ class Sheet:
         for artist in self._moving:
             (artist.axes or self.figure).draw_artist(artist)
         return np.array(np.asarray(self.canvas.buffer_rgba())[..., :3])
+
+    def _logarithmic(self, axes: Any, usual: float, low: float, high: float) -> None:
+        """An axis that is linear about zero and logarithmic beyond the usual force."""
+        from matplotlib.ticker import NullLocator
+
+        axes.set_yscale("symlog", linthresh=usual)
+        room = 0.3 * usual
+        axes.set_ylim(3 * low if low < -usual else low - room, 3 * high if high > usual else high + room)
+        decades = 10.0 ** np.arange(np.ceil(np.log10(usual)), np.ceil(np.log10(max(high, -low, 2 * usual))))
+        decades = decades[-1:] if low < -usual else decades[-1::-2]
+        ticks = np.concatenate([-decades, [0.0], decades])
+        axes.set_yticks(ticks[(ticks >= min(low, 0.0)) & (ticks <= max(high, 0.0))], minor=False)
+        axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        axes.yaxis.set_minor_locator(NullLocator())
 
     def note(self, text: str) -> None:
         """Print a line in the middle above the picture, on every page from now on."""
@@ -166,12 +181,14 @@ class Sheet:
             low, high = float(np.nanmin(values)), float(np.nanmax(values))
             room = 0.12 * ((high - low) or 1.0)
             axes.set_ylim(min(low, 0.0) - room, max(high, 0.0) + room)
+            axes.locator_params(axis="y", nbins=3)
+            if curves.usual is not None:
+                self._logarithmic(axes, curves.usual, low, high)
             for side in ("top", "right"):
                 axes.spines[side].set_visible(False)
             for side in ("left", "bottom"):
                 axes.spines[side].set_color(looks.FAINT)
             axes.tick_params(labelsize=0.85 * self.type, color=looks.FAINT, labelcolor=looks.INK, length=3)
-            axes.locator_params(axis="y", nbins=3)
             if row == 0:
                 axes.tick_params(labelbottom=False)
             else:

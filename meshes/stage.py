@@ -59,7 +59,8 @@ class Stage:
     colours : Colours or None
         None for a ring of one colour.
     largest : mapping
-        Largest "force" and "slip" of the run: they are drawn 0.7 and 0.5 radii long.
+        Largest "force" and "slip" of the run: they are drawn 0.7 and 0.5 radii long. With a "usual" force,
+        lengths of forces go by the logarithm beyond it.
     off_screen : bool
         True for pictures, False for a window.
     """
@@ -184,6 +185,9 @@ class Stage:
         ):
             largest = self.largest.get(name, 0.0)
             scaled = vector * (reach / largest) if largest > 0 else 0.0 * vector
+            usual, length = self.largest.get("usual", 0.0), float(np.hypot(*vector))
+            if name == "force" and usual > 0 and length > 0:
+                scaled = vector * (reach / length * np.arcsinh(length / usual) / np.arcsinh(largest / usual))
             points = _arrow(tail, scaled, 0.014 * R)
             inked, halo = self._arrows[name]
             inked.points, halo.points = _at(points, "arrow"), _at(points, "halo")

@@ -48,6 +48,12 @@ class Curves:
     friction_force: Array
     phases: tuple[tuple[str, float, float], ...] = ()
 
+    @cached_property
+    def usual(self) -> float | None:
+        """Median of the normal force if the pulses dwarf it, so that only a logarithm shows both; or None."""
+        usual = float(np.median(self.normal_force)) if len(self.t) else 0.0
+        return usual if usual > 0 and np.nanmax(self.normal_force) > 12 * usual else None
+
     def phase(self, time: float) -> str | None:
         """The kind of phase at ``time``, or None."""
         for kind, start, stop in self.phases:
@@ -166,14 +172,28 @@ class MotionSubject:
         start, stop = self.span
         for phase in self.motion.phases:
             duration = phase.t_end - phase.t_start
-            if duration > 0:
+            inside = max(1e-9 * duration, 4 * float(np.spacing(phase.t_end)))  # a phase may be that short
+            ends = phase.t_start + inside, phase.t_end - inside
+            if ends[0] < ends[1]:
                 count = max(40, round(900 * duration / (stop - start)))
-                inside = 1e-9 * duration
-                times.append(np.linspace(phase.t_start + inside, phase.t_end - inside, count))
+                within = [np.linspace(*ends, count)]
+                for pulse in self.motion.pulses:
+                    peak = self._peaked(pulse.t_start, pulse.t_end)
+                    within.append(peak[(peak > ends[0]) & (peak < ends[1])])
+                times.append(np.unique(np.concatenate(within)))
         t = np.concatenate(times) if times else np.empty(0)
         states = self.motion.at(t)
         phases = tuple((str(p.kind), p.t_start, p.t_end) for p in self.motion.phases)
         return Curves(t, states.normal_force, states.friction_force, phases)
+
+    def _peaked(self, start: float, stop: float) -> Array:
+        """Times of a pulse, ever denser toward its peak, which may be a millionth of it wide."""
+        times = np.linspace(start, stop, 200)
+        for _ in range(6):
+            top = int(np.argmax(self.motion.at(times).normal_force))
+            around = np.linspace(times[max(top - 1, 0)], times[min(top + 1, len(times) - 1)], 20)
+            times = np.unique(np.concatenate([times, around]))
+        return times
 
     @cached_property
     def _parts(self) -> tuple[AnyArray, Array, float, float]:

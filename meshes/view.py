@@ -30,6 +30,7 @@ from .series import Series
 from .sheet import Sheet
 from .stage import Colours, Stage
 from .subject import Shot, Subject, subject_of
+from .times import frame_times
 
 Image = NDArray[np.uint8]
 Progress = Callable[[int, int], None]
@@ -78,7 +79,7 @@ def setting(
         stored = first.ring.field_data.get("display_factor")
         factor = tidy_factor(shots, 0.06 / zoom) if stored is None else float(stored[0])
     x = [float(shot.centre[0]) for shot in shots]
-    reach = (min(x) - 1.2 * first.radius, max(x) + 1.2 * first.radius)
+    reach = (min(x) - 1.7 * first.radius, max(x) + 1.2 * first.radius)  # on the left there is text
     return Setting(subject, first, colours, factor, dict(scale_of(subject.curves, shots)), reach, zoom)
 
 
@@ -197,7 +198,7 @@ def animate(
     fps: int = 20,
     start: float | None = None,
     stop: float | None = None,
-    pace: str = "time",
+    pace: str = "force",
     size: tuple[int, int] | None = None,
     progress: Progress | None = None,
 ) -> None:
@@ -217,9 +218,9 @@ def animate(
         Pictures per second.
     start, stop : float, optional
         Stretch of time; the whole run by default.
-    pace : {"time", "frames"}
-        "time" runs evenly in time; "frames" evenly through the frames of a series, which is slow motion where
-        they are dense.
+    pace : {"force", "time"}
+        "time" runs evenly in time; "force" spends half of its pictures where the normal force changes, so
+        that a pulse is seen in slow motion.
     size : (width, height), optional
         In pixels; 640 x 480 for a gif, 960 x 720 for a page, 1280 x 900 for a film.
     progress : callable, optional
@@ -243,11 +244,11 @@ def animate(
     if not first <= start < stop <= last:
         raise ViewError(f"{start!r} to {stop!r} is not possible: the run goes from {first:g} to {last:g}.")
     times = np.linspace(start, stop, count)
-    if pace == "frames" and isinstance(thing, Series):
-        kept = thing.times[(thing.times >= start) & (thing.times <= stop)]
-        times = np.interp(np.linspace(0, len(kept) - 1, count), np.arange(len(kept)), kept)
-    elif pace not in ("time", "frames"):
-        raise ViewError(f"pace = {pace!r} is not possible: it is 'time' or 'frames'.")
+    if pace == "force":
+        curves = chosen.subject.curves
+        times = frame_times(start, stop, count, curves.t, np.cbrt(curves.normal_force))
+    elif pace != "time":
+        raise ViewError(f"pace = {pace!r} is not possible: it is 'force' or 'time'.")
 
     def pages() -> Iterator[Image]:
         with Camera(chosen, size or kind.size) as camera:

@@ -12,9 +12,9 @@ from meshes import SeriesError, SeriesWriter, read
 from meshes import renderer as renderer_module
 from meshes.renderer import renderer_problem
 from meshes.stage import ABOVE_FLOOR, deformed
-from meshes.subject import SeriesSubject
+from meshes.subject import Curves, MotionSubject, SeriesSubject
 from meshes.view import Camera, ViewError, animate, picture, render, setting, window
-from rigid import Friction, Hoop, Motion, Phase, Release, Scene, States
+from rigid import Friction, Hoop, Motion, Phase, Release, Scene, States, load_scene, simulate
 
 SIZE = (640, 480)
 TIMES = np.linspace(0, 1.2, 7)
@@ -286,3 +286,45 @@ def test_importing_the_view_loads_no_graphics():
     options = {"cwd": Path(__file__).parents[2], "capture_output": True, "text": True}
     done = subprocess.run([sys.executable, "-c", code], check=True, **options)
     assert done.stdout.strip() == "set()"
+
+
+def test_a_pulse_far_above_the_usual_force_gets_a_logarithm():
+    t = np.linspace(0, 1, 2001)
+    spike = 1 + 200 * np.exp(-(((t - 0.5) / 0.004) ** 2))
+    assert Curves(t, spike, 0.3 * spike).usual == pytest.approx(1)  # the median does not see the spike
+    assert Curves(t, 1 + t, t).usual is None
+    assert Curves(t, 0 * t, 0 * t).usual is None  # skimming or flight: nothing to take a logarithm of
+    assert Curves(np.empty(0), np.empty(0), np.empty(0)).usual is None
+
+
+@pytest.mark.parametrize("name", ["paper-3.1", "paper-3.4-tiny", "paper-point-mass", "paper-3.3-light"])
+def test_curves_of_the_papers_motions_reach_the_peaks_of_their_pulses(name):
+    """Sampled peaks lie a little below the true one, too little to see: a hundredth is a pixel."""
+    motion = simulate(load_scene(name))
+    curves = MotionSubject(motion).curves
+    assert (np.diff(curves.t) > 0).all()
+    for pulse in motion.pulses:
+        inside = (curves.t >= pulse.t_start) & (curves.t <= pulse.t_end)
+        assert curves.normal_force[inside].max() == pytest.approx(pulse.peak_normal_force, rel=0.01)
+
+
+@needs_renderer
+@pytest.mark.parametrize("name", ["paper-3.1", "paper-point-mass"])
+def test_the_papers_scenes_can_be_drawn(name, tmp_path):
+    animate(simulate(load_scene(name)), tmp_path / "a.gif", frames=3, size=(320, 240))
+    assert (tmp_path / "a.gif").stat().st_size > 5000  # three pages that are not blank
+
+
+@needs_renderer
+def test_an_enlarged_view_keeps_the_contact_in_the_middle(series):
+    chosen = setting(series, zoom=8)
+    assert chosen.factor <= setting(series).factor / 5  # 8, rounded to a tidy factor
+    with Camera(chosen, SIZE) as camera:
+        page = camera.page(0.6)
+        shot = chosen.subject.shot(0.6)
+        assert camera._middle(shot) == pytest.approx(shot.centre[0] + camera.aside)
+        # the wall of 0.02 R above the contact is now many pixels high
+        column, row = pixel(camera, np.array([shot.centre[0] - 0.08, 0.015]), camera._middle(shot))
+        assert coloured(page)[int(row) - 3 : int(row) + 1, int(column)].all()
+    with pytest.raises(ViewError, match="zoom"):
+        setting(series, zoom=0.5)
