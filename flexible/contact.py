@@ -16,6 +16,9 @@ Tangential: each point carries a bristle of stiffness eps_t. A point enters the 
 the instant of the step at which its gap, a parabola in time, crosses zero. ``PATCH``: while the patch sticks, every
 bristle follows its point, and while it slides, mu N is shared over the patch like the pressure; which of both is
 decided on the resultants, by the caller. ``BRUSH``: each point breaks at mu_s p and slides at mu p by itself.
+
+Damping, if any, is that of the patch as a whole, N = N_el + theta dN_el/dt with one relaxation time theta: it damps the
+approach and not a material point's own gap rate, which under rolling would be a rolling resistance.
 """
 
 from __future__ import annotations
@@ -31,8 +34,10 @@ STICK, SLIDE_RIGHT, SLIDE_LEFT, BRUSH = 0, 1, -1, 2  # SLIDE_RIGHT: friction pus
 # positions in the array of contact parameters
 SPACING, EPS_N, EPS_T, MU_S, MU = range(5)
 # positions in the array of resultants
-NORMAL, FRICTION, NORMAL_ENERGY, BRISTLE_ENERGY, LENGTH, STUCK, SLIP, LOW, HIGH, OUTSIDE = range(10)
-RESULTANTS = 10
+NORMAL, FRICTION, NORMAL_ENERGY, BRISTLE_ENERGY, LENGTH, STUCK, SLIP, LOW, HIGH, OUTSIDE, ELASTIC, ETA = range(12)
+RESULTANTS = 12
+
+UNDAMPED = np.array([0.0, 0.0, 1.0])
 
 
 @njit(cache=True)
@@ -159,7 +164,17 @@ def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, floa
 
 @njit(cache=True)
 def contact_forces(
-    pose: Any, u: Any, first: int, vertex: Any, law: Any, mode: int, old_pose: Any, u_old: Any, bristles: Any, flags: Any
+    pose: Any,
+    u: Any,
+    first: int,
+    vertex: Any,
+    law: Any,
+    mode: int,
+    old_pose: Any,
+    u_old: Any,
+    bristles: Any,
+    flags: Any,
+    damper: Any,
 ) -> Any:
     """Forces of the floor on the rim, their tangent, and the state of the bristles.
 
@@ -177,6 +192,9 @@ def contact_forces(
         STICK, SLIDE_RIGHT or SLIDE_LEFT for the patch law, BRUSH for the brush.
     bristles, flags : (m, 2), (m,) arrays
         Number and stretch of each point in contact at the beginning of the step, ascending; sliding or not.
+    damper : (3,) array
+        (rho, N_0, eta_0): pressures are eta times the elastic ones, eta = eta_0 + rho (N_el - N_0)/N_el, at least 0;
+        rho is the damper's relaxation time over the step's beta, N_0 what N_el would be without a rate.
 
     Returns
     -------
@@ -312,6 +330,18 @@ def contact_forces(
                 weight_by[i_in, 1] += spacing * f_in / 2
                 weight_by[i_in, side] += spacing * f_out / 2
 
+    elastic = normal.sum()
+    eta, eta_rate = damper[2], 0.0
+    if elastic > 0 and damper[0] > 0:
+        eta += damper[0] * (1 - damper[1] / elastic)
+        eta_rate = damper[0] * damper[1] / elastic**2
+        if eta < 0:
+            eta, eta_rate = 0.0, 0.0
+    res[ELASTIC], res[ETA] = elastic, eta
+    # what is proportional to eta, at eta = 1: of V, h, phi and of the nodes in the world's axes
+    share = np.zeros(3)
+    world_share = np.zeros((nodes, 2))
+
     # scalar tangents: rows and columns (V or h, phi, nodes); B belongs to the gap, A to the abscissa
     k_bb = np.zeros((2 + nodes, 2 + nodes))
     k_ab = np.zeros((2 + nodes, 2 + nodes))
@@ -331,30 +361,32 @@ def contact_forces(
     for i in range(total):
         before = i - 1 if i > 0 and not breaks[i - 1] else -1
         behind = i + 1 if i + 1 < total and not breaks[i] else -1
-        tau = 0.0
+        tau, tau_share = 0.0, 0.0
         on_a, on_phi = 0.0, 0.0  # derivative of tau by this point's abscissa and by phi
         on_before, on_here, on_behind = 0.0, 0.0, 0.0  # by the gaps
         if mode == SLIDE_RIGHT or mode == SLIDE_LEFT:
-            tau = mode * mu * normal[i]
-            on_here = -mode * mu * diagonal[i]
+            tau_share = mode * mu * normal[i]
+            tau = eta * tau_share
+            on_here = -eta * mode * mu * diagonal[i]
             if before >= 0:
-                on_before = -mode * mu * coupling[before]
+                on_before = -eta * mode * mu * coupling[before]
             if behind >= 0:
-                on_behind = -mode * mu * coupling[i]
+                on_behind = -eta * mode * mu * coupling[i]
             if gap[i] < 0:
-                stretch[i] = mode * mu * eps_n * gap[i] / eps_t
+                stretch[i] = eta * mode * mu * eps_n * gap[i] / eps_t
             res[BRISTLE_ENERGY] += weight[i] * eps_t * stretch[i] ** 2 / 2
         elif weight[i] != 0:
             slides = False
             if mode == BRUSH:
-                bound = (mu if sliding[i] != 0 else mu_s) * -eps_n * gap[i]
+                bound = (mu if sliding[i] != 0 else mu_s) * -eta * eps_n * gap[i]
                 slides = abs(eps_t * stretch[i]) > bound
             if slides:
                 sign = 1 if stretch[i] < 0 else -1
-                traction = -sign * mu * eps_n * gap[i]
+                traction = -sign * mu * eta * eps_n * gap[i]
                 stretch[i] = -traction / eps_t
                 sliding[i] = sign
-                on_here = -weight[i] * sign * mu * eps_n
+                tau_share = -weight[i] * sign * mu * eps_n * gap[i]
+                on_here = -weight[i] * sign * mu * eta * eps_n
             else:
                 traction = -eps_t * stretch[i]
                 sliding[i] = 0
@@ -369,19 +401,25 @@ def contact_forces(
             res[BRISTLE_ENERGY] += weight[i] * traction**2 / (2 * eps_t)
         if normal[i] == 0 and tau == 0:
             continue
-        res[NORMAL] += normal[i]
+        pushed = eta * normal[i]
+        res[NORMAL] += pushed
         res[FRICTION] += tau
         res[SLIP] += normal[i] * move[i]
         force[0] += tau
-        force[1] += normal[i]
-        force[2] += normal[i] * arm_x[i] + tau * arm_y[i]
+        force[1] += pushed
+        force[2] += pushed * arm_x[i] + tau * arm_y[i]
+        share[0] += tau_share
+        share[1] += normal[i]
+        share[2] += normal[i] * arm_x[i] + tau_share * arm_y[i]
         psi = phi - pi + number[i] * spacing
         turning = sin(psi) - arm_x[i]  # u_X
         lifting = arm_y[i] - 2 * sin(psi / 2) ** 2  # u_Y
-        geometric += normal[i] * (cos(psi) - lifting) + tau * (sin(psi) - turning)
+        geometric += pushed * (cos(psi) - lifting) + tau * (sin(psi) - turning)
         for q in range(3):
             world[local[i] + q, 0] += tau * shape[i, q]
-            world[local[i] + q, 1] += normal[i] * shape[i, q]
+            world[local[i] + q, 1] += pushed * shape[i, q]
+            world_share[local[i] + q, 0] += tau_share * shape[i, q]
+            world_share[local[i] + q, 1] += normal[i] * shape[i, q]
         for q in range(5):
             row = rows[i, q]
             for w in range(5):
@@ -402,6 +440,13 @@ def contact_forces(
                 res[LOW] = psi
             res[HIGH] = psi
             active += 1
+
+    # k_bb is still that of the elastic pressures; its first row is the derivative of N_el
+    by_elastic = np.zeros(size)
+    by_elastic[1], by_elastic[2] = k_bb[0, 0], k_bb[0, 1]
+    for i in range(nodes):
+        by_elastic[3 + 2 * i], by_elastic[4 + 2 * i] = c * k_bb[0, 2 + i], -s * k_bb[0, 2 + i]
+    k_bb *= eta
 
     # from (abscissa, gap) to (V, h, phi, nodes in the disk's axes)
     tangent[0, 0] = k_aa[0, 0]
@@ -440,8 +485,18 @@ def contact_forces(
             tangent[row + 1, column] = c * (s * xx + c * xy) - s * c * yy
             tangent[row + 1, column + 1] = c * (c * xx - s * xy) + s * s * yy
 
-    if res[NORMAL] > 0:
-        res[SLIP] /= res[NORMAL]
+    if eta_rate != 0:
+        for j in range(size):
+            change = eta_rate * by_elastic[j]
+            for i in range(3):
+                tangent[i, j] += share[i] * change
+            for i in range(nodes):
+                fx, fy = world_share[i, 0], world_share[i, 1]
+                tangent[3 + 2 * i, j] += (s * fx + c * fy) * change
+                tangent[4 + 2 * i, j] += (c * fx - s * fy) * change
+
+    if elastic > 0:
+        res[SLIP] /= elastic
     if res[LENGTH] > 0:
         res[STUCK] /= res[LENGTH]
     kept, kept_flags = np.empty((active, 2)), np.empty(active, np.int8)

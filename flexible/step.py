@@ -38,6 +38,7 @@ def solve_stage(
     u_old: Any,
     bristles: Any,
     flags: Any,
+    damper: Any,
     pos_pred: Any,
     vel_pred: Any,
     beta: float,
@@ -54,6 +55,8 @@ def solve_stage(
     iterations : int
         Newton's; negative when it did not converge.
     d, u, acc : arrays
+    matrix : (n, n) array
+        Newton's last, for the filter of the error estimate.
     nodal, resultants, bristles, flags :
         As :func:`flexible.contact.contact_forces` returns them.
     """
@@ -71,7 +74,7 @@ def solve_stage(
         acc = d / beta**2
         vel = vel_pred + d / beta
         force, nodal, tangent, res, new_bristles, new_flags = contact_forces(
-            pos[:3], u, first, vertex, law, mode, old_pose, u_old, bristles, flags
+            pos[:3], u, first, vertex, law, mode, old_pose, u_old, bristles, flags, damper
         )
         own, own_tangent = inertia(body, modal, gyro, pos, vel, acc, beta)
         flat = nodal.copy().reshape(2 * nodes)
@@ -129,4 +132,19 @@ def solve_stage(
     acc = d / beta**2
     if res[OUTSIDE] != 0:
         iterations = -2
-    return iterations, d, u, acc, nodal, res, new_bristles, new_flags
+    return iterations, d, u, acc, matrix, nodal, res, new_bristles, new_flags
+
+
+@njit(cache=True)
+def filtered_error(
+    body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any
+) -> Any:
+    """The error of the velocities as the step itself would pass it on: (M + beta C + beta^2 K)^-1 M times it.
+
+    What the step does not resolve, and damps, would otherwise hold the steps down to the vibrations' periods.
+    """
+    with_error = inertia(body, modal, gyro, pos, vel, acc + error, beta)[0]
+    without = inertia(body, modal, gyro, pos, vel, acc, beta)[0]
+    load = np.zeros(matrix.shape[0])
+    load[: pos.shape[0]] = (with_error - without) / beta**2
+    return np.linalg.solve(matrix, load)[: pos.shape[0]]

@@ -1,0 +1,112 @@
+"""The reduced hoop as a model for the march: windows of the rim, stages in compiled code."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Scene
+
+from .contact import HIGH, LOW, NORMAL, element_at
+from .frame import energies
+from .march import State
+from .reduction import ReducedRing, reduce
+from .step import filtered_error, solve_stage
+
+Array = NDArray[np.float64]
+
+
+def contact_law(scene: Scene, points: int = 48) -> Array:
+    """Parameters of the contact, with ``points`` to the patch of a rigid hoop under the disk's weight."""
+    eps = scene.contact.stiffness
+    half_width = (1.5 / eps) ** (1 / 3)
+    spacing = min(2 * half_width / points, 2 * pi / scene.solve.elements / 8)
+    return np.array([spacing, eps, eps * scene.contact.tangential_ratio, scene.friction.mu_s, scene.friction.mu])
+
+
+def relaxation_time(scene: Scene) -> float:
+    """The damper's time theta = 2 zeta sqrt(m/k) with k the stiffness of the patch under the disk's weight."""
+    eps = scene.contact.stiffness
+    stiffness = 2 * eps * (1.5 / eps) ** (1 / 3)
+    return 2 * scene.contact.damping / stiffness**0.5
+
+
+class ReducedHoop:
+    """Frame, modes and residual static compliance of a scene's hoop."""
+
+    def __init__(self, scene: Scene, modes: int = 24, points: int = 48, tolerance: float = 1e-9) -> None:
+        self.scene = scene
+        self.ring: ReducedRing = reduce(scene, modes)
+        self.law = contact_law(scene, points)
+        self.mu_s = scene.friction.mu_s
+        self.tolerance = tolerance
+        self.element = 2 * pi / scene.solve.elements
+        self.relaxation = relaxation_time(scene)
+        self._blocks: dict[tuple[int, int], tuple[Array, Array]] = {}
+
+    def _window(self, phi: float, low: float, high: float, margin: float) -> tuple[int, int]:
+        theta = pi - phi
+        vertex = self.ring.vertex
+        first = element_at(vertex, theta + low - margin)
+        last = element_at(vertex, theta + high + margin)
+        return first, last - first + 1
+
+    def _arrays(self, window: tuple[int, int]) -> tuple[Array, Array]:
+        n = len(self.ring.vertex)
+        key = (window[0] % n, window[1])
+        if key not in self._blocks:
+            shapes, compliance = self.ring.window(*key)
+            self._blocks[key] = (np.ascontiguousarray(shapes), np.ascontiguousarray(compliance))
+        return self._blocks[key]
+
+    def displacement(self, state: State, window: tuple[int, int]) -> Array:
+        """Displacement of the nodes of another window at a known state."""
+        if window == state.window:
+            return state.u
+        here, there = self.ring.dofs(*window), self.ring.dofs(*state.window)
+        moved = self.ring.rim_shapes[here] @ state.pos[3:]
+        if state.res[NORMAL] > 0:
+            moved = moved + self.ring.rim_compliance[np.ix_(here, there)] @ state.nodal.ravel()
+        return moved.reshape(-1, 2)
+
+    def stage(
+        self, old: State, mode: int, damper: Array, pos_pred: Array, vel_pred: Array, beta: float, guess: Array
+    ) -> Any:
+        """See :class:`flexible.march.Model`."""
+        phi = pos_pred[2] + guess[2]
+        low, high = old.res[LOW], old.res[HIGH]
+        margin = 0.3 * (high - low) + 0.1 * self.element
+        for _ in range(4):
+            window = self._window(phi, low, high, margin)
+            u_old = self.displacement(old, window)
+            shapes, compliance = self._arrays(window)
+            u_guess = u_old
+            ring = self.ring
+            iterations, d, u, acc, matrix, nodal, res, bristles, flags = solve_stage(
+                ring.body, ring.modal, ring.gyro, shapes, compliance, window[0], ring.vertex, self.law, mode,
+                old.pos[:3], u_old, old.bristles, old.flags, damper, pos_pred, vel_pred, beta, guess, u_guess, self.tolerance,
+            )  # fmt: skip
+            if iterations != -2:
+                break
+            margin = 2 * margin + self.element
+        return iterations >= 0, d, acc, matrix, window, u, nodal, res, bristles, flags
+
+    def energies(self, state: State) -> tuple[float, float, float]:
+        """Kinetic, gravity, ring strain (of the modes and of the static part)."""
+        ring = self.ring
+        kinetic, gravity, strain = energies(ring.body, ring.modal, ring.gyro, state.pos, state.vel)
+        if state.res[NORMAL] > 0:
+            compliance = self._arrays(state.window)[1]
+            force = state.nodal.ravel()
+            strain += force @ compliance @ force / 2
+        return kinetic, gravity, strain
+
+    def momentum_error(self, state: State, beta: float, matrix: Array, error: Array) -> float:
+        """See :class:`flexible.march.Model`."""
+        ring = self.ring
+        error = filtered_error(ring.body, ring.modal, ring.gyro, state.pos, state.vel, state.acc, beta, matrix, error)
+        horizontal = abs(error[0] + error[2])
+        return float(max(horizontal, abs(error[1]), abs(error[2]), np.abs(error[3:]).max(initial=0.0)))
