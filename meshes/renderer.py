@@ -7,6 +7,7 @@ import subprocess
 import sys
 from functools import cache
 
+_WINDOW = "VTK_DEFAULT_OPENGL_WINDOW"
 _PROBE = """
 import vtkmodules.vtkRenderingOpenGL2
 from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow
@@ -15,7 +16,7 @@ window.SetOffScreenRendering(1)
 window.SetSize(8, 8)
 window.AddRenderer(vtkRenderer())
 window.Render()
-print("drawn")
+print("drawn by", window.GetClassName())
 """
 
 
@@ -24,20 +25,38 @@ class ViewError(ValueError):
 
 
 @cache
-def renderer_problem() -> str | None:
-    """Why nothing can be drawn, in a sentence, or None; found out once, in a process that may crash."""
+def probe() -> tuple[str, str | None]:
+    """The kind of VTK's off-screen window, and why there is none in a sentence, or None.
+
+    Found out once, in a process of its own that may crash.
+    """
+    command = [sys.executable, "-c", _PROBE]
     try:
-        probe = subprocess.run([sys.executable, "-c", _PROBE], capture_output=True, timeout=120, check=False)
+        trial = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     except (OSError, subprocess.TimeoutExpired) as error:
-        return f"VTK could not be tried out for rendering: {error}."
-    if probe.returncode == 0 and probe.stdout.strip() == b"drawn":
-        return None
-    if b"ModuleNotFoundError" in probe.stderr:
-        return "pictures need pyvista, which is not installed: pip install pyvista."
-    return (
+        return "", f"VTK could not be tried out for rendering: {error}."
+    _, found, window = trial.stdout.strip().rpartition("drawn by ")
+    if trial.returncode == 0 and found:
+        return window, None
+    if "ModuleNotFoundError" in trial.stderr:
+        return "", "pictures need pyvista, which is not installed: pip install pyvista."
+    return "", (
         "VTK finds nothing to draw with: without a screen it needs EGL or OSMesa; on Debian or Ubuntu, "
         "apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri."
     )
+
+
+def renderer_problem() -> str | None:
+    """Why nothing can be drawn, in a sentence, or None."""
+    return probe()[1]
+
+
+def choose_window(off_screen: bool) -> None:
+    """Have VTK take at once the kind of window that the probe found, without complaints about others."""
+    if off_screen and sys.platform.startswith("linux"):
+        os.environ.setdefault(_WINDOW, probe()[0])
+    elif os.environ.get(_WINDOW) == probe()[0]:
+        del os.environ[_WINDOW]
 
 
 def require_renderer() -> None:

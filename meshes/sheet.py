@@ -52,6 +52,9 @@ class Sheet:
         self.type = 13.0 * max(0.62, min(width / 1280, height / 900) ** 0.75)
         self.figure = Figure(figsize=(width / 100, height / 100), dpi=100, facecolor=looks.PAPER)
         self.canvas = FigureCanvasAgg(self.figure)
+        duration = span[1] - span[0]
+        #: of the printed time: a thousandth of the run shows
+        self.decimals = max(4, int(np.ceil(3 - np.log10(duration)))) if duration > 0 else 4
         self._moving: list[Any] = []
         self._marks: list[tuple[Any, Any, Any, Any]] = []
         em = self.type * 100 / 72
@@ -89,7 +92,7 @@ class Sheet:
         page = np.asarray(self.canvas.buffer_rgba())
         page[top : top + height, left : left + width, :3] = stage
         page[self._bar_box][self._bar_ink] = self._bar[self._bar_ink]
-        self._time.set_text(f"t = {shot.time:.4f} {self.units['time']}")
+        self._time.set_text(f"t = {shot.time:.{self.decimals}f} {self.units['time']}")
         kind = self.curves.phase(shot.time)
         words, band = looks.PHASES.get(kind, (kind, looks.PAPER)) if kind else ("", looks.PAPER)
         self._phase.set_text(words)
@@ -114,10 +117,10 @@ class Sheet:
         room = 0.3 * usual
         axes.set_ylim(3 * low if low < -usual else low - room, 3 * high if high > usual else high + room)
         decades = 10.0 ** np.arange(np.ceil(np.log10(usual)), np.ceil(np.log10(max(high, -low, 2 * usual))))
-        decades = decades[-1:] if low < -usual else decades[-1::-2]
+        decades = decades[-1:] if low < -usual else decades[:: -max(1, len(decades) // 3)][:3]
         ticks = np.concatenate([-decades, [0.0], decades])
         axes.set_yticks(ticks[(ticks >= min(low, 0.0)) & (ticks <= max(high, 0.0))], minor=False)
-        axes.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
+        axes.yaxis.set_major_formatter(lambda value, _: _decade(value))
         axes.yaxis.set_minor_locator(NullLocator())
 
     def note(self, text: str) -> None:
@@ -200,3 +203,11 @@ class Sheet:
             dot.set(markersize=0.42 * self.type, markeredgecolor="white", markeredgewidth=0.04 * self.type)
             self._moving += [line, dot]
             self._marks.append((line, dot, curves.t, values))
+
+
+def _decade(value: float) -> str:
+    """A power of ten of either sign as an axis prints it."""
+    if abs(value) < 1e4:
+        return f"{value:g}"
+    sign = "-" if value < 0 else ""
+    return f"${sign}10^{{{round(np.log10(abs(value)))}}}$"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 
 from . import looks
 from .fields import BIQUADRATIC_QUAD
+from .renderer import choose_window
 from .scales import scalar
 from .subject import Shot
 
@@ -74,9 +74,7 @@ class Stage:
         largest: Mapping[str, float],
         off_screen: bool = True,
     ) -> None:
-        if off_screen:
-            # without it VTK tries a screen first and complains on stderr that there is none
-            os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
+        choose_window(off_screen)
         import pyvista
 
         self.size, self.zoom, self.colours, self.largest = size, zoom, colours, largest

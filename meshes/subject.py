@@ -201,7 +201,7 @@ class MotionSubject:
         R = scene.hoop.R
         inner = R * (1 - scene.wall)
         ring = ring_mesh(inner, R, around=180)
-        disk = scene.hoop.k * inner if scene.hoop.k > 0 else 0.03 * R  # a point mass has to be seen
+        disk = max(scene.hoop.k * inner, 0.025 * R)  # a point mass has to be seen too
         return ring.quad9, ring.points, disk, inner - disk
 
     def shot(self, time: float) -> Shot:

@@ -10,7 +10,7 @@ import pytest
 
 from meshes import SeriesError, SeriesWriter, read
 from meshes import renderer as renderer_module
-from meshes.renderer import renderer_problem
+from meshes.renderer import probe, renderer_problem
 from meshes.stage import ABOVE_FLOOR, deformed
 from meshes.subject import Curves, MotionSubject, SeriesSubject
 from meshes.view import Camera, ViewError, animate, picture, render, setting, window
@@ -242,16 +242,16 @@ def test_a_damaged_frame_is_one_sentence(tmp_path, ring, ovals):
 def test_nothing_to_draw_with_is_a_sentence(monkeypatch, series, tmp_path):
     """Where VTK crashes, only the probe dies."""
     monkeypatch.setattr(renderer_module, "_PROBE", "import os; os.abort()")
-    renderer_problem.cache_clear()
+    probe.cache_clear()
     try:
         with pytest.raises(ViewError, match="apt-get install libegl1"):
             picture(series, tmp_path / "a.png")
         monkeypatch.setattr(renderer_module, "_PROBE", "import no_such_module_here")
-        renderer_problem.cache_clear()
+        probe.cache_clear()
         with pytest.raises(ViewError, match="pip install pyvista"):
             picture(series, tmp_path / "a.png")
     finally:
-        renderer_problem.cache_clear()
+        probe.cache_clear()
     assert not list(tmp_path.iterdir())
 
 
