@@ -17,8 +17,9 @@ the instant of the step at which its gap, a parabola in time, crosses zero. ``PA
 bristle follows its point, and while it slides, mu N is shared over the patch like the pressure; which of both is
 decided on the resultants, by the caller. ``BRUSH``: each point breaks at mu_s p and slides at mu p by itself.
 
-Damping, if any, is that of the patch as a whole, N = N_el + theta dN_el/dt with one relaxation time theta: it damps the
-approach and not a material point's own gap rate, which under rolling would be a rolling resistance.
+Damping, if any, is that of the patch as a whole, N = N_el + theta dN_el/dt, and while it sticks F = F_el - theta k_t v with
+v the mean slip of the patch: it damps the approach and the slip, and not a material point's own gap rate, which under
+rolling would be a rolling resistance.
 """
 
 from __future__ import annotations
@@ -34,10 +35,10 @@ STICK, SLIDE_RIGHT, SLIDE_LEFT, BRUSH = 0, 1, -1, 2  # SLIDE_RIGHT: friction pus
 # positions in the array of contact parameters
 SPACING, EPS_N, EPS_T, MU_S, MU = range(5)
 # positions in the array of resultants
-NORMAL, FRICTION, NORMAL_ENERGY, BRISTLE_ENERGY, LENGTH, STUCK, SLIP, LOW, HIGH, OUTSIDE, ELASTIC, ETA = range(12)
-RESULTANTS = 12
+NORMAL, FRICTION, NORMAL_ENERGY, BRISTLE_ENERGY, LENGTH, STUCK, SLIP, LOW, HIGH, OUTSIDE, ELASTIC, ETA, DRAG = range(13)
+RESULTANTS = 13
 
-UNDAMPED = np.array([0.0, 0.0, 1.0])
+UNDAMPED = np.array([0.0, 0.0, 1.0, 0.0, 0.0])
 
 
 @njit(cache=True)
@@ -163,6 +164,16 @@ def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, floa
 
 
 @njit(cache=True)
+def _add_normal(row: Any, factor: float, diagonal: Any, coupling: Any, before: int, here: int, behind: int) -> None:
+    """Derivatives of ``factor`` times the normal force of a point by the gaps around it."""
+    row[1] -= factor * diagonal[here]
+    if before >= 0:
+        row[0] -= factor * coupling[before]
+    if behind >= 0:
+        row[2] -= factor * coupling[here]
+
+
+@njit(cache=True)
 def contact_forces(
     pose: Any,
     u: Any,
@@ -192,9 +203,10 @@ def contact_forces(
         STICK, SLIDE_RIGHT or SLIDE_LEFT for the patch law, BRUSH for the brush.
     bristles, flags : (m, 2), (m,) arrays
         Number and stretch of each point in contact at the beginning of the step, ascending; sliding or not.
-    damper : (3,) array
-        (rho, N_0, eta_0): pressures are eta times the elastic ones, eta = eta_0 + rho (N_el - N_0)/N_el, at least 0;
-        rho is the damper's relaxation time over the step's beta, N_0 what N_el would be without a rate.
+    damper : (5,) array
+        (rho, N_0, eta_0, c, x_0): pressures are eta times the elastic ones, eta = eta_0 + rho (N_el - N_0)/N_el, at
+        least 0; a sticking patch drags with -c (x - x_0), shared like the pressure, x its mean move in the step.
+        rho is the damper's relaxation time over the step's beta; N_0, x_0 are what N_el, x were without a rate.
 
     Returns
     -------
@@ -338,8 +350,9 @@ def contact_forces(
         if eta < 0:
             eta, eta_rate = 0.0, 0.0
     res[ELASTIC], res[ETA] = elastic, eta
-    # what is proportional to eta, at eta = 1: of V, h, phi and of the nodes in the world's axes
-    share = np.zeros(3)
+    # what is proportional to eta (normal, and tangential while points slide) or to the drag, per unit of it:
+    # of V or h, of phi, and of the nodes in the world's axes
+    normal_share, share = np.zeros(2), np.zeros(2)
     world_share = np.zeros((nodes, 2))
 
     # scalar tangents: rows and columns (V or h, phi, nodes); B belongs to the gap, A to the abscissa
@@ -358,20 +371,16 @@ def contact_forces(
         for q in range(3):
             rows[i, 2 + q] = 2 + local[i] + q
             b_of[i, 2 + q] = a_of[i, 2 + q] = shape[i, q]
+    traction_of, share_of = np.zeros(total), np.zeros(total)
+    on_a, on_phi = np.zeros(total), np.zeros(total)  # derivative of the traction by this point's abscissa and by phi
+    on_gap = np.zeros((total, 3))  # and by the gaps of the point before, the point, the point behind
     for i in range(total):
         before = i - 1 if i > 0 and not breaks[i - 1] else -1
         behind = i + 1 if i + 1 < total and not breaks[i] else -1
-        tau, tau_share = 0.0, 0.0
-        on_a, on_phi = 0.0, 0.0  # derivative of tau by this point's abscissa and by phi
-        on_before, on_here, on_behind = 0.0, 0.0, 0.0  # by the gaps
         if mode == SLIDE_RIGHT or mode == SLIDE_LEFT:
-            tau_share = mode * mu * normal[i]
-            tau = eta * tau_share
-            on_here = -eta * mode * mu * diagonal[i]
-            if before >= 0:
-                on_before = -eta * mode * mu * coupling[before]
-            if behind >= 0:
-                on_behind = -eta * mode * mu * coupling[i]
+            share_of[i] = mode * mu * normal[i]
+            traction_of[i] = eta * share_of[i]
+            _add_normal(on_gap[i], eta * mode * mu, diagonal, coupling, before, i, behind)
             if gap[i] < 0:
                 stretch[i] = eta * mode * mu * eps_n * gap[i] / eps_t
             res[BRISTLE_ENERGY] += weight[i] * eps_t * stretch[i] ** 2 / 2
@@ -385,22 +394,52 @@ def contact_forces(
                 traction = -sign * mu * eta * eps_n * gap[i]
                 stretch[i] = -traction / eps_t
                 sliding[i] = sign
-                tau_share = -weight[i] * sign * mu * eps_n * gap[i]
-                on_here = -weight[i] * sign * mu * eta * eps_n
+                share_of[i] = -weight[i] * sign * mu * eps_n * gap[i]
+                on_gap[i, 1] = -weight[i] * sign * mu * eta * eps_n
             else:
                 traction = -eps_t * stretch[i]
                 sliding[i] = 0
-                on_a = -eps_t * weight[i] * stretch_rate[i]
-                on_here = -eps_t * weight[i] * by_gap[i]
-                on_phi = -eps_t * weight[i] * by_phi[i]
+                on_a[i] = -eps_t * weight[i] * stretch_rate[i]
+                on_gap[i, 1] = -eps_t * weight[i] * by_gap[i]
+                on_phi[i] = -eps_t * weight[i] * by_phi[i]
                 res[STUCK] += weight[i]
-            tau = weight[i] * traction
-            on_before += traction * weight_by[i, 0]
-            on_here += traction * weight_by[i, 1]
-            on_behind += traction * weight_by[i, 2]
+            traction_of[i] = weight[i] * traction
+            for q in range(3):
+                on_gap[i, q] += traction * weight_by[i, q]
             res[BRISTLE_ENERGY] += weight[i] * traction**2 / (2 * eps_t)
+    drag = 0.0
+    dragging = mode == STICK and elastic > 0 and damper[3] > 0
+    by_slip_a, by_slip_b = np.zeros(2 + nodes), np.zeros(2 + nodes)
+    if dragging:
+        slip = (normal * move).sum() / elastic
+        drag = -damper[3] * (slip - damper[4])
+        res[DRAG] = drag
+        around = np.zeros(3)
+        for i in range(total):
+            before = i - 1 if i > 0 and not breaks[i - 1] else -1
+            behind = i + 1 if i + 1 < total and not breaks[i] else -1
+            around[:] = 0.0
+            _add_normal(around, (move[i] - slip) / elastic, diagonal, coupling, before, i, behind)
+            for w in range(5):
+                by_slip_a[rows[i, w]] += normal[i] / elastic * a_of[i, w]
+                by_slip_b[rows[i, w]] += around[1] * b_of[i, w]
+                if before >= 0:
+                    by_slip_b[rows[before, w]] += around[0] * b_of[before, w]
+                if behind >= 0:
+                    by_slip_b[rows[behind, w]] += around[2] * b_of[behind, w]
+        for i in range(total):
+            before = i - 1 if i > 0 and not breaks[i - 1] else -1
+            behind = i + 1 if i + 1 < total and not breaks[i] else -1
+            share_of[i] = normal[i] / elastic
+            traction_of[i] += drag * share_of[i]
+            _add_normal(on_gap[i], drag / elastic, diagonal, coupling, before, i, behind)
+
+    for i in range(total):
+        tau, tau_share = traction_of[i], share_of[i]
         if normal[i] == 0 and tau == 0:
             continue
+        before = i - 1 if i > 0 and not breaks[i - 1] else -1
+        behind = i + 1 if i + 1 < total and not breaks[i] else -1
         pushed = eta * normal[i]
         res[NORMAL] += pushed
         res[FRICTION] += tau
@@ -408,9 +447,10 @@ def contact_forces(
         force[0] += tau
         force[1] += pushed
         force[2] += pushed * arm_x[i] + tau * arm_y[i]
+        normal_share[0] += normal[i]
+        normal_share[1] += normal[i] * arm_x[i]
         share[0] += tau_share
-        share[1] += normal[i]
-        share[2] += normal[i] * arm_x[i] + tau_share * arm_y[i]
+        share[1] += tau_share * arm_y[i]
         psi = phi - pi + number[i] * spacing
         turning = sin(psi) - arm_x[i]  # u_X
         lifting = arm_y[i] - 2 * sin(psi / 2) ** 2  # u_Y
@@ -424,17 +464,17 @@ def contact_forces(
             row = rows[i, q]
             for w in range(5):
                 k_bb[row, rows[i, w]] -= diagonal[i] * b_of[i, q] * b_of[i, w]
-                k_aa[row, rows[i, w]] += on_a * a_of[i, q] * a_of[i, w]
-                k_ab[row, rows[i, w]] += on_here * a_of[i, q] * b_of[i, w]
-            k_aa[row, 1] += on_phi * a_of[i, q]
+                k_aa[row, rows[i, w]] += on_a[i] * a_of[i, q] * a_of[i, w]
+                k_ab[row, rows[i, w]] += on_gap[i, 1] * a_of[i, q] * b_of[i, w]
+            k_aa[row, 1] += on_phi[i] * a_of[i, q]
             if before >= 0:
                 for w in range(5):
                     k_bb[row, rows[before, w]] -= coupling[before] * b_of[i, q] * b_of[before, w]
-                    k_ab[row, rows[before, w]] += on_before * a_of[i, q] * b_of[before, w]
+                    k_ab[row, rows[before, w]] += on_gap[i, 0] * a_of[i, q] * b_of[before, w]
             if behind >= 0:
                 for w in range(5):
                     k_bb[row, rows[behind, w]] -= coupling[i] * b_of[i, q] * b_of[behind, w]
-                    k_ab[row, rows[behind, w]] += on_behind * a_of[i, q] * b_of[behind, w]
+                    k_ab[row, rows[behind, w]] += on_gap[i, 2] * a_of[i, q] * b_of[behind, w]
         if gap[i] < 0:
             if active == 0:
                 res[LOW] = psi
@@ -485,15 +525,28 @@ def contact_forces(
             tangent[row + 1, column] = c * (s * xx + c * xy) - s * c * yy
             tangent[row + 1, column + 1] = c * (c * xx - s * xy) + s * s * yy
 
-    if eta_rate != 0:
-        for j in range(size):
-            change = eta_rate * by_elastic[j]
-            for i in range(3):
-                tangent[i, j] += share[i] * change
+    if eta_rate != 0 or dragging:
+        # eta and the drag change with all unknowns at once
+        by_drag = np.zeros(size)
+        if dragging:
+            rate = -damper[3]
+            by_drag[0], by_drag[1] = rate * by_slip_a[0], rate * by_slip_b[0]
+            by_drag[2] = rate * (by_slip_a[1] + by_slip_b[1])
             for i in range(nodes):
-                fx, fy = world_share[i, 0], world_share[i, 1]
-                tangent[3 + 2 * i, j] += (s * fx + c * fy) * change
-                tangent[4 + 2 * i, j] += (c * fx - s * fy) * change
+                along_x, along_y = by_slip_a[2 + i], by_slip_b[2 + i]
+                by_drag[3 + 2 * i] = rate * (s * along_x + c * along_y)
+                by_drag[4 + 2 * i] = rate * (c * along_x - s * along_y)
+            by_drag -= drag / elastic * by_elastic
+        for j in range(size):
+            n_change = eta_rate * by_elastic[j]
+            t_change = by_drag[j] if dragging else n_change
+            tangent[0, j] += share[0] * t_change
+            tangent[1, j] += normal_share[0] * n_change
+            tangent[2, j] += normal_share[1] * n_change + share[1] * t_change
+            for i in range(nodes):
+                fx, fy = world_share[i, 0] * t_change, world_share[i, 1] * n_change
+                tangent[3 + 2 * i, j] += s * fx + c * fy
+                tangent[4 + 2 * i, j] += c * fx - s * fy
 
     if elastic > 0:
         res[SLIP] /= elastic

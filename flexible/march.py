@@ -14,7 +14,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact import BRISTLE_ENERGY, BRUSH, ELASTIC, ETA, FRICTION, LENGTH, NORMAL, NORMAL_ENERGY, SLIP, STICK, STUCK
+from .contact import BRISTLE_ENERGY, BRUSH, DRAG, ELASTIC, ETA, FRICTION, LENGTH, NORMAL, NORMAL_ENERGY, SLIP, STICK, STUCK
 from .step import BETA, ERROR_WEIGHTS, TAU
 
 Array = NDArray[np.float64]
@@ -55,6 +55,9 @@ class Model(Protocol):
 
     mu_s: float
     relaxation: float
+
+    def patch_damping(self, state: State) -> float:
+        """Damping coefficient of the sticking patch against slip."""
 
     def stage(
         self, old: State, mode: int, damper: Array, pos_pred: Array, vel_pred: Array, beta: float, guess: Array
@@ -123,12 +126,12 @@ class _Trial:
 def _attempt(model: Model, old: State, h: float) -> _Trial | None:
     """One TR-BDF2 step of length ``h``; None if Newton failed."""
     beta = BETA * h
-    rho = model.relaxation / beta
+    rho, drag = model.relaxation / beta, model.patch_damping(old) / beta
     pos0, vel0, acc0 = old.pos, old.vel, old.acc
     elastic0 = old.res[ELASTIC]
     elastic_pred = elastic0 + beta * old.elastic_rate
     pos_pred, vel_pred = pos0 + 2 * beta * vel0 + beta**2 * acc0, vel0 + beta * acc0
-    damper = np.array([rho, elastic_pred, 1.0])
+    damper = np.array([rho, elastic_pred, 1.0, drag, beta * old.slip_velocity])
     first = model.stage(old, old.mode, damper, pos_pred, vel_pred, beta, beta**2 * acc0)
     if not first[0]:
         return None
@@ -138,7 +141,7 @@ def _attempt(model: Model, old: State, h: float) -> _Trial | None:
     vel_pred = c_mid * vel_mid + c_old * vel0
     pos_pred = c_mid * pos_mid + c_old * pos0 + beta * vel_pred
     elastic_pred = c_mid * res_mid[ELASTIC] + c_old * elastic0
-    damper = np.array([rho, elastic_pred, 1.0])
+    damper = np.array([rho, elastic_pred, 1.0, drag, c_mid * res_mid[SLIP]])
     guess = beta**2 * (acc_mid + (acc_mid - acc0) * (1 - TAU) / TAU)
     second = model.stage(old, old.mode, damper, pos_pred, vel_pred, beta, guess)
     if not second[0]:
@@ -152,16 +155,18 @@ def _attempt(model: Model, old: State, h: float) -> _Trial | None:
     impulses = [h * sum(w * r[i] for w, r in zip(_QUADRATURE, forces, strict=True)) for i in (NORMAL, FRICTION)]
     work, damped = 0.0, 0.0
     for a, b, moved in ((old.res, res_mid, slip_mid), (res_mid, res, slip - slip_mid)):
-        work += (a[FRICTION] + b[FRICTION]) / 2 * moved
+        work += (a[FRICTION] - a[DRAG] + b[FRICTION] - b[DRAG]) / 2 * moved
+        damped -= (a[DRAG] + b[DRAG]) / 2 * moved
         damped += ((a[ETA] + b[ETA]) / 2 - 1) * (b[NORMAL_ENERGY] - a[NORMAL_ENERGY])
     off = h * sum(w for w, r in zip(_QUADRATURE, forces, strict=True) if r[NORMAL] == 0)
     x_C = old.x_C + pos[0] + (pos[2] - pos0[2])
     pos = pos.copy()
     pos[0] = 0.0
-    rate = (res[ELASTIC] - elastic_pred) / beta
+    elastic_rate = float(res[ELASTIC] - elastic_pred) / beta
     state = State(
-        old.t + h, x_C, pos, vel, acc, old.mode, window, u, nodal, res, bristles, flags, float((slip + bend) / h), rate
-    )
+        old.t + h, x_C, pos, vel, acc, old.mode, window, u, nodal, res, bristles, flags,
+        float((slip + bend) / h), elastic_rate,
+    )  # fmt: skip
     size = model.momentum_error(state, beta, matrix, error)
     return _Trial(state, size, (impulses[0], impulses[1]), work, damped, off)
 
@@ -169,13 +174,15 @@ def _attempt(model: Model, old: State, h: float) -> _Trial | None:
 def restart(model: Model, state: State, mode: int) -> State:
     """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
     beta = 1e-7
-    damper = np.array([0.0, 0.0, state.res[ETA] if state.res[ELASTIC] > 0 else 1.0])
+    damper = np.array([0.0, 0.0, state.res[ETA] if state.res[ELASTIC] > 0 else 1.0, 0.0, 0.0])
     ok, _, acc, _, window, u, nodal, res, bristles, flags = model.stage(
         state, mode, damper, state.pos, state.vel, beta, beta**2 * state.acc
     )
     if not ok:
         raise MarchError(f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved.")
-    return replace(state, acc=acc, mode=mode, window=window, u=u, nodal=nodal, res=res, bristles=bristles, flags=flags)
+    return replace(
+        state, acc=acc, mode=mode, window=window, u=u, nodal=nodal, res=res, bristles=bristles, flags=flags
+    )
 
 
 def _excess(model: Model, state: State) -> float:

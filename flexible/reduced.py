@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rigid import Scene
 
-from .contact import HIGH, LOW, NORMAL, element_at
+from .contact import EPS_T, HIGH, LENGTH, LOW, NORMAL, element_at
 from .frame import energies
 from .march import State
 from .reduction import ReducedRing, reduce
@@ -46,6 +46,10 @@ class ReducedHoop:
         self.element = 2 * pi / scene.solve.elements
         self.relaxation = relaxation_time(scene)
         self._blocks: dict[tuple[int, int], tuple[Array, Array]] = {}
+
+    def patch_damping(self, state: State) -> float:
+        """See :class:`flexible.march.Model`."""
+        return float(self.relaxation * self.law[EPS_T] * state.res[LENGTH])
 
     def _window(self, phi: float, low: float, high: float, margin: float) -> tuple[int, int]:
         theta = pi - phi

@@ -134,11 +134,30 @@ def equilibrium(hoop: ReducedHoop, pose: Pose, t: float = 0.0, x_C: float = 0.0)
     return State(t, x_C, pos, zero, zero, STICK, window, u, nodal, res, bristles, new_flags, pose.slip_velocity)
 
 
+def undeformed(hoop: ReducedHoop, pose: Pose, mode: int) -> State:
+    """The unstrained ring touching the floor with one point, moving as the rigid hoop does."""
+    n = len(hoop.ring.modal)
+    window = hoop._window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
+    u = np.zeros((2 * window[1] + 1, 2))
+    pos, vel = np.zeros(3 + n), np.zeros(3 + n)
+    pos[2] = pose.phi
+    vel[0], vel[2] = pose.slip_velocity, pose.omega
+    empty, flags = np.empty((0, 2)), np.empty(0, np.int8)
+    state = State(
+        0.0, 0.0, pos, vel, np.zeros(3 + n), mode, window, u, np.zeros_like(u), np.zeros(RESULTANTS), empty, flags,
+        pose.slip_velocity,
+    )  # fmt: skip
+    return restart(hoop, state, mode)
+
+
 def hand_over(hoop: ReducedHoop, motion: Motion, t: float, law: str) -> State:
     """The flexible hoop at time ``t`` of a rigid motion, with the rates of the equilibria around it."""
     scene = motion.scene
     pose = pose_at(motion, t)
     now = motion.at(t)
+    if scene.solve.start == "undeformed" and t == 0:
+        slides = BRUSH if law == "brush" else STICK if pose.slip_velocity == 0 else -int(np.sign(pose.slip_velocity))
+        return undeformed(hoop, pose, slides)
     state = equilibrium(hoop, pose, t / scene.time_unit, float(now.x_C) / scene.hoop.R)
     vel = np.zeros_like(state.pos)
     vel[2] = pose.omega
