@@ -113,7 +113,7 @@ class Sheet:
         """An axis that is linear about zero and logarithmic beyond the usual force."""
         from matplotlib.ticker import NullLocator
 
-        axes.set_yscale("symlog", linthresh=usual)
+        axes.set_yscale("asinh", linear_width=usual)
         room = 0.3 * usual
         axes.set_ylim(3 * low if low < -usual else low - room, 3 * high if high > usual else high + room)
         decades = 10.0 ** np.arange(np.ceil(np.log10(usual)), np.ceil(np.log10(max(high, -low, 2 * usual))))

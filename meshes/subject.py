@@ -52,7 +52,7 @@ class Curves:
     def usual(self) -> float | None:
         """Median of the normal force if the pulses dwarf it, so that only a logarithm shows both; or None."""
         usual = float(np.median(self.normal_force)) if len(self.t) else 0.0
-        return usual if usual > 0 and np.nanmax(self.normal_force) > 12 * usual else None
+        return usual if usual > 0 and np.nanmax(self.normal_force) > 40 * usual else None
 
     def phase(self, time: float) -> str | None:
         """The kind of phase at ``time``, or None."""
