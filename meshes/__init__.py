@@ -9,7 +9,7 @@
 ``series``   frames in time to PVD + VTU and back
 ``view``     pictures, animations and a window: ``picture``, ``animate``, ``window`` (not loaded here);
              behind it ``subject`` (what is shown), ``scales``, ``looks``, ``stage`` (VTK),
-             ``sheet`` (type and curves), ``film`` (files), ``window``, ``renderer`` (is there one)
+             ``lens``, ``sheet`` (type and curves), ``film`` (files), ``window``, ``renderer``
 """
 
 from .fields import Block, Frame, SeriesError, disk_block, floor_block, rim_block, ring_block

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from .fields import Block
 from .renderer import ViewError
 from .subject import Curves, Shot, Subject
+from .times import frame_times
 
 Array = NDArray[np.float64]
 
@@ -43,8 +44,11 @@ def scalar(block: Block, field: str) -> Array:
 
 
 def sampled(subject: Subject, count: int = 30) -> list[Shot]:
-    """Shots spread over the whole run, to choose scales by."""
-    return [subject.shot(t) for t in np.linspace(*subject.span, count)]
+    """Shots spread over the whole run and dense in its pulses, to choose scales by."""
+    curves, (start, stop) = subject.curves, subject.span
+    if start == stop:
+        return [subject.shot(start)]
+    return [subject.shot(t) for t in frame_times(start, stop, count, curves.t, curves.normal_force)]
 
 
 def tidy_factor(shots: list[Shot], share: float = 0.06) -> float:
@@ -57,15 +61,15 @@ def tidy_factor(shots: list[Shot], share: float = 0.06) -> float:
 
 
 def limits(shots: list[Shot], field: str, signed: bool) -> tuple[float, float]:
-    """Range of the colours over the run; the highest half per cent, at the weld's ends, may be outside."""
+    """Range of the colours over the run; the highest thousandth, at the weld's ends, may be outside."""
     values = np.concatenate([scalar(shot.ring, field) for shot in shots])
     values = values[np.isfinite(values)]
     if not values.size:
         return 0.0, 1.0
     if signed:
-        most = float(np.quantile(np.abs(values), 0.995)) or 1.0
+        most = float(np.quantile(np.abs(values), 0.999)) or 1.0
         return -most, most
-    return min(0.0, float(values.min())), float(np.quantile(values, 0.995)) or 1.0
+    return min(0.0, float(values.min())), float(np.quantile(values, 0.999)) or 1.0
 
 
 def scale_of(curves: Curves, shots: list[Shot]) -> Mapping[str, float]:

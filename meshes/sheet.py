@@ -78,6 +78,8 @@ class Sheet:
         # beside the deformed hoop, low, where nothing else is
         low = top + self.stage_box[3] * ABOVE_FLOOR - 0.8 * em
         self._factor = self._text(left, low, "", color=looks.FAINT, moving=True)
+        caption = {"color": looks.FAINT, "ha": "center", "va": "center", "fontsize": 0.8 * self.type}
+        self._lens = self._text(0, 0, "", moving=True, **caption)
         self.canvas.draw()
         self._blank = self.canvas.copy_from_bbox(self.figure.bbox)
         foot = top + int(self.stage_box[3] * ABOVE_FLOOR) - 4
@@ -85,8 +87,10 @@ class Sheet:
         self._bar = np.array(np.asarray(self.canvas.buffer_rgba())[self._bar_box])
         self._bar_ink = (self._bar[..., :3] < 255).any(axis=2)
 
-    def fill(self, stage: Image, shot: Shot, factor: float) -> Image:
-        """The page with this stage picture, as (height, width, 3) bytes."""
+    def fill(
+        self, stage: Image, shot: Shot, factor: float, lens: tuple[float, float, str] | None = None
+    ) -> Image:
+        """The page with this stage picture, as (height, width, 3) bytes; ``lens`` is column, row, caption."""
         self.canvas.restore_region(self._blank)
         left, top, width, height = self.stage_box
         page = np.asarray(self.canvas.buffer_rgba())
@@ -102,6 +106,10 @@ class Sheet:
         self._slip.set_text("" if not shot.slip_velocity else "→ slip velocity")
         rigid = "displacement" not in shot.ring.point_data
         self._factor.set_text("" if rigid else f"deformation × {factor:g}")
+        self._lens.set_text("" if lens is None else lens[2])
+        if lens is not None:
+            x, y = lens[0] / self.size[0], 1 - (top + lens[1] + 0.9 * self.type * 100 / 72) / self.size[1]
+            self._lens.set_position((x, y))
         for line, dot, t, values in self._marks:
             line.set_xdata([shot.time, shot.time])
             dot.set_data([shot.time], [np.interp(shot.time, t, values)])
@@ -180,7 +188,8 @@ class Sheet:
                     axes.axvspan(t0, t1, color=looks.PHASES.get(kind, ("", "#f2f2f2"))[1], lw=0, zorder=0)
             axes.axhline(0, color=looks.FAINT, lw=0.6, zorder=1)
             axes.plot(curves.t, values, color=colour, lw=0.13 * self.type, zorder=3)
-            axes.set_xlim(*self.span)
+            if self.span[0] < self.span[1]:  # a single frame has no span
+                axes.set_xlim(*self.span)
             low, high = float(np.nanmin(values)), float(np.nanmax(values))
             room = 0.12 * ((high - low) or 1.0)
             axes.set_ylim(min(low, 0.0) - room, max(high, 0.0) + room)

@@ -63,6 +63,8 @@ class Stage:
         lengths of forces go by the logarithm beyond it.
     off_screen : bool
         True for pictures, False for a window.
+    above : float
+        Share of the height of the view that lies above the floor.
     """
 
     def __init__(
@@ -73,12 +75,13 @@ class Stage:
         colours: Colours | None,
         largest: Mapping[str, float],
         off_screen: bool = True,
+        above: float = ABOVE_FLOOR,
     ) -> None:
         choose_window(off_screen)
         import pyvista
 
         self.size, self.zoom, self.colours, self.largest = size, zoom, colours, largest
-        self.R = first.radius
+        self.R, self.above = first.radius, above
         #: of the view, in the world's unit of length
         self.height = VIEW_HEIGHT * self.R / zoom
         options: dict[str, Any] = {"window_size": list(size), "lighting": "none", "border": False}
@@ -146,7 +149,7 @@ class Stage:
             self._disk.points = _at(np.asarray(shot.disk.points, dtype=float) + shift, "disk")
         self._lay_floor(middle)
         self._point_arrows(shot)
-        y = self.height * (ABOVE_FLOOR - 0.5)
+        y = self.height * (self.above - 0.5)
         self.plotter.camera_position = [(middle, y, 10 * self.R), (middle, y, 0.0), (0.0, 1.0, 0.0)]
         self.plotter.camera.parallel_scale = self.height / 2
         self.plotter.camera.clipping_range = (self.R, 20 * self.R)

@@ -34,7 +34,7 @@ def frame_times(
     if count < 2 or not start < stop or not 0 <= share < 1:
         raise ValueError(f"{count} frames from {start} to {stop} with a share of {share} cannot be chosen.")
     even = np.linspace(start, stop, count)
-    if t is None or normal_force is None:
+    if t is None or normal_force is None or not np.size(t):
         return even
     at, force = np.asarray(t, dtype=float), np.asarray(normal_force, dtype=float)
     inside = (at > start) & (at < stop)

@@ -24,11 +24,12 @@ from numpy.typing import NDArray
 from rigid import Motion
 
 from . import film, looks
+from .lens import Lens, enlargement
 from .renderer import ViewError, require_renderer, require_screen
 from .scales import field_names, limits, sampled, scale_of, tidy_factor
 from .series import Series
 from .sheet import Sheet
-from .stage import Colours, Stage
+from .stage import ABOVE_FLOOR, Colours, Stage
 from .subject import Shot, Subject, subject_of
 from .times import frame_times
 
@@ -49,6 +50,7 @@ class Setting:
     largest: dict[str, float]
     reach: tuple[float, float]  # of the hoop over the whole run, in x
     zoom: float  # 1 shows the whole hoop
+    lens_factor: float  # exaggeration inside the lens
 
 
 def setting(
@@ -75,12 +77,14 @@ def setting(
     colours = None
     if chosen is not None:
         colours = Colours(chosen, *limits(shots, chosen, chosen in looks.SIGNED))
+    lens_factor = tidy_factor(shots, 0.06 / enlargement(first)) if factor is None else factor
     if factor is None:
         stored = first.ring.field_data.get("display_factor")
         factor = tidy_factor(shots, 0.06 / zoom) if stored is None else float(stored[0])
     x = [float(shot.centre[0]) for shot in shots]
     reach = (min(x) - 1.7 * first.radius, max(x) + 1.2 * first.radius)  # on the left there is text
-    return Setting(subject, first, colours, factor, dict(scale_of(subject.curves, shots)), reach, zoom)
+    largest = dict(scale_of(subject.curves, shots))
+    return Setting(subject, first, colours, factor, largest, reach, zoom, lens_factor)
 
 
 class Camera:
@@ -100,23 +104,34 @@ class Camera:
         # where the hoop may be: left of the colour bar
         self.width = self.height * (width - self.sheet.covered) / height
         self.aside = self.height * self.sheet.covered / height / 2
+        self.scale = height / self.height
+        self.lens = None
+        if chosen.colours is not None and chosen.zoom == 1 and enlargement(chosen.first) >= 2:
+            self.lens = Lens(chosen.first, self.scale, chosen.colours, chosen.lens_factor)
 
     def __enter__(self) -> Camera:
         return self
 
     def __exit__(self, *_: object) -> None:
         self.stage.close()
+        if self.lens is not None:
+            self.lens.stage.close()
 
     def page(self, time: float) -> Image:
         """The page at ``time`` as (height, width, 3) bytes."""
         shot = self.setting.subject.shot(time)
-        self.stage.show(shot, self.setting.factor, self._middle(shot))
+        middle = self._middle(shot)
+        self.stage.show(shot, self.setting.factor, middle)
         fine, more = self.stage.image(), self.oversampling
         total = np.zeros((fine.shape[0] // more, fine.shape[1] // more, 3), dtype=np.uint16)
         for i in range(more):
             for j in range(more):
                 total += fine[i::more, j::more]
-        return self.sheet.fill((total // more**2).astype(np.uint8), shot, self.setting.factor)
+        drawn, caption = (total // more**2).astype(np.uint8), None
+        if self.lens is not None and self.lens.fits(shot):
+            column = drawn.shape[1] / 2 + (float(shot.centre[0]) - middle) * self.scale
+            caption = self.lens.draw(drawn, shot, column, ABOVE_FLOOR * drawn.shape[0])
+        return self.sheet.fill(drawn, shot, self.setting.factor, caption)
 
     def _middle(self, shot: Shot) -> float:
         """The view stands still if the whole run fits in it, or else goes with the hoop."""

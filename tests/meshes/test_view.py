@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 from meshes import SeriesError, SeriesWriter, read
 from meshes import renderer as renderer_module
+from meshes.lens import enlargement
 from meshes.renderer import probe, renderer_problem
 from meshes.stage import ABOVE_FLOOR, deformed
 from meshes.subject import Curves, MotionSubject, SeriesSubject
@@ -79,7 +81,7 @@ def test_the_ring_is_where_it_should_be(series):
                 for c, r in zip(columns, rows, strict=True)]  # fmt: skip
         assert len(hits) > 10
         assert all(hits)
-        column, row = pixel(camera, shot.centre + np.array([-0.4, 0.4]), middle)
+        column, row = pixel(camera, shot.centre + np.array([-0.6, 0.2]), middle)
         assert (page[int(row), int(column)] == 255).all()
 
 
@@ -175,6 +177,18 @@ def test_animations(series, tmp_path, suffix):
 def test_a_gif_of_a_pulse_is_below_a_megabyte(series, tmp_path):
     animate(series, tmp_path / "a.gif", frames=30)
     assert (tmp_path / "a.gif").stat().st_size < 0.5e6  # half of the default number of frames
+
+
+@needs_renderer
+def test_a_series_of_one_frame_without_a_history(tmp_path, ring, ovals):
+    with SeriesWriter(tmp_path) as writer:
+        for frame in ovals.frames(ring, [0.5]):
+            writer.add(frame)
+    page = render(read(tmp_path), size=SIZE)
+    assert page.shape == (SIZE[1], SIZE[0], 3)
+    assert coloured(page).sum() > 500
+    with pytest.raises(ViewError, match="the run goes from"):
+        animate(read(tmp_path), tmp_path / "a.gif")
 
 
 @needs_renderer
@@ -328,3 +342,29 @@ def test_an_enlarged_view_keeps_the_contact_in_the_middle(series):
         assert coloured(page)[int(row) - 3 : int(row) + 1, int(column)].all()
     with pytest.raises(ViewError, match="zoom"):
         setting(series, zoom=0.5)
+
+
+@needs_renderer
+def test_the_lens_enlarges_the_wall_above_the_contact(series):
+    """A wall of 0.02 R is 6 times as high in it as outside, and of the same colours."""
+    with Camera(setting(series, field="hoop_stress"), SIZE) as camera:
+        assert camera.lens is not None
+        assert camera.lens.times == 6
+        time = 0.4  # the contact is at theta = 0.54, where sin 2 theta is large
+        shot = camera.setting.subject.shot(time)
+        assert camera.lens.fits(shot)
+        page = camera.page(time)
+        column, row = pixel(camera, np.array([shot.centre[0], 1.32]), camera._middle(shot))
+        size = camera.lens.size // 2 - 4
+        inside = coloured(page)[int(row) - size : int(row) + size, int(column)].sum()
+        wall = 0.0196 * camera.scale * 6
+        assert inside == pytest.approx(wall, abs=3)  # lines along both edges of the wall are a pixel wide
+
+
+def test_no_lens_where_the_wall_is_thick_or_the_disk_in_the_way(series, ovals):
+    from meshes import ring_mesh
+
+    thin = SeriesSubject(series).shot(0.0)
+    assert enlargement(thin) == 6
+    (thick,) = ovals.frames(ring_mesh(0.8, 1.0, 60), [0.0])
+    assert enlargement(replace(thin, ring=thick.blocks["ring"])) < 2
