@@ -100,10 +100,12 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
                 tt = work[S_T]
                 duration = value(tt, ORDER, length)
                 before = state[T]
+                if not duration > 1e-15 * before:
+                    duration = inf  # jammed: nothing moves in what is left of the phase
                 keep = (state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C])
                 while i < len(times) and times[i] < until and times[i] <= before + duration:
                     x = 0.0
-                    if times[i] > before:
+                    if times[i] > before and duration < inf:
                         tt[0] = before - times[i]
                         x = polish(tt, ORDER, 0.0, length)
                         tt[0] = 0.0

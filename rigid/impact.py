@@ -18,6 +18,7 @@ from math import inf, sqrt
 from .angle import trig
 from .kernel import kernel
 from .layout import ANGLE, ECC, GYR, MU, MU_S, OMEGA, ONE_MINUS_E, SLIP, TOP, UN
+from .slipping import JAM
 
 
 @kernel
@@ -41,6 +42,8 @@ def strike(par, state, restitution):
             friction = mu if s > 0 else -mu
         stick = v == 0.0 and abs(es * arm) <= par[MU_S] * (gyr + arm * arm)
         un_rate = (gyr + es * (es - friction * arm)) / gyr
+        if abs(un_rate) <= 2 * JAM:
+            un_rate = -1e-30  # a near-jam goes on like a jam
         v_rate = 0.0 if stick else (friction * (gyr + arm * arm) - es * arm) / gyr
         # next: the slip stops, compression ends, or restitution is complete
         to_stop = -v / v_rate if v * v_rate < 0 else inf

@@ -20,44 +20,46 @@ _REGISTER: dict[str, FunctionType] = {}
 
 
 def kernel(function: F) -> F:
-    """Mark a function for compilation; its callees must have been marked before it."""
-    assert isinstance(function, FunctionType)
+    """Mark a function for compilation, under a name that no other kernel has."""
+    assert isinstance(function, FunctionType) and function.__name__ not in _REGISTER
     _REGISTER[function.__name__] = function
     return function
 
 
 def _stamp() -> str:
-    """Fingerprint of every marked function's file: a change in a callee makes the cached caller stale."""
-    files = sorted({function.__code__.co_filename for function in _REGISTER.values()})
-    return hashlib.sha256(b"".join(Path(name).read_bytes() for name in files)).hexdigest()
+    """Fingerprint of every file that enters the kernel: a change in a callee makes the cached caller stale."""
+    files = sorted({__file__} | {function.__code__.co_filename for function in _REGISTER.values()})
+    return hashlib.sha256(b"".join(Path(name).read_bytes() for name in files)).hexdigest()[:16]
 
 
 @cache
 def compiled() -> dict[str, Callable[..., Any]]:
     """The compiled twins by name; the first call in a process loads numba, the first on a machine compiles.
 
-    Only the functions named ``entry_*`` are cached on disk (the rest are part of them). The fingerprint enters the
-    entry's closure, which is part of numba's cache key.
+    Only the functions named ``entry_*`` are cached on disk (the others become part of them). The fingerprint is in
+    their names, so the cache never serves a kernel whose callee has changed since.
     """
     import numba
 
+    stamp = _stamp()
     twins: dict[str, Any] = {}
+    scopes: list[dict[str, Any]] = []
     for name, function in _REGISTER.items():
-        scope = {**function.__globals__, **twins}
-        twin = FunctionType(function.__code__, scope, name, function.__defaults__, function.__closure__)
-        if name.startswith("entry_"):
-            twin = FunctionType(function.__code__, scope, f"{name}_{_stamp()[:16]}", function.__defaults__)
-            twin.__qualname__ = twin.__name__
-            twins[name] = _cached(numba, twin)
-        else:
-            twin.__qualname__ = function.__qualname__
-            twins[name] = numba.njit(twin, nogil=True, error_model="numpy")
+        scopes.append(dict(function.__globals__))
+        twin = FunctionType(function.__code__, scopes[-1], name, function.__defaults__)
+        twin.__qualname__ = f"{name}_{stamp}" if name.startswith("entry_") else name
+        twins[name] = _jit(numba, twin, name.startswith("entry_"))
+    for scope in scopes:
+        scope.update(twins)
     return twins
 
 
-def _cached(numba: Any, function: FunctionType) -> Any:
-    """Compiled with a cache on disk, or without one where no directory can be written."""
-    try:
-        return numba.njit(function, nogil=True, error_model="numpy", cache=True)
-    except RuntimeError:
-        return numba.njit(function, nogil=True, error_model="numpy")
+def _jit(numba: Any, function: FunctionType, keep: bool) -> Any:
+    """Compiled lazily, with a cache on disk if ``keep`` and if there is a directory to write to."""
+    options = {"nogil": True, "error_model": "numpy"}
+    if keep:
+        try:
+            return numba.njit(function, cache=True, **options)
+        except RuntimeError:
+            pass
+    return numba.njit(function, **options)

@@ -58,7 +58,7 @@ from .pointmass import choose_point_mass, roll_point_mass, skim
 from .pulse import watch
 from .rolling import TIE, rolling_forces
 from .slide import slide
-from .slipping import denominator
+from .slipping import JAM, denominator
 from .swing import PHASE_OVER, roll
 from .tape import ROOM, begin, turn
 
@@ -80,7 +80,7 @@ def choose_slip(par, state, tape):
         n = gyr * (1 - e * c * omega * omega) / (gyr + e * e * s * s)
         v = e * s * omega * omega - arm * e * s * n / gyr
     sign = 1.0 if v > 0 else -1.0
-    if denominator(par, par[MU] * sign, a, top) > 0.0:
+    if denominator(par, par[MU] * sign, a, top) > JAM * gyr:
         begin(state, SKID if sign > 0 else SPIN, tape)
     else:
         state[MODE] = IMPACT
@@ -164,8 +164,6 @@ def entry_run(par, state, work, tape):
             code = slide(par, state, work, tape)
             if state[MODE] == FLIGHT:
                 begin(state, FLIGHT, tape)
-                if code == PHASE_OVER:
-                    continue
         elif mode == FLIGHT:
             code = soar(par, state, tape)
             if code == PHASE_OVER:

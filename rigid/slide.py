@@ -1,5 +1,7 @@
 """A slipping phase: Taylor steps in tau, cut at every event, so that each event is the end of a step.
 
+When D has fallen to round-off the configuration is frozen: the rest of the slip is an impact (:mod:`rigid.impact`).
+
 Events: the slip stops, lift-off (1 - e c phidot^2 = 0), a turn, the bottom, N = M g, and the end of the run. All are
 roots of the step's own polynomials.
 """
@@ -15,6 +17,7 @@ from .layout import (
     FLIGHT,
     GAP,
     GYR,
+    IMPACT,
     LOSSLESS_TURNS,
     MODE,
     MORE,
@@ -43,7 +46,7 @@ from .layout import (
 )  # fmt: skip
 from .polynomial import first_crossing, value, value_and_slope
 from .pulse import cross_bottom, velocity_of_g, watch
-from .slipping import ORDER, S_B, S_D, S_N1, S_OMEGA, S_PHI, S_SLIP, S_T, normal_force, series
+from .slipping import JAM, ORDER, S_B, S_D, S_N1, S_OMEGA, S_PHI, S_SLIP, S_T, normal_force, series
 from .swing import PHASE_OVER
 from .tape import ROOM, turn
 
@@ -54,8 +57,8 @@ def peak_force(gyr, work, length):
     b, d = work[S_B], work[S_D]
     top = 0.0
     x0, slope0 = 0.0, 0.0
-    for k in range(5):
-        x = 0.25 * length * k
+    for k in range(3):
+        x = 0.5 * length * k
         y, dy = value_and_slope(b, ORDER, x)
         z, dz = value_and_slope(d, ORDER, x)
         top = max(top, gyr * y / z)
@@ -119,6 +122,9 @@ def slide(par, state, work, tape):
             return WORK_BOUND
         state[STEPS] -= 1.0
         length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], state[SLIP], work)
+        if work[S_D][0] <= JAM * gyr:
+            state[MODE] = IMPACT
+            return PHASE_OVER
         event = 0
         b, v, om, n1, ph, tt = work[S_B], work[S_SLIP], work[S_OMEGA], work[S_N1], work[S_PHI], work[S_T]
         if v[0] == 0.0 and abs(v[1]) <= 1e-13 * (abs(om[1]) + gyr):

@@ -18,8 +18,9 @@ from .angle import trig
 from .kernel import kernel
 from .layout import ECC, GYR, ONE_MINUS_E
 
-ORDER = 22
-TOLERANCE = -40.0  # log of the neglected term over the leading one
+ORDER = 24
+TOLERANCE = -34.0  # log of the neglected term over the leading one: below round-off
+JAM = 1e-13  # D/K below which the contact is jammed: D is then round-off of its terms
 SERIES = 14  # arrays of a workspace; their names are the indices below
 S_SIN, S_H, S_OMEGA, S_CO, S_P, S_D, S_B, S_YDOT, S_SLIP, S_PHI, S_T, S_N1, S_PLUS, S_MINUS = range(SERIES)
 
