@@ -288,7 +288,10 @@ def window(
     require_screen()
     from .window import Window
 
-    Window(setting(thing, field, factor, zoom)).open()
+    chosen = setting(thing, field, factor, zoom)
+    if chosen.subject.span[0] == chosen.subject.span[1]:
+        raise ViewError("a window needs more than one frame: ask for a picture (--png).")
+    Window(chosen).open()
 
 
 def _liveliest(subject: Subject) -> float:
