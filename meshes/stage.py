@@ -88,6 +88,8 @@ class Stage:
         plotter: Any = pyvista.Plotter(off_screen=off_screen, **options)
         plotter.set_background(looks.PAPER)
         plotter.enable_parallel_projection()
+        if off_screen:
+            plotter.disable_anti_aliasing()  # pictures are drawn finer and averaged, which is faster
         self.plotter = plotter
         width = max(1.0, size[1] / 500)
 

@@ -88,13 +88,11 @@ def setting(
 
 
 class Camera:
-    """Draws the pages of one setting at one size; close it when done."""
+    """Draws the pages of one setting at one size, from stage pictures ``oversampling`` times as fine."""
 
-    oversampling = 2
-
-    def __init__(self, chosen: Setting, size: tuple[int, int]) -> None:
+    def __init__(self, chosen: Setting, size: tuple[int, int], oversampling: int = 2) -> None:
         require_renderer()
-        self.setting = chosen
+        self.setting, self.oversampling = chosen, oversampling
         subject = chosen.subject
         self.sheet = Sheet(size, subject.curves, subject.span, chosen.colours, subject.units, subject.title)
         _, _, width, height = self.sheet.stage_box
@@ -159,7 +157,7 @@ def render(
         time = _liveliest(chosen.subject)
     if not start <= time <= stop:
         raise ViewError(f"time = {time!r} is not possible: the run goes from {start:g} to {stop:g}.")
-    with Camera(chosen, size) as camera:
+    with Camera(chosen, size, oversampling=3) as camera:
         return camera.page(time)
 
 
