@@ -86,3 +86,23 @@ def fly(par, state, time):
     state[X_C] += xdot_g * time - e * (s1 - s)
     state[SLIP] = xdot_g - omega - e * c1 * omega
     state[GAP], state[UN] = gap, rate
+
+
+@kernel
+def settle(par, state, lift):
+    """Put the contact point on the floor to the last digit, G being at the height ``lift`` above the hoop's centre.
+
+    A fast rotation leaves the angle uncertain by the round-off of omega t, which would make or destroy energy: the height
+    of G is known better, so the angle gives way.
+    """
+    e, omega = par[ECC], state[OMEGA]
+    s, c, _, _ = trig(state[ANGLE], state[TOP])
+    error = lift - e * c
+    if abs(error) < 1e-5 * abs(e * s):
+        xdot_g = state[SLIP] + omega + e * c * omega
+        ydot_g = state[UN] - e * s * omega
+        state[ANGLE], state[TOP], state[WHOLE] = chart(state[ANGLE] - error / (e * s), state[TOP], state[WHOLE])
+        s1, c1, _, _ = trig(state[ANGLE], state[TOP])
+        state[X_C] -= e * (s1 - s)
+        state[SLIP] = xdot_g - omega - e * c1 * omega
+        state[UN] = ydot_g + e * s1 * omega

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import floor, inf
+from math import inf
 
 from .angle import angle_of, trig
 from .flight import fly
@@ -23,16 +23,15 @@ from .layout import (
     WHOLE,
     WIDTH,
     X_C,
-    ZETA,
     T,
 )  # fmt: skip
 from .pointmass import drop, roll_point_mass
 from .polynomial import polish, value
 from .pulse import energy
-from .rolling import angle_at_time, ceiling, rolling_forces, rolling_time
+from .rolling import rolling_forces
 from .slide import carry
-from .slipping import ORDER, S_T, normal_force, series
-from .swing import arrive, place
+from .slipping import ORDER, S_P, S_T, normal_force, series
+from .swing import roll_on
 
 COLUMNS = 8  # phi, omega, x_C, height of the contact point, slip velocity, N, F, energy
 
@@ -44,37 +43,6 @@ def write_state(par, state, normal, friction, out, i):
     out[j] = angle_of(state[ANGLE], state[TOP], state[WHOLE])
     out[j + 1], out[j + 2], out[j + 3] = state[OMEGA], state[X_C], state[GAP]
     out[j + 4], out[j + 5], out[j + 6], out[j + 7] = state[SLIP], normal, friction, energy(par, state)
-
-
-@kernel
-def roll_on(par, state, time):
-    """Advance rolling by ``time``, over any number of turns."""
-    zeta, omega, a, top = par[ZETA], state[OMEGA], state[ANGLE], state[TOP]
-    s, _, h, low = trig(a, top)
-    if (omega == 0.0 and a == 0.0) or time == 0.0:
-        return
-    g, below = ceiling(zeta, omega, h, low)
-    d = 1.0 if (omega > 0 or (omega == 0.0 and s > 0)) else -1.0
-    bottom = state[WHOLE]
-    if top != 0.0 and (a < 0.0 or (a == 0.0 and d < 0)):
-        bottom -= 1.0
-    side = a if top == 0.0 else -a
-    if a == 0.0:
-        side = d if top == 0.0 else -d
-    t_turn = rolling_time(zeta, g, min(g, 2.0), max(below, 0.0), max(-below, 0.0))
-    since = rolling_time(zeta, g, h, low, 0.5 * omega * omega * (zeta + 2 * h))
-    reach = (since if side * d > 0 else -since) + time
-    if t_turn < inf:
-        passes = floor((reach + t_turn) / (2 * t_turn))
-        reach -= 2 * t_turn * passes
-        if below <= 0:
-            bottom += d * passes
-        elif passes % 2 == 1:
-            d = -d
-    x_start, whole = state[X_C], state[WHOLE]
-    offset, chart_now, rest = angle_at_time(zeta, g, below, min(abs(reach), t_turn))
-    place(state, d if reach > 0 else -d, offset, chart_now, bottom)
-    arrive(state, zeta, rest, d, x_start, a, top, whole)
 
 
 @kernel
@@ -95,8 +63,9 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
         start = state[T]
         if kind == SKID or kind == SPIN:
             mu_hat = par[MU] if kind == SKID else -par[MU]
+            p_known = inf
             while i < len(times) and times[i] < until:
-                length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], state[SLIP], work)
+                length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], state[SLIP], p_known, work)
                 tt = work[S_T]
                 duration = value(tt, ORDER, length)
                 before = state[T]
@@ -115,6 +84,7 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
                     state[T] = before
                     state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C] = keep
                     i += 1
+                p_known = value(work[S_P], ORDER, length)
                 carry(par, state, mu_hat, work, length)
             continue
         while i < len(times) and times[i] < until:

@@ -18,7 +18,6 @@ from math import inf, sqrt
 from .angle import trig
 from .kernel import kernel
 from .layout import ANGLE, ECC, GYR, MU, MU_S, OMEGA, ONE_MINUS_E, SLIP, TOP, UN
-from .slipping import JAM
 
 
 @kernel
@@ -29,6 +28,7 @@ def strike(par, state, restitution):
     es = e * s
     arm = par[ONE_MINUS_E] + e * h
     v, un = state[SLIP], min(state[UN], 0.0)
+    jammed = un == 0.0 and v != 0.0
     impulse_n = 0.0
     impulse_t = 0.0
     work = 0.0  # of the normal force: negative in compression
@@ -42,8 +42,8 @@ def strike(par, state, restitution):
             friction = mu if s > 0 else -mu
         stick = v == 0.0 and abs(es * arm) <= par[MU_S] * (gyr + arm * arm)
         un_rate = (gyr + es * (es - friction * arm)) / gyr
-        if abs(un_rate) <= 2 * JAM:
-            un_rate = -1e-30  # a near-jam goes on like a jam
+        if jammed and v != 0.0 and un_rate > -1e-30:
+            un_rate = -1e-30  # D is zero to round-off, whatever its sign
         v_rate = 0.0 if stick else (friction * (gyr + arm * arm) - es * arm) / gyr
         # next: the slip stops, compression ends, or restitution is complete
         to_stop = -v / v_rate if v * v_rate < 0 else inf
@@ -75,7 +75,7 @@ def strike(par, state, restitution):
         un += un_rate * step
         v += v_rate * step
         if to_stop <= to_end:
-            v = 0.0
+            v, jammed = 0.0, False
         if over:
             needed -= gain
             if to_end <= to_stop:

@@ -14,8 +14,10 @@ called again to go on. Rules where Coulomb's law leaves a choice:
 
 from __future__ import annotations
 
+from math import inf
+
 from .angle import trig
-from .flight import fly, lifts, touch_down
+from .flight import fly, lifts, settle, touch_down
 from .impact import strike
 from .kernel import kernel
 from .layout import (
@@ -28,6 +30,8 @@ from .layout import (
     GYR,
     HOPS,
     IMPACT,
+    LAST_ENERGY,
+    LAST_TURNS,
     MODE,
     MORE,
     MU,
@@ -36,10 +40,13 @@ from .layout import (
     ONE_MINUS_E,
     PULSE_OVER,
     RECORDS,
+    REST,
     RESTITUTION,
     ROLL,
+    SETTLES,
     SKID,
     SKIM,
+    SLIDES_DONE,
     SLIP,
     SPIN,
     STALLS,
@@ -47,6 +54,7 @@ from .layout import (
     T_END,
     TIME_REACHED,
     TOP,
+    TURNS_DONE,
     TURNS_REACHED,
     UN,
     UNTIL,
@@ -55,7 +63,7 @@ from .layout import (
     T,
 )  # fmt: skip
 from .pointmass import choose_point_mass, roll_point_mass, skim
-from .pulse import watch
+from .pulse import energy, watch
 from .rolling import TIE, rolling_forces
 from .slide import slide
 from .slipping import JAM, denominator
@@ -63,6 +71,7 @@ from .swing import PHASE_OVER, roll
 from .tape import ROOM, begin, turn
 
 SLOWEST_HOP = 1e-6
+SLIPS, LEAST_LOSS = 100.0, 1e-6
 
 
 @kernel
@@ -116,7 +125,10 @@ def soar(par, state, tape):
         fly(par, state, par[T_END] - state[T])
         state[T] = par[T_END]
         return TIME_REACHED
+    s, c, _, _ = trig(state[ANGLE], state[TOP])
+    lift = state[GAP] + par[ECC] * c + time * (state[UN] - par[ECC] * s * state[OMEGA] - 0.5 * time)
     fly(par, state, time)
+    settle(par, state, lift)
     state[GAP] = 0.0
     state[UN] = min(state[UN], 0.0)
     state[HOPS] += 1.0
@@ -136,6 +148,24 @@ def hit(par, state, tape):
     if reverses and turn(par, state, tape):
         return TURNS_REACHED
     return PHASE_OVER
+
+
+@kernel
+def settles(par, state):
+    """Whether the last ``SLIPS`` slips have taken next to nothing and brought the end of the run no closer.
+
+    A motion whose slips shrink towards a rolling that just never slips does so algebraically, and would not end.
+    """
+    if par[UNTIL] == FIRST_PULSE or par[T_END] < inf:
+        return False
+    state[SLIDES_DONE] += 1.0
+    if state[SLIDES_DONE] < SLIPS:
+        return False
+    now = energy(par, state)
+    idle = par[UNTIL] == REST or state[TURNS_DONE] == state[LAST_TURNS]
+    done = idle and state[LAST_ENERGY] - now <= LEAST_LOSS * now
+    state[SLIDES_DONE], state[LAST_ENERGY], state[LAST_TURNS] = 0.0, now, state[TURNS_DONE]
+    return done
 
 
 @kernel
@@ -161,6 +191,8 @@ def entry_run(par, state, work, tape):
                 if code == PHASE_OVER:
                     choose_slip(par, state, tape)
         elif mode == SKID or mode == SPIN:
+            if settles(par, state):
+                return SETTLES
             code = slide(par, state, work, tape)
             if state[MODE] == FLIGHT:
                 begin(state, FLIGHT, tape)

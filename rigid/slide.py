@@ -8,6 +8,8 @@ roots of the step's own polynomials.
 
 from __future__ import annotations
 
+from math import inf
+
 from .angle import chart, trig
 from .kernel import kernel
 from .layout import (
@@ -46,7 +48,7 @@ from .layout import (
 )  # fmt: skip
 from .polynomial import first_crossing, value, value_and_slope
 from .pulse import cross_bottom, velocity_of_g, watch
-from .slipping import JAM, ORDER, S_B, S_D, S_N1, S_OMEGA, S_PHI, S_SLIP, S_T, normal_force, series
+from .slipping import JAM, ORDER, S_B, S_D, S_N1, S_OMEGA, S_P, S_PHI, S_SLIP, S_T, normal_force, series
 from .swing import PHASE_OVER
 from .tape import ROOM, turn
 
@@ -111,6 +113,7 @@ def slide(par, state, work, tape):
     mu_hat = par[MU] * sign
     gyr = par[GYR]
     at_edge = False
+    p_known = inf
     state[LOSSLESS_TURNS] = 0.0
     n = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
     if watch(par, state, n, tape) and par[UNTIL] == FIRST_PULSE:
@@ -121,7 +124,7 @@ def slide(par, state, work, tape):
         if state[STEPS] <= 0.0:
             return WORK_BOUND
         state[STEPS] -= 1.0
-        length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], state[SLIP], work)
+        length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], state[SLIP], p_known, work)
         if work[S_D][0] <= JAM * gyr:
             state[MODE] = IMPACT
             return PHASE_OVER
@@ -164,6 +167,7 @@ def slide(par, state, work, tape):
         at_edge = False
         if state[P_OPEN] != 0.0:
             state[P_PEAK] = max(state[P_PEAK], peak_force(gyr, work, length))
+        p_known = value(work[S_P], ORDER, length)
         if length > 0.0:
             carry(par, state, mu_hat, work, length)
         if event == 1:

@@ -12,7 +12,7 @@ The slip velocity is the first integral xdot_G + mu^ (ydot_G + t) = const; N = K
 
 from __future__ import annotations
 
-from math import exp, log, sqrt
+from math import exp, log
 
 from .angle import trig
 from .kernel import kernel
@@ -26,7 +26,18 @@ S_SIN, S_H, S_OMEGA, S_CO, S_P, S_D, S_B, S_YDOT, S_SLIP, S_PHI, S_T, S_N1, S_PL
 
 
 @kernel
-def series(par, mu_hat, a, top, omega, slip, work):
+def known_p(p, carried):
+    """P from the angle, or as carried along by the series where the angle has lost its digits.
+
+    P -> 0 is where a hoop of little inertia jams (D = K + e s P); D keeps its digits there only if P does.
+    """
+    if abs(p - carried) <= 1e-13 and abs(p) < 1e-3:
+        return carried
+    return p
+
+
+@kernel
+def series(par, mu_hat, a, top, omega, slip, p_known, work):
     """Taylor coefficients in tau of one step, and the length over which they are exact to round-off.
 
     ``work`` holds, by index: sin phi, 1 + cos phi, phidot, phidot cos phi, P, D, b, ydot_G, slip velocity, angle and
@@ -42,7 +53,7 @@ def series(par, mu_hat, a, top, omega, slip, work):
     for n in range(ORDER + 1):
         pp[n] = e * sn[n] + me * hh[n]
         if n == 0:
-            pp[0] += mu_hat * one_minus_e
+            pp[0] = known_p(pp[0] + mu_hat * one_minus_e, p_known)
         h_omega = 0.0
         s_p = 0.0
         for j in range(n + 1):
@@ -109,9 +120,3 @@ def denominator(par, mu_hat, a, top):
     """D = K + e s P; the contact point is free to leave the floor with acceleration D/K per unit of normal force."""
     s, _, h, _ = trig(a, top)
     return par[GYR] + par[ECC] * s * (par[ECC] * s + mu_hat * (par[ONE_MINUS_E] + par[ECC] * h))
-
-
-@kernel
-def reference_length(par):
-    """Angle over which D varies near the bottom."""
-    return sqrt(par[GYR])

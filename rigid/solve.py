@@ -16,6 +16,7 @@ from .machine import entry_run
 from .motion import Array, Kind, Motion, Phase, Pulse, States, Turn
 from .scene import Scene
 from .slipping import ORDER, SERIES
+from .swing import LISTED_PERIODS
 
 KINDS = {
     at.ROLL: Kind.ROLL, at.SKID: Kind.SKID, at.SPIN: Kind.SPIN,
@@ -34,6 +35,7 @@ _REASONS = {
     at.SLIDES: "slides for ever: a smooth floor takes no energy",
     at.HITS_FLOOR: "the point mass hits the floor",
     at.CREEPS: "creeps up to the top and never gets there",
+    at.SETTLES: "all but rolls for ever: a hundred slips took less than a millionth of its energy",
     at.LIFTED: "the point mass rises out of the hoop's reach and takes it off the floor",
 }
 _interpreted_steps = 0
@@ -139,7 +141,7 @@ def simulate(scene: Scene) -> Motion:
         Phase(KINDS[int(a[0])], a[1] * time, b[1] * time, angle_of(a[2], a[3], a[4]), angle_of(b[2], b[3], b[4]))
         for a, b in zip(edges, edges[1:], strict=False)
     )
-    period = final[at.PERIOD] * time if code in (at.ROLLS, at.WHIRLS) or 0 < final[at.PERIOD] < inf else None
+    period = final[at.PERIOD] * time if 0 < final[at.PERIOD] < inf else None
     sample = Sampler(tuple(par), tuple(map(tuple, starts)), scene)
     return Motion(scene, phases, tuple(turns), tuple(pulses), _reason(code, scene, period, final), sample, period)
 
@@ -178,6 +180,8 @@ def _reason(code: int, scene: Scene, period: float | None, final: list[float]) -
         return f"turn {scene.run.turns} is reached"
     if code == at.ROLLS:
         return f"rolls for ever: |F| < mu_s N over the whole swing, period {period:.12g}"
+    if code == at.ROLLS_ON:
+        return f"the time to run is over; rolls for ever, period {period:.12g}, of which the first {LISTED_PERIODS:g} are listed"
     if code == at.WHIRLS:
         return f"rolls for ever, over the top in every revolution of {period:.12g}: there is no turn"
     if code == at.WORK_BOUND:

@@ -6,7 +6,7 @@ of the pulse, slip on the way out, and the turn (or the top). Passes without sli
 
 from __future__ import annotations
 
-from math import asin, atan, inf, sqrt, tan
+from math import asin, atan, floor, inf, sqrt, tan
 
 from .angle import advance_between, trig
 from .kernel import kernel
@@ -24,6 +24,7 @@ from .layout import (
     REST,
     RESTS,
     ROLLS,
+    ROLLS_ON,
     SLIP,
     T_END,
     TIME_REACHED,
@@ -53,6 +54,7 @@ from .slipping import S_MINUS, S_PLUS
 from .tape import ROOM, turn
 
 PHASE_OVER = -1
+LISTED_PERIODS = 2000.0  # of a motion that repeats itself for ever; its turns and pulses after that are not listed
 
 
 @kernel
@@ -88,6 +90,37 @@ def place(state, psi_sign, offset, top, bottom):
         state[ANGLE], state[TOP], state[WHOLE] = -offset, 1.0, bottom + 1
     else:
         state[ANGLE], state[TOP], state[WHOLE] = offset, 1.0, bottom
+
+
+@kernel
+def roll_on(par, state, time):
+    """Advance rolling by ``time``, over any number of turns."""
+    zeta, omega, a, top = par[ZETA], state[OMEGA], state[ANGLE], state[TOP]
+    s, _, h, low = trig(a, top)
+    if (omega == 0.0 and a == 0.0) or time == 0.0:
+        return
+    g, below = ceiling(zeta, omega, h, low)
+    d = 1.0 if (omega > 0 or (omega == 0.0 and s > 0)) else -1.0
+    bottom = state[WHOLE]
+    if top != 0.0 and (a < 0.0 or (a == 0.0 and d < 0)):
+        bottom -= 1.0
+    side = a if top == 0.0 else -a
+    if a == 0.0:
+        side = d if top == 0.0 else -d
+    t_turn = rolling_time(zeta, g, min(g, 2.0), max(below, 0.0), max(-below, 0.0))
+    since = rolling_time(zeta, g, h, low, 0.5 * omega * omega * (zeta + 2 * h))
+    reach = (since if side * d > 0 else -since) + time
+    if t_turn < inf:
+        passes = floor((reach + t_turn) / (2 * t_turn))
+        reach -= 2 * t_turn * passes
+        if below <= 0:
+            bottom += d * passes
+        elif passes % 2 == 1:
+            d = -d
+    x_start, whole = state[X_C], state[WHOLE]
+    offset, chart_now, rest = angle_at_time(zeta, g, below, min(abs(reach), t_turn))
+    place(state, d if reach > 0 else -d, offset, chart_now, bottom)
+    arrive(state, zeta, rest, d, x_start, a, top, whole)
 
 
 @kernel
@@ -133,10 +166,13 @@ def roll(par, state, work, tape):
             t_outer = max(cur, -cur)
     forever = inner < 0 and outer < 0
     stop = inf
+    listed = inf
     if forever:
         state[PERIOD] = 2 * t_turn if below <= 0 else 4 * t_turn
         if par[UNTIL] == REST or (par[TURNS] < inf and below <= 0):
             stop = state[T] + state[PERIOD]
+        if par[T_END] < inf and state[PERIOD] < inf:
+            listed = state[T] + LISTED_PERIODS * state[PERIOD]
     x_start = state[X_C]
     a0, top0, whole0 = a, top, state[WHOLE]
     n, _ = rolling_forces(par, omega, a, top)
@@ -158,6 +194,11 @@ def roll(par, state, work, tape):
             at, where = -t_edge, 1
         time = state[T] + max(at - cur, 0.0)
         limit = min(par[T_END], stop)
+        if time > listed and time < limit:
+            roll_on(par, state, par[T_END] - state[T])
+            state[T] = par[T_END]
+            state[P_OPEN] = 0.0
+            return ROLLS_ON
         if time >= limit:
             reach = cur + (limit - state[T])
             offset, otop, rest = angle_at_time(zeta, g, below, abs(reach))
