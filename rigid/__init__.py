@@ -12,12 +12,14 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
 ``motion``     the vocabulary that both solvers speak
 """
 
+from .batch import Batch, simulate_batch
 from .motion import Kind, Motion, Phase, Pulse, States, Turn
 from .scene import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, SceneError, Solve
 from .scenefile import load_scene, scene_from_dict, scene_names, scene_to_dict
 from .solve import simulate
 
 __all__ = [
+    "Batch",
     "Contact",
     "Friction",
     "Hoop",
@@ -39,4 +41,5 @@ __all__ = [
     "scene_names",
     "scene_to_dict",
     "simulate",
+    "simulate_batch",
 ]

@@ -14,8 +14,8 @@ T, ANGLE, TOP, WHOLE, OMEGA, SLIP, UN, GAP, X_C = range(9)
 MODE, LAST_KIND, TURNS_DONE, STEPS, RECORDS, PULSES_DONE, PERIOD, STALLS, HOPS = range(9, 18)
 # The pulse that is being measured: whether it is open, whether the bottom was crossed, and the state at its start.
 P_OPEN, P_CROSSED, P_T, P_ANGLE, P_TOP, P_WHOLE, P_XDOT, P_YDOT, P_H, P_ENERGY, P_PEAK, P_T_BOTTOM = range(18, 30)
-LOSSLESS_TURNS, SLIDES_DONE, LAST_ENERGY, LAST_TURNS = range(30, 34)
-STATE = 34
+LOSSLESS_TURNS, SLIDES_DONE, LAST_ENERGY, LAST_TURNS, PHASE_T = range(30, 35)
+STATE = 35
 
 # Kinds of contact; CHOOSE stands for "find out".
 CHOOSE, ROLL, SKID, SPIN, FLIGHT, SKIM, IMPACT = range(7)

@@ -25,6 +25,7 @@ from .layout import (
     MORE,
     MU,
     OMEGA,
+    ONE_MINUS_E,
     P_OPEN,
     P_PEAK,
     PULSE_OVER,
@@ -48,7 +49,22 @@ from .layout import (
 )  # fmt: skip
 from .polynomial import first_crossing, value, value_and_slope
 from .pulse import cross_bottom, velocity_of_g, watch
-from .slipping import JAM, ORDER, S_B, S_D, S_N1, S_OMEGA, S_P, S_PHI, S_SLIP, S_T, normal_force, series
+from .slipping import (
+    JAM,
+    ORDER,
+    S_B,
+    S_D,
+    S_H,
+    S_N1,
+    S_OMEGA,
+    S_P,
+    S_PHI,
+    S_SIN,
+    S_SLIP,
+    S_T,
+    normal_force,
+    series,
+)
 from .swing import PHASE_OVER
 from .tape import ROOM, turn
 
@@ -130,8 +146,13 @@ def slide(par, state, work, tape):
             return PHASE_OVER
         event = 0
         b, v, om, n1, ph, tt = work[S_B], work[S_SLIP], work[S_OMEGA], work[S_N1], work[S_PHI], work[S_T]
-        if v[0] == 0.0 and abs(v[1]) <= 1e-13 * (abs(om[1]) + gyr):
-            v[1] = 0.0
+        if v[0] == 0.0:
+            # a slip that starts with mu_s = mu starts with no acceleration either, up to the round-off of its terms
+            es = par[ECC] * abs(work[S_SIN][0])
+            arm = par[ONE_MINUS_E] + par[ECC] * work[S_H][0]
+            terms = (gyr + es + par[MU] * arm) * abs(b[0]) + es * om[0] * om[0] * work[S_D][0]
+            if abs(v[1]) <= 1e-13 * terms:
+                v[1] = 0.0
         if abs(b[0]) <= 1e-14 * (1 + par[ECC] * om[0] * om[0]):
             b[0] = 0.0
         x = first_crossing(v, ORDER, length, sign)

@@ -27,7 +27,7 @@ STEPS = 200_000  # the work bound of one motion: Taylor steps and phases
 MOST_RECORDS = 200_000  # and its phases, turns and pulses together
 PATIENCE = 4_000  # interpreted steps, some 0.4 s, after which a process goes over to the compiled kernel
 
-_UNTIL = {None: at.NOTHING, "pulse": at.FIRST_PULSE, "rest": at.REST}
+UNTIL_CODES = {None: at.NOTHING, "pulse": at.FIRST_PULSE, "rest": at.REST}
 _REASONS = {
     at.TIME_REACHED: "the time to run is over",
     at.PULSE_OVER: "the first pulse is over",
@@ -36,6 +36,11 @@ _REASONS = {
     at.HITS_FLOOR: "the point mass hits the floor",
     at.CREEPS: "creeps up to the top and never gets there",
     at.SETTLES: "all but rolls for ever: a hundred slips took less than a millionth of its energy",
+    at.TURNS_REACHED: "the last turn asked for is reached",
+    at.ROLLS: "rolls for ever: |F| < mu_s N over the whole swing",
+    at.WHIRLS: "rolls for ever, over the top in every revolution, so there is no turn to wait for",
+    at.ROLLS_ON: f"the time to run is over; rolls for ever, and the first {LISTED_PERIODS:g} periods are listed",
+    at.WORK_BOUND: "the work bound is reached",
     at.LIFTED: "the point mass rises out of the hoop's reach and takes it off the floor",
 }
 _interpreted_steps = 0
@@ -52,7 +57,7 @@ def parameters(scene: Scene) -> list[float]:
     t_end = inf if run.t_end is None else run.t_end / scene.time_unit
     friction = scene.friction
     bounce = scene.landing.restitution
-    return [e, one_minus_e, gyr, zeta, friction.mu_s, friction.mu, bounce, turns, t_end, float(_UNTIL[run.until])]
+    return [e, one_minus_e, gyr, zeta, friction.mu_s, friction.mu, bounce, turns, t_end, float(UNTIL_CODES[run.until])]
 
 
 def release_state(scene: Scene) -> list[float]:
@@ -143,7 +148,7 @@ def simulate(scene: Scene) -> Motion:
     )
     period = final[at.PERIOD] * time if 0 < final[at.PERIOD] < inf else None
     sample = Sampler(tuple(par), tuple(map(tuple, starts)), scene)
-    return Motion(scene, phases, tuple(turns), tuple(pulses), _reason(code, scene, period, final), sample, period)
+    return Motion(scene, phases, tuple(turns), tuple(pulses), _ended(code, scene, period, final), sample, period)
 
 
 def _pulse(t0: float, t1: float, start: list[float], stop: list[float], measures: tuple[float, ...]) -> Pulse:
@@ -175,18 +180,21 @@ def _merged(starts: list[list[float]], end: list[float]) -> list[list[float]]:
     return kept or starts[:1]
 
 
-def _reason(code: int, scene: Scene, period: float | None, final: list[float]) -> str:
-    if code == at.TURNS_REACHED:
-        return f"turn {scene.run.turns} is reached"
-    if code == at.ROLLS:
-        return f"rolls for ever: |F| < mu_s N over the whole swing, period {period:.12g}"
-    if code == at.ROLLS_ON:
-        return f"the time to run is over; rolls for ever, period {period:.12g}, of which the first {LISTED_PERIODS:g} are listed"
-    if code == at.WHIRLS:
-        return f"rolls for ever, over the top in every revolution of {period:.12g}: there is no turn"
-    if code == at.WORK_BOUND:
-        return f"the work bound is reached after {final[at.T] * scene.time_unit:.6g}: the motion goes on"
+def reason(code: int) -> str:
+    """Why a motion ends, in words."""
     return _REASONS[code]
+
+
+def _ended(code: int, scene: Scene, period: float | None, final: list[float]) -> str:
+    """The reason, with the numbers of this motion."""
+    words = reason(code)
+    if code == at.TURNS_REACHED:
+        return f"{words}: number {scene.run.turns}"
+    if code == at.WORK_BOUND:
+        return f"{words} after {final[at.T] * scene.time_unit:.6g}: the motion goes on"
+    if period is None or code not in (at.ROLLS, at.WHIRLS, at.ROLLS_ON):
+        return words
+    return f"{words}; period {period:.12g}"
 
 
 @dataclass(frozen=True)

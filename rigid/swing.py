@@ -19,6 +19,7 @@ from .layout import (
     P_OPEN,
     P_PEAK,
     PERIOD,
+    PHASE_T,
     PULSE_OVER,
     RECORDS,
     REST,
@@ -172,7 +173,7 @@ def roll(par, state, work, tape):
         if par[UNTIL] == REST or (par[TURNS] < inf and below <= 0):
             stop = state[T] + state[PERIOD]
         if par[T_END] < inf and state[PERIOD] < inf:
-            listed = state[T] + LISTED_PERIODS * state[PERIOD]
+            listed = state[PHASE_T] + LISTED_PERIODS * state[PERIOD]
     x_start = state[X_C]
     a0, top0, whole0 = a, top, state[WHOLE]
     n, _ = rolling_forces(par, omega, a, top)

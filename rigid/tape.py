@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .kernel import kernel
-from .layout import IMPACT, LAST_KIND, MODE, RECORDS, TURN, TURNS, TURNS_DONE, WIDTH, X_C
+from .layout import IMPACT, LAST_KIND, MODE, PHASE_T, RECORDS, TURN, TURNS, TURNS_DONE, WIDTH, X_C, T
 from .pulse import energy
 
 ROOM = 8  # records that one turn of a loop may add
@@ -26,6 +26,7 @@ def begin(state, kind, tape):
     if state[LAST_KIND] != kind or kind == IMPACT:
         record(state, kind, tape)
         state[LAST_KIND] = kind
+        state[PHASE_T] = state[T]
 
 
 @kernel
