@@ -108,6 +108,21 @@ def _candidates(height: float, phi: float, y: Any, first: int, count: int, verte
             continue
         j_low = int(ceil((start + low * width) / spacing)) - 1
         j_high = int(floor((start + high * width) / spacing)) + 1
+        # the edges are estimates: the range must begin and end with a point off the floor, or with the element
+        first_point, last_point = int(ceil(start / spacing)) - 1, int(floor((start + width) / spacing)) + 1
+        for j, end in ((j_low, first_point), (j_high, last_point)):
+            way = -1 if end == first_point else 1
+            while way * (end - j) > 0:
+                s = (j * spacing - start) / width
+                bend = -3 * y[2 * i] + 4 * y[2 * i + 1] - y[2 * i + 2]
+                rise = y[2 * i] + s * (bend + s * (2 * y[2 * i] - 4 * y[2 * i + 1] + 2 * y[2 * i + 2]))
+                if height + rise + 2 * sin((phi - pi + j * spacing) / 2) ** 2 >= 0:
+                    break
+                j += way
+            if way < 0:
+                j_low = j
+            else:
+                j_high = j
         if n > 0 and j_low <= ranges[n - 1, 1] + 1:
             ranges[n - 1, 1] = max(j_high, ranges[n - 1, 1])
         else:

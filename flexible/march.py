@@ -60,9 +60,20 @@ class Model(Protocol):
         """Damping coefficient of the sticking patch against slip."""
 
     def stage(
-        self, old: State, mode: int, damper: Array, pos_pred: Array, vel_pred: Array, beta: float, guess: Array
+        self,
+        old: State,
+        mode: int,
+        damper: Array,
+        pos_pred: Array,
+        vel_pred: Array,
+        beta: float,
+        guess: Array,
+        near: tuple[tuple[int, int], Array] | None = None,
     ) -> Any:
-        """Solve one stage: (ok, d, acc, matrix, window, u, nodal, res, bristles, flags)."""
+        """Solve one stage: (ok, d, acc, matrix, window, u, nodal, res, bristles, flags).
+
+        ``guess`` starts the increment, ``near`` (a window and its displacement) the ring.
+        """
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity, ring strain."""
@@ -143,7 +154,7 @@ def _attempt(model: Model, old: State, h: float) -> _Trial | None:
     elastic_pred = c_mid * res_mid[ELASTIC] + c_old * elastic0
     damper = np.array([rho, elastic_pred, 1.0, drag, c_mid * res_mid[SLIP]])
     guess = beta**2 * (acc_mid + (acc_mid - acc0) * (1 - TAU) / TAU)
-    second = model.stage(old, old.mode, damper, pos_pred, vel_pred, beta, guess)
+    second = model.stage(old, old.mode, damper, pos_pred, vel_pred, beta, guess, (first[4], first[5]))
     if not second[0]:
         return None
     _, d, acc, matrix, window, u, nodal, res, bristles, flags = second
@@ -230,7 +241,7 @@ def march(
     rtol: float,
     h: float = 1e-4,
     largest_step: float = 0.05,
-    max_steps: int = 200_000,
+    max_steps: int = 50_000,
     progress: Callable[[State], None] | None = None,
 ) -> tuple[State, list[Record], int, str]:
     """March until ``done(state)`` turns positive; that instant is located.
@@ -284,10 +295,12 @@ def march(
         if done(state) >= 0:
             return state, records, attempts, ""
         if event is not None:
-            before = state.res[BRISTLE_ENERGY]
             mode = STICK if state.mode != STICK else (1 if state.res[FRICTION] > 0 else -1)
             state = restart(model, state, mode)
-            books.friction_loss -= state.res[BRISTLE_ENERGY] - before
+            # what the ring and the patch let go of in the jump of the friction force is lost to friction
+            before, after = records[-1], record(model, state, books)
+            released = before.ring_strain + before.contact_spring - after.ring_strain - after.contact_spring
+            books.friction_loss += released
             records.append(record(model, state, books))
             h = min(h, grown) / 8
         else:

@@ -77,7 +77,15 @@ class ReducedHoop:
         return moved.reshape(-1, 2)
 
     def stage(
-        self, old: State, mode: int, damper: Array, pos_pred: Array, vel_pred: Array, beta: float, guess: Array
+        self,
+        old: State,
+        mode: int,
+        damper: Array,
+        pos_pred: Array,
+        vel_pred: Array,
+        beta: float,
+        guess: Array,
+        near: tuple[tuple[int, int], Array] | None = None,
     ) -> Any:
         """See :class:`flexible.march.Model`."""
         phi = pos_pred[2] + guess[2]
@@ -87,7 +95,7 @@ class ReducedHoop:
             window = self._window(phi, low, high, margin)
             u_old = self.displacement(old, window)
             shapes, compliance = self._arrays(window)
-            u_guess = u_old
+            u_guess = near[1] if near is not None and near[0] == window else u_old
             ring = self.ring
             iterations, d, u, acc, matrix, nodal, res, bristles, flags = solve_stage(
                 ring.body, ring.modal, ring.gyro, shapes, compliance, window[0], ring.vertex, self.law, mode,

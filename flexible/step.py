@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from .contact import FRICTION, NORMAL, OUTSIDE, contact_forces
+from .contact import ELASTIC, EPS_N, EPS_T, LENGTH, NORMAL, OUTSIDE, SLIP, contact_forces
 from .frame import inertia
 
 TAU = 2 - sqrt(2)  # where the first stage ends, as a fraction of the step
@@ -80,9 +80,7 @@ def solve_stage(
         flat = nodal.copy().reshape(2 * nodes)
         t_uu = tangent[3:, 3:].copy()
         t_ux = tangent[3:, :3].copy()
-        scale = 1.0
-        for i in range(nodes):
-            scale -= t_uu[2 * i, 2 * i] + t_uu[2 * i + 1, 2 * i + 1]
+        scale = 1.0 + (law[EPS_N] + law[EPS_T]) * res[LENGTH]  # turns an error of u into one of the forces
         moved = compliance @ flat
         worst = 0.0
         for i in range(3):
@@ -101,7 +99,8 @@ def solve_stage(
             residual[m + k] = scale * (u[k // 2, k % 2] - modal_part - moved[k])
             worst = max(worst, abs(residual[m + k]))
         # below this, the forces are round-off of the gap
-        floor = 4e-16 * scale * (abs(pos[1]) + 1e-3 * abs(pos[2]) * abs(res[FRICTION]) + np.abs(u).max())
+        floor = 4e-16 * scale * (abs(pos[1]) + np.abs(u).max()) + 1e-14 * (damper[0] + 1) * res[ELASTIC]
+        floor += 1e-15 * damper[3] * (abs(res[SLIP]) + abs(damper[4]))
         small = tolerance * (1 + res[NORMAL]) + floor
         if worst <= small and iteration > 0:
             iterations = iteration
@@ -122,7 +121,7 @@ def solve_stage(
             matrix[m + k, m + k] += scale
         update = np.linalg.solve(matrix, residual)
         damping = 1.0
-        if iteration > 4 and worst > 0.5 * last:
+        if iteration > 3 and worst > last:
             damping = 0.5
         last = worst
         for i in range(m):
