@@ -7,7 +7,7 @@ of ``a``, which phi itself does not have.
 
 from __future__ import annotations
 
-from math import floor, pi, sin
+from math import atan, floor, pi, sin
 
 from .kernel import kernel
 
@@ -61,3 +61,15 @@ def advance_between(a0, top0, n0, a1, top1, n1):
     if top0 == top1:
         return (a1 - a0) + 2 * pi * (n1 - n0)
     return angle_of(a1, top1, n1 - n0) - angle_of(a0, top0, 0.0)
+
+
+@kernel
+def next_angle(s, h, top, n):
+    """The angle with sin phi = s and 1 + cos phi = h, less than a quarter turn from chart ``top`` of turn ``n``."""
+    if h < 1.0:
+        if top != 0.0 and s < 0:
+            n -= 1.0
+        return -2 * atan(s / (2 - h)), 0.0, n
+    if top == 0.0 and s < 0:
+        n += 1.0
+    return 2 * atan(s / h), 1.0, n

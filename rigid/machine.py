@@ -71,6 +71,7 @@ from .swing import PHASE_OVER, roll
 from .tape import ROOM, begin, turn
 
 SLOWEST_HOP = 1e-6
+MOST_STALLS = 50.0
 SLIPS, LEAST_LOSS = 100.0, 1e-6
 
 
@@ -208,7 +209,7 @@ def entry_run(par, state, work, tape):
         if code != PHASE_OVER:
             return code
         state[STALLS] = state[STALLS] + 1.0 if state[T] == before else 0.0
-        if state[STALLS] > 50.0:
+        if state[STALLS] > MOST_STALLS:
             return WORK_BOUND
         if state[MODE] == mode:
             state[MODE] = CHOOSE

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from math import inf
 
-from .angle import chart, trig
+from .angle import next_angle, trig
 from .kernel import kernel
 from .layout import (
     ANGLE,
@@ -58,7 +58,6 @@ from .slipping import (
     S_N1,
     S_OMEGA,
     S_P,
-    S_PHI,
     S_SIN,
     S_SLIP,
     S_T,
@@ -111,8 +110,8 @@ def carry(par, state, mu_hat, work, x):
     s0, _, h0, _ = trig(state[ANGLE], state[TOP])
     xdot, ydot = velocity_of_g(par, state)
     dt = value(work[S_T], ORDER, x)
-    a, top, whole = chart(state[ANGLE] + value(work[S_PHI], ORDER, x), state[TOP], state[WHOLE])
-    s1, _, h1, _ = trig(a, top)
+    s1, h1 = value(work[S_SIN], ORDER, x), value(work[S_H], ORDER, x)
+    a, top, whole = next_angle(s1, h1, state[TOP], state[WHOLE])
     # xddot_G = -mu^ (1 + yddot_G), integrated twice
     along = xdot * dt - mu_hat * (0.5 * dt * dt + e * (h1 - h0) - ydot * dt)
     state[X_C] += along - e * (s1 - s0)
@@ -145,7 +144,7 @@ def slide(par, state, work, tape):
             state[MODE] = IMPACT
             return PHASE_OVER
         event = 0
-        b, v, om, n1, ph, tt = work[S_B], work[S_SLIP], work[S_OMEGA], work[S_N1], work[S_PHI], work[S_T]
+        b, v, om, n1, tt = work[S_B], work[S_SLIP], work[S_OMEGA], work[S_N1], work[S_T]
         if v[0] == 0.0:
             # a slip that starts with mu_s = mu starts with no acceleration either, up to the round-off of its terms
             es = par[ECC] * abs(work[S_SIN][0])
@@ -174,10 +173,9 @@ def slide(par, state, work, tape):
             length, event = x, 4
         if state[TOP] == 0.0:
             a = state[ANGLE]
-            ph[0] = a
+            # sin phi has the sign of -a
             side = a if a != 0.0 else heading
-            x = first_crossing(ph, ORDER, length, 1.0 if side > 0 else -1.0)
-            ph[0] = 0.0
+            x = first_crossing(work[S_SIN], ORDER, length, -1.0 if side > 0 else 1.0)
             if x > 0:
                 length, event = x, 5
         if at_edge:

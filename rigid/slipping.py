@@ -21,8 +21,8 @@ from .layout import ECC, GYR, ONE_MINUS_E
 ORDER = 24
 TOLERANCE = -34.0  # log of the neglected term over the leading one: below round-off
 JAM = 1e-13  # D/K below which the contact is jammed: D is then round-off of its terms
-SERIES = 14  # arrays of a workspace; their names are the indices below
-S_SIN, S_H, S_OMEGA, S_CO, S_P, S_D, S_B, S_YDOT, S_SLIP, S_PHI, S_T, S_N1, S_PLUS, S_MINUS = range(SERIES)
+SERIES = 13  # arrays of a workspace; their names are the indices below
+S_SIN, S_H, S_OMEGA, S_CO, S_P, S_D, S_B, S_YDOT, S_SLIP, S_T, S_N1, S_PLUS, S_MINUS = range(SERIES)
 
 
 @kernel
@@ -40,14 +40,14 @@ def known_p(p, carried):
 def series(par, mu_hat, a, top, omega, slip, p_known, work):
     """Taylor coefficients in tau of one step, and the length over which they are exact to round-off.
 
-    ``work`` holds, by index: sin phi, 1 + cos phi, phidot, phidot cos phi, P, D, b, ydot_G, slip velocity, angle and
-    time (both from the start of the step), and N - 1 times D.
+    ``work`` holds, by index: sin phi, 1 + cos phi, phidot, phidot cos phi, P, D, b, ydot_G, slip velocity,
+    time from the start of the step, and N - 1 times D.
     """
     e, one_minus_e, gyr = par[ECC], par[ONE_MINUS_E], par[GYR]
     sn, hh, om, co, pp, dd = work[S_SIN], work[S_H], work[S_OMEGA], work[S_CO], work[S_P], work[S_D]
-    bb, yd, vv, ph, tt, n1 = work[S_B], work[S_YDOT], work[S_SLIP], work[S_PHI], work[S_T], work[S_N1]
+    bb, yd, vv, tt, n1 = work[S_B], work[S_YDOT], work[S_SLIP], work[S_T], work[S_N1]
     s, _, h, _ = trig(a, top)
-    sn[0], hh[0], om[0], vv[0], ph[0], tt[0] = s, h, omega, slip, 0.0, 0.0
+    sn[0], hh[0], om[0], vv[0], tt[0] = s, h, omega, slip, 0.0
     yd[0] = -e * s * omega
     me = mu_hat * e
     for n in range(ORDER + 1):
@@ -76,21 +76,18 @@ def series(par, mu_hat, a, top, omega, slip, p_known, work):
         p_b = 0.0
         co_d = 0.0
         y_d = 0.0
-        d_om = 0.0
         for j in range(n + 1):
             d = dd[n - j]
             p_b += pp[j] * bb[n - j]
             co_d += co[j] * d
             y_d += yd[j] * d
-            d_om += om[j] * d
         m = n + 1
         om[m] = p_b / m
         sn[m] = co_d / m
         hh[m] = y_d / (e * m)
         yd[m] = n1[n] / m
-        ph[m] = d_om / m
         tt[m] = dd[n] / m
-    return min(step_length(om, 0), step_length(ph, 1), 1e3 / (abs(dd[0]) + 1e-6))
+    return min(step_length(om, 0), step_length(sn, 0), 1e3 / (abs(dd[0]) + 1e-6))
 
 
 @kernel

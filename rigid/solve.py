@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import dataclass
 from math import floor, inf, pi
 from typing import Any
@@ -12,7 +13,7 @@ from . import history
 from . import layout as at
 from .angle import PI_LOW, angle_of, chart
 from .kernel import compiled
-from .machine import entry_run
+from .machine import MOST_STALLS, entry_run
 from .motion import Array, Kind, Motion, Phase, Pulse, States, Turn
 from .scene import Scene
 from .slipping import ORDER, SERIES
@@ -73,38 +74,56 @@ def release_state(scene: Scene) -> list[float]:
     return state
 
 
+class _Workspace(threading.local):
+    """What the compiled kernel works in, one for each thread."""
+
+    def __init__(self) -> None:
+        self.tape = np.zeros(TAPE_RECORDS * at.WIDTH)
+        self.work = np.zeros((SERIES, ORDER + 1))
+
+
+_workspace = _Workspace()
+
+
 def _run(par: list[float], state: list[float]) -> tuple[int, list[list[float]], list[float]]:
-    """Run to the end: why it ended, the records, the final state. Interpreted at first, compiled for longer work."""
+    """Run to the end: why it ended, the records, the final state.
+
+    Interpreted until this process has spent ``PATIENCE`` steps, from then on compiled: the same numbers to round-off.
+    """
     global _interpreted_steps
     records: list[list[float]] = []
-    run: Any = entry_run
-    constants: Any = par
-    here: Any = state
-    tape: Any = [0.0] * (TAPE_RECORDS * at.WIDTH)
-    work: Any = [[0.0] * (ORDER + 1) for _ in range(SERIES)]
     left = float(STEPS)
-    fast = False
-    while True:
-        if not fast and _interpreted_steps >= PATIENCE:
-            fast, run = True, compiled()["entry_run"]
-            constants, here, tape, work = np.array(par), np.array(here), np.array(tape), np.array(work)
-        allowance = left if fast else min(left, float(PATIENCE - _interpreted_steps))
-        here[at.RECORDS] = 0.0
-        here[at.STEPS] = allowance
-        code = run(constants, here, work, tape)
-        spent = allowance - here[at.STEPS]
-        left -= spent
-        if not fast:
+    if _interpreted_steps < PATIENCE:
+        tape = [0.0] * (TAPE_RECORDS * at.WIDTH)
+        work = [[0.0] * (ORDER + 1) for _ in range(SERIES)]
+        code = at.MORE
+        while code == at.MORE and _interpreted_steps < PATIENCE:
+            allowance = float(PATIENCE - _interpreted_steps)
+            state[at.RECORDS], state[at.STEPS] = 0.0, allowance
+            code = entry_run(par, state, work, tape)
+            spent = allowance - state[at.STEPS]
+            left -= spent
             _interpreted_steps += int(spent)
-        count = int(here[at.RECORDS])
-        rows = tape[: count * at.WIDTH].tolist() if fast else tape[: count * at.WIDTH]
-        records += [rows[i : i + at.WIDTH] for i in range(0, len(rows), at.WIDTH)]
-        stalled = here[at.STALLS] > 50.0
-        if code == at.WORK_BOUND and not stalled and left > 0 and not fast:
-            continue
-        if code == at.MORE and len(records) < MOST_RECORDS:
-            continue
-        return (at.WORK_BOUND if code == at.MORE else code), records, list(here)
+            _unroll(tape, state, records)
+        if code not in (at.MORE, at.WORK_BOUND) or state[at.STALLS] > MOST_STALLS:
+            return code, records, state
+    run = compiled()["entry_run"]
+    tape, work = _workspace.tape, _workspace.work
+    constants, here = np.array(par), np.array(state)
+    here[at.STEPS] = left
+    code = at.MORE
+    while code == at.MORE and len(records) < MOST_RECORDS:
+        here[at.RECORDS] = 0.0
+        code = run(constants, here, work, tape)
+        _unroll(tape, here, records)
+    return (at.WORK_BOUND if code == at.MORE else code), records, here.tolist()
+
+
+def _unroll(tape: Any, state: Any, records: list[list[float]]) -> None:
+    """Take the records off the tape."""
+    used = int(state[at.RECORDS]) * at.WIDTH
+    row = tape[:used].tolist() if isinstance(tape, np.ndarray) else tape[:used]
+    records += [row[i : i + at.WIDTH] for i in range(0, used, at.WIDTH)]
 
 
 def simulate(scene: Scene) -> Motion:
