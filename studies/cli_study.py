@@ -59,6 +59,12 @@ def study() -> None:
     metavar="P",
     help="Rate of the extrapolation where it is known (1/3 is 0.3333); by default it is fitted.",
 )
+@click.option(
+    "--damping",
+    type=float,
+    metavar="D",
+    help="Damping ratio of the patch's approach; by default the scene's own, or 1 where that is 0.",
+)
 @click.option("--all-pulses", is_flag=True, help="All pulses of the scene's run, not the first alone.")
 @click.option(
     "--solver",
@@ -81,6 +87,7 @@ def stiffness(
     high: float | None,
     count: int,
     rate: float | None,
+    damping: float | None,
     all_pulses: bool,
     solver_name: str,
     workers: int | None,
@@ -104,6 +111,7 @@ def stiffness(
             described,
             ladder,
             solver=solver_name,
+            damping=damping,
             all_pulses=all_pulses,
             exponent=rate,
             pool=place,

@@ -9,8 +9,8 @@ The same pulse in impulse space. A curve that runs along a dashed line slides; o
 that turns toward the other line has reversed its slip. The slope from the origin to the end is the impulse
 ratio.""",
     "distance": """\
-How far the flexible hoop's measures are from the rigid ones. Triangles are the numerical error: the change
-when the tolerance is halved.""",
+How far the flexible hoop's measures are from the rigid ones. Triangles are the numerical error, known
+from a second run at half the tolerance.""",
     "energy": """\
 Where the energy is and where it goes; below, the small terms on a logarithmic axis.""",
 }
@@ -56,7 +56,7 @@ stiffest</th></tr></thead><tbody>
 <p>The limit is L in L + c s<sup>−p</sup>, s the {{ along }}, fitted to the stiffest cases without knowing the
 rigid value. Its uncertainty covers the scatter about that fit, the choice of the fitted cases and their
 numerical error.
-{{ law }}</p>
+{{ law }} {{ damping }}</p>
 
 {% for name, caption, image in figures %}
 <figure id="{{ name }}"><img alt="{{ caption }}" src="data:image/png;base64,{{ image }}"><figcaption>{{
@@ -70,8 +70,8 @@ caption }}</figcaption></figure>
 {% if row.failure %}<td class="bad" colspan="{{ heading|length - 2 }}">{{ row.failure }}</td>{% endif %}</tr>
 {% endfor %}<tr class="rigid">{% for cell in rigid %}<td>{{ cell }}</td>{% endfor %}</tr>
 </tbody></table></div>
-<p>± is the numerical error of a case: the change of its value from twice the tolerance to the one it was run
-at, which was tightened until that change was a tenth of the distance to the rigid value.{{ unresolved }}</p>
+<p>± is the numerical error of a case, known from a second run at half the tolerance; the tolerance was
+tightened until that error was a tenth of the distance to the rigid value, or below 1e-5.{{ unresolved }}</p>
 
 <h2>All measures of the first pulse, side by side</h2>
 <div class="wide"><table><thead><tr>{% for cell in side_heading %}<th>{{ cell }}</th>{% endfor

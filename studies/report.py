@@ -16,6 +16,7 @@ from .solvers import versions
 from .summary import (
     CASE_HEADING,
     case_cells,
+    damping_sentence,
     law_sentence,
     limit_rows,
     rigid_cells,
@@ -57,6 +58,7 @@ def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command:
             limits=limit_rows(study),
             along=study.ladder.label,
             law=law_sentence(study),
+            damping=damping_sentence(study),
             figures=[(name, CAPTIONS.get(name, name), _embedded(file)) for name, file in images.items()],
             heading=CASE_HEADING,
             cases=[{"cells": case_cells(rung), "failure": rung.outcome.failure} for rung in study.rungs],

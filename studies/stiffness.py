@@ -52,7 +52,7 @@ class Rung:
         return pulses[pulse][name] if pulse < len(pulses) else nan
 
     def error(self, name: str, pulse: int = 0) -> float:
-        """Numerical error of that measure: its change when the tolerance was halved."""
+        """Numerical error of that measure, from its change when the tolerance was halved."""
         errors = self.outcome.numerical_error
         return errors[pulse][name] if pulse < len(errors) else nan
 
@@ -167,6 +167,7 @@ def stiffness_study(
     ladder: Ladder | None = None,
     *,
     solver: str = "flexible",
+    damping: float | None = None,
     all_pulses: bool = False,
     exponent: float | None = None,
     pool: Pool | None = None,
@@ -183,6 +184,11 @@ def stiffness_study(
         By default nine rungs over six decades of both stiffnesses.
     solver : str
         Who runs the rungs: "flexible" or ``module:function``.
+    damping : float, optional
+        Damping ratio of the patch's approach; by default the scene's own, or 1 where that is 0. The normal
+        force jumps where slip ends or begins, and an undamped patch rings about it with an amplitude that
+        does not fall with stiffness: it lifts off, slips early, and tends to another limit than the rigid
+        hoop.
     all_pulses : bool
         Go through all pulses of the scene's run instead of the first alone; the limit is that of the first.
     exponent : float, optional
@@ -200,6 +206,7 @@ def stiffness_study(
         The rigid hoop has no pulse to study, or too few rungs came through to speak of a limit.
     """
     ladder = ladder or Ladder.around(scene)
+    scene = scene.replace(contact={"damping": scene.contact.damping or 1.0 if damping is None else damping})
     pool = pool or Here()
     if not all_pulses:
         scene = scene.replace(run=Run(until="pulse"))

@@ -106,7 +106,7 @@ def side_rows(study: StiffnessStudy) -> list[list[str]]:
                 *(number(c.pulses[0].get(name), 5) for c in columns),
             ]
         )
-    rows.append(["phases", *(_shortened(c.phases[0]) for c in columns)])
+    rows.append(["phases", *(shortened(c.phases[0]) for c in columns)])
     return rows
 
 
@@ -144,7 +144,19 @@ def law_sentence(study: StiffnessStudy) -> str:
     )
 
 
-def _shortened(phases: list[str], most: int = 6) -> str:
+def damping_sentence(study: StiffnessStudy) -> str:
+    """How the contact was damped, and what an undamped one does."""
+    damping = study.scene.contact.damping
+    if damping > 0:
+        return f"The approach of the patch is damped at {damping:g} of critical."
+    return (
+        "The contact is undamped: where slip ends or begins the normal force jumps, and the patch then rings "
+        "with an amplitude that no stiffness makes smaller, so the limit need not be the rigid hoop."
+    )
+
+
+def shortened(phases: list[str], most: int = 6) -> str:
+    """Phases in a row, the middle of a long row left out."""
     if len(phases) <= most:
         return " ".join(phases)
     return " ".join([*phases[: most - 1], f"… {len(phases)} phases, ends with", phases[-1]])

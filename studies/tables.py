@@ -13,7 +13,17 @@ from rich.table import Table
 from rigid import Motion, Scene
 
 from .measures import MEASURES, measures, phase_sequence
-from .summary import CASE_HEADING, case_cells, law_sentence, limit_rows, number, rigid_cells, verdict
+from .summary import (
+    CASE_HEADING,
+    case_cells,
+    damping_sentence,
+    law_sentence,
+    limit_rows,
+    number,
+    rigid_cells,
+    shortened,
+    verdict,
+)
 
 if TYPE_CHECKING:
     from .stiffness import StiffnessStudy
@@ -62,6 +72,13 @@ def motion_tables(motion: Motion) -> list[Any]:
                 motion.scene,
             )
         )
+    books = motion.to_dict().get("energy_ledger")
+    if books:
+        ledger = Table("where the energy went", title="Energy ledger", title_justify="left")
+        ledger.add_column(MEASURES["friction_loss"].unit_in(motion.scene), justify="right")
+        for name, value in books.items():
+            ledger.add_row(name.replace("_", " "), number(value))
+        shown.append(ledger)
     shown.append(f"Ended: {motion.ended}")
     return shown
 
@@ -77,7 +94,7 @@ def pulse_table(columns: list[tuple[str, dict[str, float], list[str]]], scene: S
             f"{entry.symbol}, {unit}" if unit else entry.symbol,
             *(number(values.get(name)) for _, values, _ in columns),
         )
-    table.add_row("phases", *(" ".join(phases) or "-" for _, _, phases in columns))
+    table.add_row("phases", *(shortened(phases) or "-" for _, _, phases in columns))
     return table
 
 
@@ -99,8 +116,8 @@ def study_tables(study: StiffnessStudy) -> list[Any]:
         f"Foundation {number(r.contact_stiffness, 3)} failed: {r.outcome.failure}" for r in study.failures
     ]
     loose = any(not r.outcome.resolved for r in study.rungs if not r.outcome.failure)
-    star = ["* the numerical error could not be brought below a tenth of the distance"] if loose else []
-    return [ladder, *star, *failed, limits, law_sentence(study), verdict(study)]
+    star = ["* numerical error neither below a tenth of the distance nor below 1e-5"] if loose else []
+    return [ladder, *star, *failed, limits, law_sentence(study), damping_sentence(study), verdict(study)]
 
 
 def sweep_table(sweep: SweepTable, most: int = 40) -> Table:
