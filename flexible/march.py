@@ -243,8 +243,11 @@ def march(
     largest_step: float = 0.05,
     max_steps: int = 50_000,
     progress: Callable[[State], None] | None = None,
+    keep: Callable[[State], None] | None = None,
 ) -> tuple[State, list[Record], int, str]:
     """March until ``done(state)`` turns positive; that instant is located.
+
+    ``keep`` is given the state behind every record.
 
     Returns
     -------
@@ -257,7 +260,14 @@ def march(
         Empty when ``done`` ended the march, otherwise why it stopped early.
     """
     books = Books()
-    records = [record(model, state, books)]
+    records: list[Record] = []
+
+    def note(state: State) -> None:
+        records.append(record(model, state, books))
+        if keep is not None:
+            keep(state)
+
+    note(state)
     attempts, accepted = 0, 0
     tolerance = 3.0 * rtol**1.5  # second order: the error over a pulse goes as its power 2/3
     while attempts < max_steps:
@@ -289,7 +299,7 @@ def march(
         books.damping_loss += trial.damped
         books.off_floor += trial.off_floor
         state = trial.state
-        records.append(record(model, state, books))
+        note(state)
         if progress is not None:
             progress(state)
         if done(state) >= 0:
@@ -301,11 +311,17 @@ def march(
             before, after = records[-1], record(model, state, books)
             released = before.ring_strain + before.contact_spring - after.ring_strain - after.contact_spring
             books.friction_loss += released
-            records.append(record(model, state, books))
+            note(state)
             h = min(h, grown) / 8
         else:
             h = grown
     return state, records, attempts, f"stopped at t = {state.t:.6g} after {max_steps} steps"
+
+
+def advanced(model: Model, state: State, t: float) -> State | None:
+    """The state at ``t`` by a single step from ``state``, shorter than the one accepted there; None if it fails."""
+    trial = _attempt(model, state, t - state.t)
+    return None if trial is None else trial.state
 
 
 def _stuck(state: State) -> str:
@@ -344,4 +360,4 @@ def _locate(model: Model, old: State, trial: _Trial, watch: Callable[[State], fl
     return best, n
 
 
-__all__ = ["Books", "MarchError", "Model", "Record", "State", "inf", "march", "pi", "record", "restart"]
+__all__ = ["Books", "MarchError", "Model", "Record", "State", "advanced", "inf", "march", "pi", "record", "restart"]

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Motion, Phase, Pulse
+
+if TYPE_CHECKING:
+    from .march import State
+    from .reduced import ReducedHoop
 
 Array = NDArray[np.float64]
 
@@ -80,13 +84,28 @@ class History:
     friction_impulse: Array
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Kept:
+    """States of the ring at every accepted step of one flexible stretch, in the solver's units (R = m = g = 1)."""
+
+    hoop: ReducedHoop
+    states: tuple[State, ...]
+
+    def __repr__(self) -> str:
+        return f"Kept({len(self.states)} states)"
+
+
 @dataclass(frozen=True, kw_only=True)
 class FlexibleMotion(Motion):
-    """The motion of the flexible hoop: the common vocabulary, the energy ledger, the steps if they were asked for."""
+    """The motion of the flexible hoop: the common vocabulary, the energy ledger, the steps if they were asked for.
+
+    With the steps come the states of the ring (``kept``, one per flexible stretch), of which fields are made.
+    """
 
     ledger: Ledger
     steps: int
     history: History | None = None
+    kept: tuple[Kept, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """The common keys and ``energy_ledger``."""

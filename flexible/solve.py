@@ -21,7 +21,7 @@ from rigid import Hoop, Kind, Motion, Phase, Release, Run, Scene, States, Turn
 
 from .contact import STICK
 from .march import Record, State, march
-from .motion import FlexibleMotion, FlexiblePulse, History, Ledger
+from .motion import FlexibleMotion, FlexiblePulse, History, Kept, Ledger
 from .reduced import ReducedHoop
 from .start import hand_over
 from .stretch import Stretch
@@ -141,6 +141,7 @@ class _Builder:
         self.turns: list[Turn] = []
         self.pulses: list[FlexiblePulse] = []
         self.steps = 0
+        self.kept: list[Kept] | None = None
         self.t = 0.0
         self.x_C = 0.0
         self.initial: float | None = None
@@ -203,6 +204,15 @@ class _Builder:
         self.steps += attempts
         return stretch
 
+    def march(self, hoop: ReducedHoop, state: State, *arguments: Any, **options: Any) -> tuple[State, list[Record], int, str]:
+        """:func:`march.march`, and the states if they are to be kept."""
+        if self.kept is None:
+            return march(hoop, state, *arguments, **options)
+        states: list[State] = []
+        result = march(hoop, state, *arguments, keep=states.append, **options)
+        self.kept.append(Kept(hoop, tuple(states)))
+        return result
+
     def motion(self, scene: Scene, ended: str, history: bool) -> FlexibleMotion:
         """The motion in the units of ``scene``."""
         ledger = Ledger(
@@ -218,6 +228,7 @@ class _Builder:
             ledger=_with_units(ledger, scene),
             steps=self.steps,
             history=_with_units(self._history(), scene) if history else None,
+            kept=tuple(self.kept or ()),
         )
 
     def _history(self) -> History:
@@ -237,7 +248,7 @@ def simulate(scene: Scene, *, history: bool = False, progress: Progress | None =
     ----------
     scene : Scene
     history : bool
-        Keep every step, as ``motion.history``.
+        Keep every step, as ``motion.history``, and the ring's states, of which fields are made.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
 
@@ -256,6 +267,7 @@ def simulate(scene: Scene, *, history: bool = False, progress: Progress | None =
     inner = dimensionless(scene)
     hoop = ReducedHoop(inner)
     builder = _Builder(inner)
+    builder.kept = [] if history else None
     run = _through_pulses if scene.solve.resolve == "pulses" else _throughout
     ended = run(inner, hoop, builder, _Progress(progress))
     return builder.motion(scene, ended, history)
@@ -284,7 +296,7 @@ def _through_pulses(scene: Scene, hoop: ReducedHoop, builder: _Builder, progress
         span = (state.pos[2], pulse.phi_end)
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, lambda s, span=span: (s.pos[2] - span[0]) / (span[1] - span[0]))
-        state, records, attempts, trouble = march(hoop, state, finished, scene.solve.rtol, progress=watch)
+        state, records, attempts, trouble = builder.march(hoop, state, finished, scene.solve.rtol, progress=watch)
         stretch = builder.add_flexible(records, attempts)
         first = stretch.crossing(pulse.phi_start, stretch.t_start)
         builder.pulses.append(stretch.pulse(stretch.t_start if first is None else first, stretch.t_end))
@@ -340,7 +352,7 @@ def _throughout(scene: Scene, hoop: ReducedHoop, builder: _Builder, progress: _P
         if report is not None:
             report(s)
 
-    state, records, attempts, trouble = march(hoop, state, finished, scene.solve.rtol, progress=watch)
+    state, records, attempts, trouble = builder.march(hoop, state, finished, scene.solve.rtol, progress=watch)
     stretch = builder.add_flexible(records, attempts)
     after = -inf
     for first_angle, last_angle in windows:
