@@ -10,6 +10,11 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
 ``scene``      what a user describes; the constants (3), (6), (9) of a hoop
 ``scenefile``  TOML to scene and back, the paper's scenes by name
 ``motion``     the vocabulary that both solvers speak
+``solve``      one scene to its motion; ``batch`` many at once; ``thresholds`` where rolling ends
+``rolling``, ``slipping``, ``flight``, ``impact``, ``pointmass``  the mechanics of each kind of phase
+``swing``, ``slide``, ``machine``  a phase run to its end, and which one is next
+``pulse``      the measures of a pulse; ``history`` any instant of a motion
+``kernel``     why all of this runs both interpreted and compiled
 """
 
 from .batch import Batch, simulate_batch
@@ -17,6 +22,16 @@ from .motion import Kind, Motion, Phase, Pulse, States, Turn
 from .scene import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, SceneError, Solve
 from .scenefile import load_scene, scene_from_dict, scene_names, scene_to_dict
 from .solve import simulate
+
+
+def __getattr__(name: str) -> object:
+    """Thresholds on demand: they need scipy, which a motion does not."""
+    if name in ("inception_mu_s", "rolling_k", "rolling_mu_s"):
+        from . import thresholds
+
+        return getattr(thresholds, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
 
 __all__ = [
     "Batch",

@@ -138,7 +138,10 @@ class Batch:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Batch):
             return NotImplemented
-        return all(np.array_equal(getattr(self, f.name), getattr(other, f.name), equal_nan=True) for f in fields(self))
+        return all(
+            np.array_equal(getattr(self, f.name), getattr(other, f.name), equal_nan=True)
+            for f in fields(self)
+        )
 
 
 def simulate_batch(
@@ -213,7 +216,9 @@ def _table(scenes: Sequence[Scene] | Mapping[str, ArrayLike]) -> Array:
         missing = set(QUANTITIES) - set(scenes) - set(_DEFAULTS)
         if unknown or missing:
             names = ", ".join(sorted(unknown or missing))
-            raise SceneError(f"{names} {'is not a quantity of' if unknown else 'is missing in'} a batch: {', '.join(QUANTITIES)}.")
+            raise SceneError(
+                f"{names} {'is not a quantity of' if unknown else 'is missing in'} a batch: {', '.join(QUANTITIES)}."
+            )
         columns = [np.asarray(scenes.get(name, _DEFAULTS.get(name)), dtype=float) for name in QUANTITIES]
         table = np.stack(np.broadcast_arrays(*np.atleast_1d(*columns)), axis=1)
         _check(table)
@@ -224,8 +229,15 @@ def _table(scenes: Sequence[Scene] | Mapping[str, ArrayLike]) -> Array:
         time = scene.time_unit
         rows.append(
             (
-                hoop.k, hoop.r, hoop.mass_ratio, friction.mu_s, friction.mu,
-                release.phi0, release.omega0 * time, release.slip0 * time / hoop.R, scene.landing.restitution,
+                hoop.k,
+                hoop.r,
+                hoop.mass_ratio,
+                friction.mu_s,
+                friction.mu,
+                release.phi0,
+                release.omega0 * time,
+                release.slip0 * time / hoop.R,
+                scene.landing.restitution,
             )  # fmt: skip
         )
     return np.array(rows, dtype=float).reshape(len(rows), len(QUANTITIES))
@@ -234,7 +246,15 @@ def _table(scenes: Sequence[Scene] | Mapping[str, ArrayLike]) -> Array:
 def _check(table: Array) -> None:
     """Raise what the first impossible row would raise as a scene."""
     k, r, mass, mu_s, mu, *_, bounce = table.T
-    fine = np.isfinite(table).all(axis=1) & (k >= 0) & (k < 1) & (r >= 1) & (mass >= 0) & (mu >= 0) & (mu_s >= mu)
+    fine = (
+        np.isfinite(table).all(axis=1)
+        & (k >= 0)
+        & (k < 1)
+        & (r >= 1)
+        & (mass >= 0)
+        & (mu >= 0)
+        & (mu_s >= mu)
+    )
     fine &= (bounce >= 0) & (bounce <= 1) & ((k > 0) | (mass > 0) | (r == 1))
     if not fine.all():
         index = int(np.argmin(fine))
@@ -248,7 +268,9 @@ def _check(table: Array) -> None:
             raise SceneError(f"scene {index} of the batch: {error}") from None
 
 
-def _constants(table: Array, turns: int | None, t_end: float | None, until: str | None) -> tuple[Array, Array]:
+def _constants(
+    table: Array, turns: int | None, t_end: float | None, until: str | None
+) -> tuple[Array, Array]:
     """Parameters and release states of all scenes, as :mod:`rigid.solve` makes them for one."""
     k, r, q, mu_s, mu, phi0, omega0, slip0, bounce = table.T
     gyr = (k**2 / 2 + q * (1 + r**2) / 2 + (1 - k) ** 2 * q / (1 + q)) / (1 + q) / r**2

@@ -59,7 +59,11 @@ def touch_down(e, gap, un, omega, a, top):
         clear = y_g + ydot * time - 0.5 * time * time - (1 + e)
         fall = ydot - time
         if clear > 0.0:
-            time += (fall + sqrt(fall * fall + 2 * clear)) if fall > 0 else 2 * clear / (sqrt(fall * fall + 2 * clear) - fall)
+            time += (
+                (fall + sqrt(fall * fall + 2 * clear))
+                if fall > 0
+                else 2 * clear / (sqrt(fall * fall + 2 * clear) - fall)
+            )
             # the parabola is down at 1 + e
             continue
         if y <= 0.0 and time > 0.0:
@@ -101,7 +105,9 @@ def settle(par, state, lift):
     if abs(error) < 1e-5 * abs(e * s):
         xdot_g = state[SLIP] + omega + e * c * omega
         ydot_g = state[UN] - e * s * omega
-        state[ANGLE], state[TOP], state[WHOLE] = chart(state[ANGLE] - error / (e * s), state[TOP], state[WHOLE])
+        state[ANGLE], state[TOP], state[WHOLE] = chart(
+            state[ANGLE] - error / (e * s), state[TOP], state[WHOLE]
+        )
         s1, c1, _, _ = trig(state[ANGLE], state[TOP])
         state[X_C] -= e * (s1 - s)
         state[SLIP] = xdot_g - omega - e * c1 * omega

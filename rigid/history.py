@@ -65,7 +65,9 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
             mu_hat = par[MU] if kind == SKID else -par[MU]
             p_known = inf
             while i < len(times) and times[i] < until:
-                length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], state[SLIP], p_known, work)
+                length = series(
+                    par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], state[SLIP], p_known, work
+                )
                 tt = work[S_T]
                 duration = value(tt, ORDER, length)
                 before = state[T]

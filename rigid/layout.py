@@ -13,7 +13,9 @@ NOTHING, FIRST_PULSE, REST = range(3)  # values of UNTIL
 T, ANGLE, TOP, WHOLE, OMEGA, SLIP, UN, GAP, X_C = range(9)
 MODE, LAST_KIND, TURNS_DONE, STEPS, RECORDS, PULSES_DONE, PERIOD, STALLS, HOPS = range(9, 18)
 # The pulse that is being measured: whether it is open, whether the bottom was crossed, and the state at its start.
-P_OPEN, P_CROSSED, P_T, P_ANGLE, P_TOP, P_WHOLE, P_XDOT, P_YDOT, P_H, P_ENERGY, P_PEAK, P_T_BOTTOM = range(18, 30)
+P_OPEN, P_CROSSED, P_T, P_ANGLE, P_TOP, P_WHOLE, P_XDOT, P_YDOT, P_H, P_ENERGY, P_PEAK, P_T_BOTTOM = range(
+    18, 30
+)
 LOSSLESS_TURNS, SLIDES_DONE, LAST_ENERGY, LAST_TURNS, PHASE_T = range(30, 35)
 STATE = 35
 
@@ -25,4 +27,19 @@ WIDTH = 18
 TURN, PULSE, END = 10, 11, 12
 
 # Why a kernel returns.
-MORE, TURNS_REACHED, TIME_REACHED, PULSE_OVER, ROLLS, RESTS, SLIDES, HITS_FLOOR, WORK_BOUND, CREEPS, LIFTED, WHIRLS, ROLLS_ON, SETTLES = range(14)
+(
+    MORE,
+    TURNS_REACHED,
+    TIME_REACHED,
+    PULSE_OVER,
+    ROLLS,
+    RESTS,
+    SLIDES,
+    HITS_FLOOR,
+    WORK_BOUND,
+    CREEPS,
+    LIFTED,
+    WHIRLS,
+    ROLLS_ON,
+    SETTLES,
+) = range(14)

@@ -74,7 +74,12 @@ def open_pulse(par, state):
     """Note the state at the start of a stretch with N > M g."""
     _, _, h, _ = trig(state[ANGLE], state[TOP])
     state[P_OPEN], state[P_CROSSED], state[P_PEAK] = 1.0, 0.0, 0.0
-    state[P_T], state[P_ANGLE], state[P_TOP], state[P_WHOLE] = state[T], state[ANGLE], state[TOP], state[WHOLE]
+    state[P_T], state[P_ANGLE], state[P_TOP], state[P_WHOLE] = (
+        state[T],
+        state[ANGLE],
+        state[TOP],
+        state[WHOLE],
+    )
     state[P_XDOT], state[P_YDOT] = velocity_of_g(par, state)
     state[P_H] = h
     state[P_ENERGY] = energy(par, state)
@@ -105,7 +110,12 @@ def close_pulse(par, state, tape):
     work_out = 0.5 * y * y + e * h
     r = int(state[RECORDS]) * WIDTH
     tape[r] = PULSE
-    tape[r + 1], tape[r + 2], tape[r + 3], tape[r + 4] = state[P_T], state[P_ANGLE], state[P_TOP], state[P_WHOLE]
+    tape[r + 1], tape[r + 2], tape[r + 3], tape[r + 4] = (
+        state[P_T],
+        state[P_ANGLE],
+        state[P_TOP],
+        state[P_WHOLE],
+    )
     tape[r + 5], tape[r + 6], tape[r + 7], tape[r + 8] = state[T], state[ANGLE], state[TOP], state[WHOLE]
     tape[r + 9] = normal
     tape[r + 10] = x - state[P_XDOT]

@@ -21,7 +21,16 @@ class SceneError(ValueError):
     """A scene that cannot be: one sentence that names the key, the value and what is allowed."""
 
 
-def _require(key: str, value: Any, low: float, high: float, allowed: str, *, open_low: bool = False, open_high: bool = False) -> None:
+def _require(
+    key: str,
+    value: Any,
+    low: float,
+    high: float,
+    allowed: str,
+    *,
+    open_low: bool = False,
+    open_high: bool = False,
+) -> None:
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
     if number and isfinite(value):
         above = value > low if open_low else value >= low
@@ -33,12 +42,16 @@ def _require(key: str, value: Any, low: float, high: float, allowed: str, *, ope
 
 def _require_choice(key: str, value: Any, choices: tuple[str, ...]) -> None:
     if value not in choices:
-        raise SceneError(f"{key} = {value!r} is not possible: it must be one of {', '.join(map(repr, choices))}.")
+        raise SceneError(
+            f"{key} = {value!r} is not possible: it must be one of {', '.join(map(repr, choices))}."
+        )
 
 
 def _require_whole(key: str, value: Any, low: int, high: int) -> None:
     if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-        raise SceneError(f"{key} = {value!r} is not possible: it must be a whole number from {low} to {high}.")
+        raise SceneError(
+            f"{key} = {value!r} is not possible: it must be a whole number from {low} to {high}."
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +78,14 @@ class Hoop:
     g: float = 1.0
 
     def __post_init__(self) -> None:
-        _require("hoop.k", self.k, 0, 1, "k is the disk's radius over the hoop's inner radius, at least 0 and below 1", open_high=True)
+        _require(
+            "hoop.k",
+            self.k,
+            0,
+            1,
+            "k is the disk's radius over the hoop's inner radius, at least 0 and below 1",
+            open_high=True,
+        )
         _require("hoop.r", self.r, 1, inf, "r is the hoop's outer over its inner radius, at least 1")
         _require("hoop.mass_ratio", self.mass_ratio, 0, inf, "mass_ratio is m_h/m, at least 0")
         for key in ("R", "m", "g"):
@@ -125,7 +145,9 @@ class Friction:
         _require("friction.mu_s", self.mu_s, 0, inf, "mu_s is the static coefficient, at least 0")
         _require("friction.mu", self.mu, 0, inf, "mu is the kinetic coefficient, at least 0")
         if self.mu > self.mu_s:
-            raise SceneError(f"friction.mu = {self.mu!r} is not possible: the kinetic coefficient may not exceed mu_s = {self.mu_s!r}.")
+            raise SceneError(
+                f"friction.mu = {self.mu!r} is not possible: the kinetic coefficient may not exceed mu_s = {self.mu_s!r}."
+            )
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,7 +179,9 @@ class Run:
         if not given:
             object.__setattr__(self, "turns", 2)
         if len(given) > 1:
-            raise SceneError(f"run.{given[1]} = {getattr(self, given[1])!r} is not possible: run.{given[0]} already says how far to run.")
+            raise SceneError(
+                f"run.{given[1]} = {getattr(self, given[1])!r} is not possible: run.{given[0]} already says how far to run."
+            )
         if self.turns is not None:
             _require_whole("run.turns", self.turns, 1, 1_000_000)
         if self.t_end is not None:
@@ -198,11 +222,35 @@ class Ring:
     weld_half_angle: float = 3 * pi / 180
 
     def __post_init__(self) -> None:
-        _require("ring.bending_stiffness", self.bending_stiffness, 0, inf, "E I/(m g R^2) must be positive", open_low=True)
-        _require("ring.poisson", self.poisson, -1, 0.5, "Poisson's ratio lies between -1 and 0.5", open_low=True)
+        _require(
+            "ring.bending_stiffness",
+            self.bending_stiffness,
+            0,
+            inf,
+            "E I/(m g R^2) must be positive",
+            open_low=True,
+        )
+        _require(
+            "ring.poisson", self.poisson, -1, 0.5, "Poisson's ratio lies between -1 and 0.5", open_low=True
+        )
         if self.thickness is not None:
-            _require("ring.thickness", self.thickness, 0, 1, "thickness is the wall over R, between 0 and 1", open_low=True, open_high=True)
-        _require("ring.weld_half_angle_deg", self.weld_half_angle * 180 / pi, 0, 90, "the weld's half angle lies between 0 and 90", open_low=True)
+            _require(
+                "ring.thickness",
+                self.thickness,
+                0,
+                1,
+                "thickness is the wall over R, between 0 and 1",
+                open_low=True,
+                open_high=True,
+            )
+        _require(
+            "ring.weld_half_angle_deg",
+            self.weld_half_angle * 180 / pi,
+            0,
+            90,
+            "the weld's half angle lies between 0 and 90",
+            open_low=True,
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,8 +277,22 @@ class Contact:
 
     def __post_init__(self) -> None:
         _require_choice("contact.law", self.law, ("patch", "brush"))
-        _require("contact.stiffness", self.stiffness, 0, inf, "the foundation eps_n R^2/(m g) must be positive", open_low=True)
-        _require("contact.tangential_ratio", self.tangential_ratio, 0, inf, "the tangential over the normal foundation must be positive", open_low=True)
+        _require(
+            "contact.stiffness",
+            self.stiffness,
+            0,
+            inf,
+            "the foundation eps_n R^2/(m g) must be positive",
+            open_low=True,
+        )
+        _require(
+            "contact.tangential_ratio",
+            self.tangential_ratio,
+            0,
+            inf,
+            "the tangential over the normal foundation must be positive",
+            open_low=True,
+        )
         _require("contact.damping", self.damping, 0, inf, "the damping ratio is at least 0")
 
 

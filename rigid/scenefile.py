@@ -76,7 +76,9 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
                 raise SceneError(f"{part}.{key} = {value!r} is not possible: it must be a number or a word.")
             if name in _IN_DEGREES:
                 if isinstance(value, str):
-                    raise SceneError(f"{part}.{key} = {value!r} is not possible: it must be a number, in degrees.")
+                    raise SceneError(
+                        f"{part}.{key} = {value!r} is not possible: it must be a number, in degrees."
+                    )
                 value = radians(value)
             values[name] = value
         parts[part] = values
@@ -96,7 +98,9 @@ def _point_mass(hoop: Mapping[str, Any], parts: dict[str, Any]) -> None:
     if asked:
         for key, only in (("k", 0), ("mass_ratio", 0), ("r", 1)):
             if hoop.get(key, only) != only:
-                raise SceneError(f"hoop.{key} = {hoop[key]!r} is not possible: with point_mass = true it must be {only}.")
+                raise SceneError(
+                    f"hoop.{key} = {hoop[key]!r} is not possible: with point_mass = true it must be {only}."
+                )
         parts["hoop"] |= {"k": 0.0}
 
 
@@ -115,7 +119,11 @@ def scene_to_dict(scene: Scene) -> dict[str, dict[str, Any]]:
 
 def scene_names() -> list[str]:
     """Names of the scenes that ship with the package."""
-    return sorted(entry.name.removesuffix(".toml") for entry in files("rigid.scenes").iterdir() if entry.name.endswith(".toml"))
+    return sorted(
+        entry.name.removesuffix(".toml")
+        for entry in files("rigid.scenes").iterdir()
+        if entry.name.endswith(".toml")
+    )
 
 
 def load_scene(source: str | Path) -> Scene:

@@ -58,7 +58,18 @@ def parameters(scene: Scene) -> list[float]:
     t_end = inf if run.t_end is None else run.t_end / scene.time_unit
     friction = scene.friction
     bounce = scene.landing.restitution
-    return [e, one_minus_e, gyr, zeta, friction.mu_s, friction.mu, bounce, turns, t_end, float(UNTIL_CODES[run.until])]
+    return [
+        e,
+        one_minus_e,
+        gyr,
+        zeta,
+        friction.mu_s,
+        friction.mu,
+        bounce,
+        turns,
+        t_end,
+        float(UNTIL_CODES[run.until]),
+    ]
 
 
 def release_state(scene: Scene) -> list[float]:
@@ -151,7 +162,12 @@ def simulate(scene: Scene) -> Motion:
         tag = row[0]
         if tag == at.TURN:
             turns.append(
-                Turn(row[1] * time, angle_of(row[2], row[3], row[4]), row[6] * scene.velocity_unit, row[10] * energy)
+                Turn(
+                    row[1] * time,
+                    angle_of(row[2], row[3], row[4]),
+                    row[6] * scene.velocity_unit,
+                    row[10] * energy,
+                )
             )
         elif tag == at.PULSE:
             measures = (row[9] * impulse, row[10] * impulse, row[11] * energy, row[12] * force, *row[13:16])
@@ -162,12 +178,16 @@ def simulate(scene: Scene) -> Motion:
     starts = _merged(starts, end)
     edges = [*starts, end]
     phases = tuple(
-        Phase(KINDS[int(a[0])], a[1] * time, b[1] * time, angle_of(a[2], a[3], a[4]), angle_of(b[2], b[3], b[4]))
+        Phase(
+            KINDS[int(a[0])], a[1] * time, b[1] * time, angle_of(a[2], a[3], a[4]), angle_of(b[2], b[3], b[4])
+        )
         for a, b in zip(edges, edges[1:], strict=False)
     )
     period = final[at.PERIOD] * time if 0 < final[at.PERIOD] < inf else None
     sample = Sampler(tuple(par), tuple(map(tuple, starts)), scene)
-    return Motion(scene, phases, tuple(turns), tuple(pulses), _ended(code, scene, period, final), sample, period)
+    return Motion(
+        scene, phases, tuple(turns), tuple(pulses), _ended(code, scene, period, final), sample, period
+    )
 
 
 def _pulse(t0: float, t1: float, start: list[float], stop: list[float], measures: tuple[float, ...]) -> Pulse:
@@ -262,6 +282,13 @@ class Sampler:
         out = np.zeros(len(times) * width)
         work = np.zeros((SERIES, ORDER + 1))
         compiled()["entry_sample"](
-            np.array(self.par), np.array(flat), len(padded), times, out, work, np.zeros(at.STATE), np.zeros(16 * at.WIDTH)
+            np.array(self.par),
+            np.array(flat),
+            len(padded),
+            times,
+            out,
+            work,
+            np.zeros(at.STATE),
+            np.zeros(16 * at.WIDTH),
         )
         return out.reshape(len(times), width)

@@ -37,5 +37,3 @@ def turn(par, state, tape):
     tape[r + 10] = energy(par, state)
     state[TURNS_DONE] += 1
     return state[TURNS_DONE] >= par[TURNS]
-
-

@@ -1,0 +1,82 @@
+"""Where the kind of motion changes: inception of slip (9), and the smallest friction or disk that rolls throughout."""
+
+from __future__ import annotations
+
+import dataclasses
+from math import inf, tan
+
+import numpy as np
+from scipy.optimize import brentq
+
+from .angle import trig
+from .layout import MU_S, ZETA
+from .rolling import ceiling, margin_polynomials, rolling_forces, turning_point
+from .scene import Friction, Hoop, Release, Scene
+from .solve import parameters, release_state
+
+
+def inception_mu_s(hoop: Hoop, phi0: float) -> float:
+    """Smallest mu_s at which a hoop released at rest starts rolling, (9): |F|/N of rolling at the release."""
+    par, state = _at_release(hoop, Release(phi0))
+    normal, friction = rolling_forces(par, 0.0, state[1], state[2])
+    return abs(friction) / normal if normal > 0 else inf
+
+
+def rolling_mu_s(hoop: Hoop, release: Release) -> float:
+    """Smallest mu_s at which a motion released in rolling rolls throughout: the largest |F|/N of its swing.
+
+    Returns
+    -------
+    float
+        ``inf`` where N of rolling falls to 0 within the swing, so that no friction keeps the hoop rolling.
+    """
+    par, state = _at_release(hoop, release)
+    par[MU_S] = 1.0
+    _, _, h, low = trig(state[1], state[2])
+    g, below = ceiling(par[ZETA], state[4], h, low)
+    offset, top = turning_point(g, below)
+    worst = 0.0
+    # |F|/N = odd(y)/even(y) in y = tan|psi/2| below the hoop's height of centre and in 1/y above
+    for upper in (False, True):
+        if upper and top == 0.0:
+            break
+        plus, minus = [0.0] * 7, [0.0] * 7
+        margin_polynomials(par, g, upper, plus, minus)
+        odd = np.polynomial.Polynomial([0.0 if i % 2 == 0 else plus[i] for i in range(7)])
+        even = np.polynomial.Polynomial([-plus[i] if i % 2 == 0 else 0.0 for i in range(7)])
+        first, last = (tan(offset / 2), 1.0) if upper else (0.0, tan(offset / 2) if top == 0.0 else 1.0)
+        peaks = (odd.deriv() * even - odd * even.deriv()).roots()
+        vanishing = even.roots()
+        real = vanishing[np.abs(vanishing.imag) <= 1e-12 * np.abs(vanishing)].real
+        if np.any((real >= first) & (real <= last)):
+            return inf
+        inside = peaks.real[
+            (np.abs(peaks.imag) <= 1e-6 * np.abs(peaks)) & (peaks.real > first) & (peaks.real < last)
+        ]
+        for y in (first, *inside, last):
+            worst = max(worst, abs(odd(y) / even(y)))
+    return worst
+
+
+def rolling_k(mu_s: float, release: Release, *, r: float = 1.0, mass_ratio: float = 0.0) -> float:
+    """Smallest k that rolls throughout for a given mu_s.
+
+    Raises
+    ------
+    ValueError
+        Every disk slips, or none does.
+    """
+    hoop = Hoop(0.5, r, mass_ratio)
+
+    def lack(k: float) -> float:
+        needed = rolling_mu_s(dataclasses.replace(hoop, k=k), release)
+        return min(needed, 1e6) - mu_s
+
+    if lack(1e-6) <= 0 or lack(1 - 1e-6) >= 0:
+        raise ValueError(f"no disk is the smallest that rolls throughout with mu_s = {mu_s}")
+    return float(brentq(lack, 1e-6, 1 - 1e-6, xtol=1e-14, rtol=1e-14))
+
+
+def _at_release(hoop: Hoop, release: Release) -> tuple[list[float], list[float]]:
+    scene = Scene(hoop, Friction(1.0, 1.0), release)
+    return parameters(scene), release_state(scene)
