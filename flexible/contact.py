@@ -179,6 +179,19 @@ def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, floa
 
 
 @njit(cache=True)
+def _scatter(k_bb: Any, k_ab: Any, k_aa: Any, block: Any, first: int) -> None:
+    """Add an element's products to the tangents, and clear them."""
+    for q in range(5):
+        row = q if q < 2 else first + q
+        for w in range(5):
+            column = w if w < 2 else first + w
+            k_bb[row, column] += block[0, q, w]
+            k_ab[row, column] += block[1, q, w]
+            k_aa[row, column] += block[2, q, w]
+    block[:] = 0.0
+
+
+@njit(cache=True)
 def _add_normal(row: Any, factor: float, diagonal: Any, coupling: Any, before: int, here: int, behind: int) -> None:
     """Derivatives of ``factor`` times the normal force of a point by the gaps around it."""
     row[1] -= factor * diagonal[here]
@@ -375,6 +388,9 @@ def contact_forces(
     k_ab = np.zeros((2 + nodes, 2 + nodes))
     k_aa = np.zeros((2 + nodes, 2 + nodes))
     world = np.zeros((nodes, 2))
+    block = np.zeros((3, 5, 5))
+    normal_row, gap_row = np.empty(5), np.empty(5)
+    element_rows = 0
     active = 0
     geometric = 0.0
     rows = np.empty((total, 5), np.int64)
@@ -475,26 +491,46 @@ def contact_forces(
             world[local[i] + q, 1] += pushed * shape[i, q]
             world_share[local[i] + q, 0] += tau_share * shape[i, q]
             world_share[local[i] + q, 1] += normal[i] * shape[i, q]
+        # the rows of an element share a basis: its products are gathered in place and added when it is left
+        if local[i] != element_rows:
+            _scatter(k_bb, k_ab, k_aa, block, element_rows)
+            element_rows = local[i]
+        for w in range(5):
+            normal_row[w] = -diagonal[i] * b_of[i, w]
+            gap_row[w] = on_gap[i, 1] * b_of[i, w]
+        for side in range(2):
+            near = before if side == 0 else behind
+            if near < 0:
+                continue
+            spring = coupling[min(i, near)]
+            traction_rate = on_gap[i, 2 * side]
+            if local[near] == local[i]:
+                for w in range(5):
+                    normal_row[w] -= spring * b_of[near, w]
+                    gap_row[w] += traction_rate * b_of[near, w]
+            else:
+                for q in range(5):
+                    for w in range(5):
+                        k_bb[rows[i, q], rows[near, w]] -= spring * b_of[i, q] * b_of[near, w]
+                        k_ab[rows[i, q], rows[near, w]] += traction_rate * a_of[i, q] * b_of[near, w]
         for q in range(5):
-            row = rows[i, q]
+            b_q, a_q = b_of[i, q], a_of[i, q]
             for w in range(5):
-                k_bb[row, rows[i, w]] -= diagonal[i] * b_of[i, q] * b_of[i, w]
-                k_aa[row, rows[i, w]] += on_a[i] * a_of[i, q] * a_of[i, w]
-                k_ab[row, rows[i, w]] += on_gap[i, 1] * a_of[i, q] * b_of[i, w]
-            k_aa[row, 1] += on_phi[i] * a_of[i, q]
-            if before >= 0:
+                block[0, q, w] += b_q * normal_row[w]
+                block[1, q, w] += a_q * gap_row[w]
+        if on_a[i] != 0 or on_phi[i] != 0:
+            for q in range(5):
+                a_q = a_of[i, q]
+                block[2, q, 1] += a_q * on_phi[i]
                 for w in range(5):
-                    k_bb[row, rows[before, w]] -= coupling[before] * b_of[i, q] * b_of[before, w]
-                    k_ab[row, rows[before, w]] += on_gap[i, 0] * a_of[i, q] * b_of[before, w]
-            if behind >= 0:
-                for w in range(5):
-                    k_bb[row, rows[behind, w]] -= coupling[i] * b_of[i, q] * b_of[behind, w]
-                    k_ab[row, rows[behind, w]] += on_gap[i, 2] * a_of[i, q] * b_of[behind, w]
+                    block[2, q, w] += a_q * on_a[i] * a_of[i, w]
         if gap[i] < 0:
             if active == 0:
                 res[LOW] = psi
             res[HIGH] = psi
             active += 1
+
+    _scatter(k_bb, k_ab, k_aa, block, element_rows)
 
     # k_bb is still that of the elastic pressures; its first row is the derivative of N_el
     by_elastic = np.zeros(size)

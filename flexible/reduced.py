@@ -19,7 +19,7 @@ from .step import filtered_error, solve_stage
 Array = NDArray[np.float64]
 
 
-def contact_law(scene: Scene, points: int = 48) -> Array:
+def contact_law(scene: Scene, points: int = 24) -> Array:
     """Parameters of the contact, with ``points`` to the patch of a rigid hoop under the disk's weight."""
     eps = scene.contact.stiffness
     half_width = (1.5 / eps) ** (1 / 3)
@@ -37,7 +37,7 @@ def relaxation_time(scene: Scene) -> float:
 class ReducedHoop:
     """Frame, modes and residual static compliance of a scene's hoop."""
 
-    def __init__(self, scene: Scene, modes: int = 24, points: int = 48, tolerance: float = 1e-9) -> None:
+    def __init__(self, scene: Scene, modes: int = 24, points: int = 24, tolerance: float = 1e-9) -> None:
         self.scene = scene
         self.ring: ReducedRing = reduce(scene, modes)
         self.law = contact_law(scene, points)
