@@ -1,7 +1,7 @@
 """The ring as a mesh, fields in time as files, and pictures of both.
 
 ``ring``     the annulus: curved quads, grading, named boundaries, quality
-``gradient`` gradients of nodal fields at the nodes
+``gradient`` gradients of nodal fields at the nodes and the Gauss points
 ``placing``  from the disk's frame to the world; von Mises, hoop and bending stress
 ``times``    which instants become frames
 ``fields``   a frame: ring, rim, disk and floor at one instant, as plain arrays
@@ -13,7 +13,7 @@
 """
 
 from .fields import Block, Frame, SeriesError, disk_block, floor_block, rim_block, ring_block
-from .gradient import nodal_gradient
+from .gradient import gauss_gradient, nodal_gradient
 from .placing import Placement, bending_stress, hoop_stress, von_mises
 from .ring import MeshError, Quality, RingMesh, ring_mesh
 from .series import Series, SeriesWriter, read
@@ -33,6 +33,7 @@ __all__ = [
     "disk_block",
     "floor_block",
     "frame_times",
+    "gauss_gradient",
     "hoop_stress",
     "nodal_gradient",
     "read",

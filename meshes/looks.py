@@ -42,6 +42,8 @@ LABELS = {
     "stress yy": "stress σyy",
     "stress xy": "stress σxy",
     "energy_density": "strain energy density",
+    "pressure": "contact pressure",
+    "traction": "friction traction",
 }
 SIGNED = ("hoop_stress", "bending_stress", "stress xx", "stress yy", "stress xy")
 
@@ -74,7 +76,7 @@ def unit(field: str, units: dict[str, str]) -> str:
     if field in units:
         return units[field]
     kind = {"displacement": "length", "velocity": "velocity", "energy_density": "energy_density"}.get(field)
-    if kind is None and (field == "von_mises" or "stress" in field):
+    if kind is None and (field in ("von_mises", "pressure", "traction") or "stress" in field):
         kind = "stress"
     return {**UNITS, **units}.get(kind or "", "")
 

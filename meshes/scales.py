@@ -54,9 +54,14 @@ def sampled(subject: Subject, count: int = 30) -> list[Shot]:
 def tidy_factor(shots: list[Shot], share: float = 0.06) -> float:
     """A factor 1, 2 or 5 times a power of ten that shows the largest displacement as that share of R."""
     largest = max(float(np.linalg.norm(shot.displacement, axis=1).max()) / shot.radius for shot in shots)
-    if not largest > 0 or share / largest <= 1:
+    return tidy(share / largest) if largest > 0 else 1.0
+
+
+def tidy(factor: float) -> float:
+    """The next 1, 2 or 5 times a power of ten below, at least 1."""
+    if not factor > 1:
         return 1.0
-    exponent, rest = divmod(log10(share / largest), 1.0)
+    exponent, rest = divmod(log10(factor), 1.0)
     return float(max(step for step in (1, 2, 5) if log10(step) <= rest + 1e-12) * 10**exponent)
 
 
