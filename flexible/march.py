@@ -186,13 +186,15 @@ def restart(model: Model, state: State, mode: int) -> State:
     """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
     beta = 1e-7
     damper = np.array([0.0, 0.0, state.res[ETA] if state.res[ELASTIC] > 0 else 1.0, 0.0, 0.0])
-    ok, _, acc, _, window, u, nodal, res, bristles, flags = model.stage(
+    ok, d, acc, _, window, u, nodal, res, bristles, flags = model.stage(
         state, mode, damper, state.pos, state.vel, beta, beta**2 * state.acc
     )
     if not ok:
         raise MarchError(f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved.")
+    pos = state.pos.copy()
+    pos[3:] += d[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
     return replace(
-        state, acc=acc, mode=mode, window=window, u=u, nodal=nodal, res=res, bristles=bristles, flags=flags
+        state, pos=pos, acc=acc, mode=mode, window=window, u=u, nodal=nodal, res=res, bristles=bristles, flags=flags
     )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import pi
 from typing import Any
 
 import numpy as np
@@ -10,53 +9,28 @@ from numpy.typing import NDArray
 
 from rigid import Scene
 
-from .contact import EPS_T, HIGH, LENGTH, LOW, NORMAL, element_at
+from .contact import HIGH, LOW, NORMAL
 from .frame import energies
 from .march import State
 from .reduction import ReducedRing, reduce
+from .rim import POINTS, RimContact
 from .step import filtered_error, solve_stage
 
 Array = NDArray[np.float64]
 
 
-def contact_law(scene: Scene, points: int = 24) -> Array:
-    """Parameters of the contact, with ``points`` to the patch of a rigid hoop under the disk's weight."""
-    eps = scene.contact.stiffness
-    half_width = (1.5 / eps) ** (1 / 3)
-    spacing = min(2 * half_width / points, 2 * pi / scene.solve.elements / 8)
-    return np.array([spacing, eps, eps * scene.contact.tangential_ratio, scene.friction.mu_s, scene.friction.mu])
-
-
-def relaxation_time(scene: Scene) -> float:
-    """The damper's time theta = 2 zeta sqrt(m/k) with k the stiffness of the patch under the disk's weight."""
-    eps = scene.contact.stiffness
-    stiffness = 2 * eps * (1.5 / eps) ** (1 / 3)
-    return 2 * scene.contact.damping / stiffness**0.5
-
-
-class ReducedHoop:
+class ReducedHoop(RimContact):
     """Frame, modes and residual static compliance of a scene's hoop."""
 
-    def __init__(self, scene: Scene, modes: int = 24, points: int = 24, tolerance: float = 1e-9) -> None:
-        self.scene = scene
+    def __init__(self, scene: Scene, modes: int = 24, points: int = POINTS, tolerance: float = 1e-9) -> None:
         self.ring: ReducedRing = reduce(scene, modes)
-        self.law = contact_law(scene, points)
-        self.mu_s = scene.friction.mu_s
-        self.tolerance = tolerance
-        self.element = 2 * pi / scene.solve.elements
-        self.relaxation = relaxation_time(scene)
+        super().__init__(scene, self.ring.vertex, points, tolerance)
         self._blocks: dict[tuple[int, int], tuple[Array, Array]] = {}
 
-    def patch_damping(self, state: State) -> float:
-        """See :class:`flexible.march.Model`."""
-        return float(self.relaxation * self.law[EPS_T] * state.res[LENGTH])
-
-    def _window(self, phi: float, low: float, high: float, margin: float) -> tuple[int, int]:
-        theta = pi - phi
-        vertex = self.ring.vertex
-        first = element_at(vertex, theta + low - margin)
-        last = element_at(vertex, theta + high + margin)
-        return first, last - first + 1
+    @property
+    def coordinates(self) -> int:
+        """Number of coordinates of the ring in ``State.pos``."""
+        return len(self.ring.modal)
 
     def _arrays(self, window: tuple[int, int]) -> tuple[Array, Array]:
         n = len(self.ring.vertex)
@@ -92,7 +66,7 @@ class ReducedHoop:
         low, high = old.res[LOW], old.res[HIGH]
         margin = 0.3 * (high - low) + 0.1 * self.element
         for _ in range(4):
-            window = self._window(phi, low, high, margin)
+            window = self.window(phi, low, high, margin)
             u_old = self.displacement(old, window)
             shapes, compliance = self._arrays(window)
             u_guess = near[1] if near is not None and near[0] == window else u_old

@@ -84,7 +84,7 @@ def equilibrium(hoop: ReducedHoop, pose: Pose, t: float = 0.0, x_C: float = 0.0)
     normal = pose.normal_force
     if normal <= 0:
         q = np.linalg.solve(dynamic, -rest)
-        window = hoop._window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
+        window = hoop.window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
         u = (hoop._arrays(window)[0] @ q).reshape(-1, 2)
         # just clear of the floor
         height = -min(0.0, float((u[:, 0] * c - u[:, 1] * s).min()))
@@ -98,7 +98,7 @@ def equilibrium(hoop: ReducedHoop, pose: Pose, t: float = 0.0, x_C: float = 0.0)
     q, height = np.zeros(n), -(half**2) / 2
     u = None
     for _ in range(60):
-        window = hoop._window(pose.phi, -half, half, half + 0.2 * hoop.element)
+        window = hoop.window(pose.phi, -half, half, half + 0.2 * hoop.element)
         shapes, compliance = hoop._arrays(window)
         if u is None or len(u) != 2 * window[1] + 1:
             u = np.zeros((2 * window[1] + 1, 2))
@@ -136,8 +136,8 @@ def equilibrium(hoop: ReducedHoop, pose: Pose, t: float = 0.0, x_C: float = 0.0)
 
 def undeformed(hoop: ReducedHoop, pose: Pose, mode: int) -> State:
     """The unstrained ring touching the floor with one point, moving as the rigid hoop does."""
-    n = len(hoop.ring.modal)
-    window = hoop._window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
+    n = hoop.coordinates
+    window = hoop.window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
     u = np.zeros((2 * window[1] + 1, 2))
     pos, vel = np.zeros(3 + n), np.zeros(3 + n)
     pos[2] = pose.phi
