@@ -412,8 +412,7 @@ def contact_forces(
             share_of[i] = mode * mu * normal[i]
             traction_of[i] = eta * share_of[i]
             _add_normal(on_gap[i], eta * mode * mu, diagonal, coupling, before, i, behind)
-            if gap[i] < 0:
-                stretch[i] = eta * mode * mu * eps_n * gap[i] / eps_t
+            stretch[i] = eta * mode * mu * eps_n * min(gap[i], 0.0) / eps_t
             res[BRISTLE_ENERGY] += weight[i] * eps_t * stretch[i] ** 2 / 2
         elif weight[i] != 0:
             slides = False
