@@ -29,7 +29,7 @@ from .contact import ELASTIC, EPS_N, EPS_T, HIGH, LENGTH, LOW, NORMAL, OUTSIDE, 
 from .frame import DISK_INERTIA, OFFSET, RING_INERTIA, RING_MASS
 from .march import State
 from .reduction import body_constants
-from .rim import POINTS, RimContact
+from .touch import POINTS, RimContact
 from .ring import Ring, membrane_stiffness, ring_of
 
 Array = NDArray[np.float64]
@@ -242,7 +242,7 @@ class FullHoop(RimContact):
     Parameters
     ----------
     points, tolerance :
-        See :class:`flexible.rim.RimContact`.
+        See :class:`flexible.touch.RimContact`.
     through : int
         Elements through the wall.
     """

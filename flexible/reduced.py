@@ -13,7 +13,7 @@ from .contact import HIGH, LOW, NORMAL
 from .frame import energies
 from .march import State
 from .reduction import ReducedRing, reduce
-from .rim import POINTS, RimContact
+from .touch import POINTS, RimContact
 from .step import filtered_error, solve_stage
 
 Array = NDArray[np.float64]

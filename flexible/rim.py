@@ -1,4 +1,4 @@
-"""What all levels of the hoop share: the law of the contact, the patch's damper, the window of rim near the floor."""
+"""The rim as a line in a frame: the mesh's rim nodes and, where it touches the floor, the contact's own points."""
 
 from __future__ import annotations
 
@@ -7,61 +7,98 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Scene
+from meshes import Block, Placement, RingMesh
+from meshes.fields import LINE
 
-from .contact import EPS_T, LENGTH, element_at
 from .march import State
+from .profile import FREE, Profile, profile
+from .reduced import ReducedHoop
 
 Array = NDArray[np.float64]
 
-
-POINTS = 24  # to a patch, of a contact
-
-
-def contact_law(scene: Scene, points: int = POINTS) -> Array:
-    """Parameters of the contact, with ``points`` to the patch of a rigid hoop under the disk's weight."""
-    eps = scene.contact.stiffness
-    half_width = (1.5 / eps) ** (1 / 3)
-    spacing = min(2 * half_width / points, 2 * pi / scene.solve.elements / 8)
-    return np.array([spacing, eps, eps * scene.contact.tangential_ratio, scene.friction.mu_s, scene.friction.mu])
+#: what is known of the rim, on its own line, which is much finer than the mesh where it touches
+RIM_FIELDS = ("pressure", "traction", "stick")
 
 
-def relaxation_time(scene: Scene) -> float:
-    """The damper's time theta = 2 zeta sqrt(m/k) with k the stiffness of the patch under the disk's weight."""
-    eps = scene.contact.stiffness
-    stiffness = 2 * eps * (1.5 / eps) ** (1 / 3)
-    return 2 * scene.contact.damping / stiffness**0.5
-
-
-class RimContact:
-    """The rim of a scene's hoop as the floor sees it.
+def rim_of(
+    mesh: RingMesh,
+    points: Array,
+    nodal: dict[str, Array],
+    hoop: ReducedHoop | None,
+    state: State | None,
+    place: Placement,
+    asked: set[str],
+    stress: float,
+    length: float,
+) -> Block:
+    """The rim's block.
 
     Parameters
     ----------
-    vertex : (n_elements,) array
-        Angles at which rim elements begin.
-    points : int
-        Contact points to a patch, see :func:`contact_law`.
-    tolerance : float
-        Of Newton, on forces relative to the disk's weight.
+    mesh : RingMesh
+    points : (n_nodes, 2) array
+        Undeformed nodes in the world.
+    nodal : mapping of (n_nodes, 2) arrays
+        Fields of the ring that the rim gets too.
+    hoop, state : ReducedHoop, State or None
+        The contact at this instant; None while the hoop is rigid.
+    place : Placement
+    asked : set of str
+        Names out of ``RIM_FIELDS``.
+    stress, length : float
+        The scene's units.
+
+    Returns
+    -------
+    Block
+        Points once around by ascending material angle, which is the field ``theta``.
     """
+    theta, rim = mesh.rim_theta, mesh.rim_nodes
+    at, on_line = points[rim], {name: value[rim] for name, value in nodal.items()}
+    columns: dict[str, NDArray[np.generic]] = {
+        "pressure": np.zeros(len(rim)),
+        "traction": np.zeros(len(rim)),
+        "stick": np.full(len(rim), FREE, np.int8),
+    }
+    patch = profile(hoop, state) if hoop is not None and state is not None else None
+    if patch is not None and len(patch.theta):
+        # from -pi on, as the mesh counts
+        extra = (patch.theta - theta[0]) % (2 * pi) + theta[0]
+        together = np.concatenate([theta, extra])
+        order = np.argsort(together, kind="stable")  # both edges are there twice, the order of which counts
+        at_nodes = _at(patch, theta)
+        for name, inside in (("pressure", patch.pressure), ("traction", patch.traction), ("stick", patch.stick)):
+            columns[name] = np.concatenate([at_nodes[name], inside])[order]
+        circle = length * place.points(np.column_stack([np.cos(extra), np.sin(extra)]))
+        at = np.concatenate([at, circle])[order]
+        shape, nodes = _quadratic(extra, theta)
+        for name, value in on_line.items():
+            here = np.einsum("ni,nij->nj", shape, value[nodes])
+            on_line[name] = np.concatenate([value, here])[order]
+        theta = together[order]
+    scale = {"pressure": stress, "traction": stress}
+    kept = {name: value * scale[name] if name in scale else value for name, value in columns.items() if name in asked}
+    start = np.arange(len(theta))
+    return Block(at, np.column_stack([start, np.roll(start, -1)]), LINE, {"theta": theta, **on_line, **kept})
 
-    def __init__(self, scene: Scene, vertex: Array, points: int, tolerance: float) -> None:
-        self.scene = scene
-        self.vertex = vertex
-        self.law = contact_law(scene, points)
-        self.mu_s = scene.friction.mu_s
-        self.tolerance = tolerance
-        self.element = 2 * pi / scene.solve.elements
-        self.relaxation = relaxation_time(scene)
 
-    def patch_damping(self, state: State) -> float:
-        """See :class:`flexible.march.Model`."""
-        return float(self.relaxation * self.law[EPS_T] * state.res[LENGTH])
+def _at(patch: Profile, theta: Array) -> dict[str, NDArray[np.generic]]:
+    """The profile at other angles: on its own lines, so that they change no integral."""
+    within = (theta - patch.theta[0]) % (2 * pi) + patch.theta[0]
+    i = np.clip(np.searchsorted(patch.theta, within, side="right") - 1, 0, len(patch.theta) - 2)
+    pressure, traction = (
+        np.interp(within, patch.theta, value, right=0.0) for value in (patch.pressure, patch.traction)
+    )
+    stick = np.where(patch.stick[i] != FREE, patch.stick[i], patch.stick[i + 1])
+    return {"pressure": pressure, "traction": traction, "stick": np.where(pressure > 0, stick, FREE).astype(np.int8)}
 
-    def window(self, phi: float, low: float, high: float, margin: float) -> tuple[int, int]:
-        """First rim element and number of elements of the part ``low`` to ``high`` (angles from the bottom)."""
-        theta = pi - phi
-        first = element_at(self.vertex, theta + low - margin)
-        last = element_at(self.vertex, theta + high + margin)
-        return first, last - first + 1
+
+def _quadratic(extra: Array, theta: Array) -> tuple[Array, NDArray[np.int64]]:
+    """Shape functions and rim positions of the elements that hold the angles ``extra``, both (n, 3)."""
+    vertex, count = theta[::2], len(theta)
+    element = np.clip(np.searchsorted(vertex, extra, side="right") - 1, 0, len(vertex) - 1)
+    ends = np.append(vertex, vertex[0] + 2 * pi)
+    xi = (extra - ends[element]) / (ends[element + 1] - ends[element])
+    shape = np.column_stack([(1 - xi) * (1 - 2 * xi), 4 * xi * (1 - xi), xi * (2 * xi - 1)])
+    positions = (2 * element[:, None] + np.arange(3)) % count
+    return shape, positions
