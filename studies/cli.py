@@ -136,13 +136,11 @@ def paper(out: Path | None) -> None:
     """Every figure and number of the paper, ours beside the printed one."""
     from .progress import bar
 
-    try:
-        from .paper import reproduce
-    except ModuleNotFoundError as error:
-        raise _not_yet("hoop paper", error) from None
+    from .paper import reproduce
+
     target = folder(out if out is not None else Path("out-paper"))
-    with bar("paper") as progress:
-        reproduce(target, progress=progress)
+    with bar("paper") as told:
+        reproduce(target, progress=lambda done, total, _: told(done / total))
     click.echo(f"The paper's figures and numbers are in {target}.", err=True)
 
 
@@ -156,13 +154,6 @@ def bench() -> None:
 def stress() -> None:
     """Numerical stability over everything a user can type."""
     raise StudyError("hoop stress is not there yet.")
-
-
-def _not_yet(command: str, error: ModuleNotFoundError) -> StudyError:
-    """A part of this package that is still to come; anything else missing is a broken installation."""
-    if (error.name or "").split(".")[0] in ("studies", "meshes", "flexible", "rigid"):
-        return StudyError(f"{command} is not there yet.")
-    return StudyError(f"{command} needs {error.name}, which is not installed: pip install {error.name}.")
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

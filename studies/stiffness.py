@@ -23,8 +23,11 @@ from .files import StudyError
 from .history import Columns
 from .ladder import Ladder
 from .limits import Limit, limit_of
+from .reference import limit_mu_s
 from .runs import run_cases
 from .workers import Here, Pool
+
+TENDED = "studies.reference:tended"
 
 LIMITS = ("impulse_ratio", "friction_loss", "normal_impulse")
 """Measures whose limit is sought."""
@@ -139,29 +142,6 @@ def _limit_to_dict(limit: Limit) -> dict[str, Any]:
     }
 
 
-def effective_mu_s(mu_s: float, mu: float) -> float:
-    """Largest F/N of a rolling parabolic brush patch whose points break at mu_s p and slide at mu p.
-
-    The patch breaks away from its rear; with a share 1 - b of its length sliding F/N is
-    3 mu_s (b^2 - b^3) + mu (1 - 3 b^2 + 2 b^3), largest at b = 2 (mu_s - mu)/(3 mu_s - 2 mu).
-    """
-    if mu_s == mu:
-        return mu
-    b = 2 * (mu_s - mu) / (3 * mu_s - 2 * mu)
-    return 3 * mu_s * (b**2 - b**3) + mu * (1 - 3 * b**2 + 2 * b**3)
-
-
-def limit_scene(scene: Scene) -> Scene:
-    """The rigid scene that the scene's contact law tends to as stiffness grows.
-
-    A stick threshold on the patch's resultants is the rigid law; one at every point of the patch lets it
-    slide at ``effective_mu_s``.
-    """
-    if scene.contact.law == "patch":
-        return scene
-    return scene.replace(friction={"mu_s": effective_mu_s(scene.friction.mu_s, scene.friction.mu)})
-
-
 def stiffness_study(
     scene: Scene,
     ladder: Ladder | None = None,
@@ -212,10 +192,7 @@ def stiffness_study(
         scene = scene.replace(run=Run(until="pulse"))
 
     # 1. the rigid hoop, and the one that the contact law should tend to
-    tended = limit_scene(scene)
-    rigid, reference = run_cases(
-        [Case("rigid", scene, histories=True), Case("rigid", tended, histories=True)], Here()
-    )
+    rigid, reference = run_cases([Case(name, scene, histories=True) for name in ("rigid", TENDED)], Here())
     for outcome in (rigid, reference):
         if outcome.failure or not outcome.pulses:
             raise StudyError(
@@ -245,7 +222,7 @@ def stiffness_study(
         limits[name] = limit_of(
             [r.stiffness for r in through], values, reference.pulses[0][name], errors, exponent
         )
-    return StiffnessStudy(scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits)
+    return StiffnessStudy(scene, ladder, solver, rigid, reference, limit_mu_s(scene), rungs, limits)
 
 
 def first_pulse(outcome: Outcome) -> Columns | None:

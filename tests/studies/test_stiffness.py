@@ -8,11 +8,12 @@ import pytest
 from third_solver import OFF, RATE
 
 from rigid import Friction as Coefficients
-from rigid import Hoop, Release, Scene, SceneError, load_scene
+from rigid import Hoop, Release, Scene, SceneError, load_scene, simulate
 from studies.case import SHARE
 from studies.files import StudyError
 from studies.ladder import Ladder
-from studies.stiffness import effective_mu_s, limit_scene, stiffness_study
+from studies.reference import effective_mu_s, limit_mu_s, over, tended
+from studies.stiffness import stiffness_study
 
 THIRD = "third_solver:softened"
 
@@ -83,12 +84,34 @@ def test_effective_coefficient_of_the_brush():
 def test_each_law_is_compared_with_the_rigid_hoop_it_should_become():
     patch = load_scene("paper-3.3-massless")
     brush = patch.replace(contact={"law": "brush"})
-    assert limit_scene(patch) == patch
-    assert limit_scene(brush).friction.mu_s == effective_mu_s(0.35, 0.3)
+    assert limit_mu_s(patch) == 0.35
+    assert limit_mu_s(brush) == effective_mu_s(0.35, 0.3)
     study = stiffness_study(brush, Ladder("contact", 1e8, 1e13, 6), solver=THIRD)
     assert study.limits["impulse_ratio"].rigid == study.reference.pulses[0]["impulse_ratio"]
     assert study.reference.pulses[0]["impulse_ratio"] != study.rigid.pulses[0]["impulse_ratio"]
     assert study.limits["impulse_ratio"].rigid_inside
+
+
+def test_the_brush_is_handed_over_at_the_pulse_and_measured_over_its_interval():
+    """Until the pulse the rigid hoop moves with mu_s; from there on with mu_eff."""
+    brush = load_scene("paper-3.3-massless").replace(contact={"law": "brush"}, run={"until": "pulse"})
+    paper, limit = simulate(brush), tended(brush)
+    state = paper.at(paper.pulses[0].t_start)
+    assert limit.at(0.0).phi == pytest.approx(float(state.phi), abs=1e-14)
+    assert limit.at(0.0).slip_velocity == pytest.approx(float(state.slip_velocity), abs=1e-13)
+    assert (limit.pulses[0].phi_start, limit.pulses[0].phi_end) == (
+        paper.pulses[0].phi_start,
+        paper.pulses[0].phi_end,
+    )
+
+
+def test_a_pulse_measured_over_its_own_interval_is_itself():
+    """Momentum and energy at the ends against the solver's own measures."""
+    motion = simulate(load_scene("paper-3.3-heavier"))
+    pulse = motion.pulses[0]
+    again = over(motion, pulse.phi_start, pulse.phi_end)
+    for name in ("normal_impulse", "friction_impulse", "friction_loss", "t_start", "t_end"):
+        assert getattr(again, name) == pytest.approx(getattr(pulse, name), abs=1e-11)
 
 
 def test_json_is_the_contract(hoop):

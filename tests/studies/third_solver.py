@@ -12,8 +12,8 @@ import os
 import time
 from pathlib import Path
 
-from rigid import Motion, Scene, simulate
-from studies.stiffness import limit_scene
+from rigid import Motion, Scene
+from studies.reference import tended
 
 RATE = 1 / 3
 OFF = 20.0
@@ -22,7 +22,7 @@ OFF = 20.0
 
 def softened(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
     """The rigid motion of the scene that the contact law tends to, its pulses missed by the law above."""
-    motion = simulate(limit_scene(scene))
+    motion = tended(scene)
     miss = OFF * scene.contact.stiffness**-RATE
     pulses = tuple(
         dataclasses.replace(
