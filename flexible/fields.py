@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import floor, log10
 from pathlib import Path
 from typing import Any
 
@@ -136,9 +137,20 @@ def write_fields(
 def _title(scene: Scene) -> str:
     hoop, friction = scene.hoop, scene.friction
     return (
-        f"k = {hoop.k:g}, r = {hoop.r:g}, m_h/m = {hoop.mass_ratio:g}, μ_s = {friction.mu_s:g}, μ = {friction.mu:g}, "
-        f"EI = {scene.ring.bending_stiffness:g} mgR², ε = {scene.contact.stiffness:g} mg/R²"
+        f"k = {hoop.k:g}, r = {hoop.r:g}, m_h/m = {hoop.mass_ratio:g}, "
+        f"μ_s = {friction.mu_s:g}, μ = {friction.mu:g}, "
+        f"EI = {_short(scene.ring.bending_stiffness)} m g R², ε = {_short(scene.contact.stiffness)} m g/R²"
     )
+
+
+def _short(value: float) -> str:
+    """1e4 as 10⁴."""
+    exponent = floor(log10(value) + 1e-9)
+    if -3 < exponent < 4:
+        return f"{value:.4g}"
+    mantissa = f"{value / 10.0**exponent:.3g}"
+    power = "10" + str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return power if mantissa == "1" else f"{mantissa}·{power}"
 
 
 def _times(motion: FlexibleMotion, frames: int, times: ArrayLike | None, pulse: int | None) -> Array:

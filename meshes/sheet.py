@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import looks
+from .patch import PatchPlot
 from .stage import ABOVE_FLOOR, Colours
 from .subject import Curves, Shot
 
@@ -31,6 +33,8 @@ class Sheet:
         Units of fields and of "time", "force".
     title : str
         Above the picture.
+    shots : sequence of Shot
+        Spread over the run, if the contact patch is to be drawn beside the hoop.
     """
 
     def __init__(
@@ -41,6 +45,7 @@ class Sheet:
         colours: Colours | None,
         units: dict[str, str],
         title: str,
+        shots: Sequence[Shot] = (),
     ) -> None:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
@@ -65,11 +70,17 @@ class Sheet:
         self.covered = round(6.2 * em) if colours else 0
         #: left, top, width and height of the stage in pixels
         self.stage_box = (0, top, width // 2 * 2, (height - top - below) // 2 * 2)
-        self._text(1.2 * em, top * 0.62, title, color=looks.INK, weight="bold", va="center")
+        room = width - 2.4 * em
         if colours is not None:
-            self._colour_bar(colours, em)
+            room -= self._colour_bar(colours, em) + em
+        self._title(title, room, em)
         if drawn:
             self._curves(below, em)
+        self._over: list[tuple[tuple[slice, slice], Image, NDArray[np.bool_]]] = []
+        self._aside = 0  # pixels at the left of the stage that the patch covers
+        self._plot: PatchPlot | None = None
+        if shots:
+            self._patch(shots, em)
         left, y = 1.2 * em, top + 1.3 * em
         self._time = self._text(left, y, "", color=looks.INK, moving=True)
         self._phase = self._text(left, y + 1.5 * em, "", color=looks.INK, moving=True)
@@ -82,10 +93,18 @@ class Sheet:
         self._lens = self._text(0, 0, "", moving=True, **caption)
         self.canvas.draw()
         self._blank = self.canvas.copy_from_bbox(self.figure.bbox)
-        foot = top + int(self.stage_box[3] * ABOVE_FLOOR) - 4
-        self._bar_box = (slice(top, foot), slice(width - self.covered, width))
-        self._bar = np.array(np.asarray(self.canvas.buffer_rgba())[self._bar_box])
-        self._bar_ink = (self._bar[..., :3] < 255).any(axis=2)
+        self._keep_ink()
+
+    def _keep_ink(self) -> None:
+        """Keep what stands still and is drawn over the stage: colour bar, axes of the patch."""
+        _, top, width, height = self.stage_box
+        foot = top + int(height * ABOVE_FLOOR) - 4
+        page = np.asarray(self.canvas.buffer_rgba())
+        self._over = []
+        for columns in (slice(width - self.covered, width), slice(0, self._aside)):
+            box = (slice(top, foot), columns)
+            drawn = np.array(page[box])
+            self._over.append((box, drawn, (drawn[..., :3] < 255).any(axis=2)))
 
     def fill(
         self, stage: Image, shot: Shot, factor: float, lens: tuple[float, float, str] | None = None
@@ -95,7 +114,8 @@ class Sheet:
         left, top, width, height = self.stage_box
         page = np.asarray(self.canvas.buffer_rgba())
         page[top : top + height, left : left + width, :3] = stage
-        page[self._bar_box][self._bar_ink] = self._bar[self._bar_ink]
+        for box, drawn, inked in self._over:
+            page[box][inked] = drawn[inked]
         self._time.set_text(f"t = {shot.time:.{self.decimals}f} {self.units['time']}")
         kind = self.curves.phase(shot.time)
         words, band = looks.PHASES.get(kind, (kind, looks.PAPER)) if kind else ("", looks.PAPER)
@@ -110,6 +130,8 @@ class Sheet:
         if lens is not None:
             x, y = lens[0] / self.size[0], 1 - (top + lens[1] + 0.9 * self.type * 100 / 72) / self.size[1]
             self._lens.set_position((x, y))
+        if self._plot is not None:
+            self._plot.show(shot)
         for line, dot, t, values in self._marks:
             line.set_xdata([shot.time, shot.time])
             dot.set_data([shot.time], [np.interp(shot.time, t, values)])
@@ -150,7 +172,27 @@ class Sheet:
         w, h = self.size
         return self.figure.add_axes((left / w, 1 - (top + height) / h, width / w, height / h))
 
-    def _colour_bar(self, colours: Colours, em: float) -> None:
+    def _title(self, title: str, room: float, em: float) -> None:
+        """The title, in smaller type where it would not fit."""
+        top = self.stage_box[1]
+        printed = self._text(1.2 * em, top * 0.62, title, color=looks.INK, weight="bold", va="center")
+        needed = float(printed.get_window_extent(self.canvas.get_renderer()).width)
+        if needed > room:
+            printed.set_fontsize(max(0.6, room / needed) * self.type)
+
+    def _patch(self, shots: Sequence[Shot], em: float) -> None:
+        """Axes at the left, below the legend, where the hoop does not come."""
+        _, top, width, height = self.stage_box
+        start, foot = 8.6 * em, height * ABOVE_FLOOR - 6.2 * em
+        high, wide = min(foot - start, 0.34 * height), 0.17 * width
+        if high > 4 * em:
+            axes = self._axes(3.2 * em, top + foot - high, wide, high)
+            self._plot = PatchPlot(axes, list(shots), self.units, self.type)
+            self._moving += self._plot.moving
+            self._aside = round(3.2 * em + wide + em)
+
+    def _colour_bar(self, colours: Colours, em: float) -> float:
+        """Draw it; how wide its name is, in pixels."""
         from matplotlib.cm import ScalarMappable
         from matplotlib.colors import Normalize
         from matplotlib.ticker import MaxNLocator
@@ -169,7 +211,9 @@ class Sheet:
         ten = f"$10^{{{power}}}$" if power else ""
         unit = " ".join(filter(None, [ten, looks.unit(colours.field, self.units)]))
         name = looks.label(colours.field) + (f"  [{unit}]" if unit else "")
-        self._text(self.size[0] - 1.2 * em, top * 0.62, name, color=looks.INK, ha="right", va="center")
+        style = {"color": looks.INK, "ha": "right", "va": "center"}
+        printed = self._text(self.size[0] - 1.2 * em, top * 0.62, name, **style)
+        return float(printed.get_window_extent(self.canvas.get_renderer()).width)
 
     def _curves(self, below: int, em: float) -> None:
         start = self.size[1] - below + 1.2 * em

@@ -31,6 +31,7 @@ class Shot:
     normal_force: float | None = None
     friction_force: float | None = None
     slip_velocity: float | None = None
+    rim: Block | None = None
 
     @property
     def displacement(self) -> Array:
@@ -133,6 +134,7 @@ class SeriesSubject:
             time=frame.time,
             ring=ring,
             disk=frame.blocks.get("disk"),
+            rim=frame.blocks.get("rim"),
             centre=np.asarray((low + high) / 2, dtype=float)[:2],
             radius=float((high - low).max() / 2),
             **force,

@@ -25,11 +25,12 @@ from rigid import Motion
 
 from . import film, looks
 from .lens import Lens, enlargement
+from .patch import patch_of
 from .renderer import ViewError, require_renderer, require_screen
 from .scales import field_names, limits, sampled, scale_of, tidy_factor
 from .series import Series
 from .sheet import Sheet
-from .stage import ABOVE_FLOOR, Colours, Stage
+from .stage import ABOVE_FLOOR, VIEW_HEIGHT, Colours, Stage
 from .subject import Shot, Subject, subject_of
 from .times import frame_times
 
@@ -51,6 +52,7 @@ class Setting:
     reach: tuple[float, float]  # of the hoop over the whole run, in x
     zoom: float  # 1 shows the whole hoop
     lens_factor: float  # exaggeration inside the lens
+    patches: tuple[Shot, ...] = ()  # spread over the run, if they know the contact's pressure
 
 
 def setting(
@@ -80,11 +82,12 @@ def setting(
     lens_factor = tidy_factor(shots, 0.06 / enlargement(first)) if factor is None else factor
     if factor is None:
         stored = first.ring.field_data.get("display_factor")
-        factor = tidy_factor(shots, 0.06 / zoom) if stored is None else float(stored[0])
+        factor = tidy_factor(shots, 0.06 / zoom) if stored is None or zoom > 1 else float(stored[0])
     x = [float(shot.centre[0]) for shot in shots]
     reach = (min(x) - 1.7 * first.radius, max(x) + 1.2 * first.radius)  # on the left there is text
     largest = dict(scale_of(subject.curves, shots))
-    return Setting(subject, first, colours, factor, largest, reach, zoom, lens_factor)
+    patches = tuple(shot for shot in shots if len(patch_of(shot)[0]))
+    return Setting(subject, first, colours, factor, largest, reach, zoom, lens_factor, patches)
 
 
 class Camera:
@@ -94,7 +97,9 @@ class Camera:
         require_renderer()
         self.setting, self.oversampling = chosen, oversampling
         subject = chosen.subject
-        self.sheet = Sheet(size, subject.curves, subject.span, chosen.colours, subject.units, subject.title)
+        self.sheet = Sheet(
+            size, subject.curves, subject.span, chosen.colours, subject.units, subject.title, self._patches(size)
+        )
         _, _, width, height = self.sheet.stage_box
         pixels = (self.oversampling * width, self.oversampling * height)
         self.stage = Stage(chosen.first, pixels, chosen.zoom, chosen.colours, chosen.largest)
@@ -106,6 +111,14 @@ class Camera:
         self.lens = None
         if chosen.colours is not None and chosen.zoom == 1 and enlargement(chosen.first) >= 2:
             self.lens = Lens(chosen.first, self.scale, chosen.colours, chosen.lens_factor)
+
+    def _patches(self, size: tuple[int, int]) -> tuple[Shot, ...]:
+        """Shots of the contact patch, if the hoop leaves room for its plot."""
+        chosen = self.setting
+        left, right = chosen.reach
+        free = size[0] / size[1] * VIEW_HEIGHT / 0.65 * chosen.first.radius  # width of the stage, roughly
+        fits = chosen.zoom == 1 and right - left <= 0.9 * free
+        return chosen.patches if fits else ()
 
     def __enter__(self) -> Camera:
         return self
