@@ -1,10 +1,11 @@
 """The angle phi without loss of digits near the bottom or the top.
 
 phi = pi + a + 2 pi n (chart 0, around the bottom) or phi = a + 2 pi n (chart 1, around the top), |a| <= pi/2.
-Small disks pass the floor within |a| ~ k, and a release near the top is slow by log(1/phi0): both live on the digits
-of ``a``, which phi itself does not have.
+Small disks pass the floor within |a| ~ k, and a release near the top is slow by log(1/phi0): both live on the
+digits of ``a``, which phi itself does not have.
 """
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import atan, floor, pi, sin
@@ -65,7 +66,9 @@ def advance_between(a0, top0, n0, a1, top1, n1):
 
 @kernel
 def next_angle(s, h, top, n):
-    """The angle with sin phi = s and 1 + cos phi = h, less than a quarter turn from chart ``top`` of turn ``n``."""
+    """The angle with sin phi = s and 1 + cos phi = h, less than a quarter turn from chart ``top`` of turn
+    ``n``.
+    """
     if h < 1.0:
         if top != 0.0 and s < 0:
             n -= 1.0

@@ -1,5 +1,6 @@
 """Many scenes at once, on all cores, in memory that grows with their number and not with their histories."""
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 import os
@@ -33,8 +34,8 @@ from .machine import entry_run
 from .motion import Array
 from .scene import Friction, Hoop, Landing, Release, Scene, SceneError
 from .slipping import ORDER, SERIES
+from .solve import BOTTOM, TAPE_RECORDS, UNTIL_CODES, reason
 from .solve import STEPS as WORK
-from .solve import TAPE_RECORDS, UNTIL_CODES, reason
 
 TURN_VALUES = 4  # t, phi, slip velocity, energy
 PULSE_VALUES = 11  # t, phi at both ends; J_N, J_F, loss, peak; three restitutions
@@ -158,12 +159,12 @@ def simulate_batch(
     Parameters
     ----------
     scenes : sequence of Scene, or mapping of arrays
-        The arrays are k, r, mass_ratio, mu_s, mu, phi0, omega0, slip0, restitution in the paper's units (k, mu_s, mu and
-        phi0 are needed), of any shapes that broadcast to (n,). Of scenes in SI units, omega0 and slip0 are made
-        dimensionless; results are in the paper's units always.
+        The arrays are k, r, mass_ratio, mu_s, mu, phi0, omega0, slip0, restitution in the paper's units (k,
+        mu_s, mu and phi0 are needed), of any shapes that broadcast to (n,). Of scenes in SI units, omega0 and
+        slip0 are made dimensionless; results are in the paper's units always.
     turns, t_end, until
-        How far to run, the same for all (see :class:`rigid.Run`); 2 turns if nothing is said. The ``run`` of the scenes is not
-        looked at.
+        How far to run, the same for all (see :class:`rigid.Run`); 2 turns if nothing is said. The ``run`` of
+        the scenes is not looked at.
     pulses : int
         How many pulses to keep of each scene.
     workers : int, optional
@@ -216,9 +217,8 @@ def _table(scenes: Sequence[Scene] | Mapping[str, ArrayLike]) -> Array:
         missing = set(QUANTITIES) - set(scenes) - set(_DEFAULTS)
         if unknown or missing:
             names = ", ".join(sorted(unknown or missing))
-            raise SceneError(
-                f"{names} {'is not a quantity of' if unknown else 'is missing in'} a batch: {', '.join(QUANTITIES)}."
-            )
+            what = "is not a quantity of" if unknown else "is missing in"
+            raise SceneError(f"{names} {what} a batch: {', '.join(QUANTITIES)}.")
         columns = [np.asarray(scenes.get(name, _DEFAULTS.get(name)), dtype=float) for name in QUANTITIES]
         table = np.stack(np.broadcast_arrays(*np.atleast_1d(*columns)), axis=1)
         _check(table)
@@ -238,7 +238,7 @@ def _table(scenes: Sequence[Scene] | Mapping[str, ArrayLike]) -> Array:
                 release.omega0 * time,
                 release.slip0 * time / hoop.R,
                 scene.landing.restitution,
-            )  # fmt: skip
+            )
         )
     return np.array(rows, dtype=float).reshape(len(rows), len(QUANTITIES))
 
@@ -289,4 +289,6 @@ def _constants(
     offsets = (phi0 - whole * (2 * pi)) - whole * (2 * PI_LOW)
     angles = [chart(a, 1.0, n) for a, n in zip(offsets.tolist(), whole.tolist(), strict=True)]
     release = np.column_stack([np.array(angles, dtype=float).reshape(len(table), 3), omega0, slip0])
+    lowest = (release[:, 1] == 0) & (np.abs(release[:, 0]) <= BOTTOM * np.maximum(1, np.abs(phi0)))
+    release[lowest, 0] = 0.0
     return pars, np.ascontiguousarray(release)

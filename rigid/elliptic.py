@@ -1,5 +1,6 @@
 """Carlson's symmetric elliptic integrals R_F and R_J by duplication (DLMF 19.36), the two in one sweep."""
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import atan, log, sqrt
@@ -21,7 +22,9 @@ def r_c(x):
 
 @kernel
 def r_f_and_r_j(x, y, z, p):
-    """R_F(x, y, z) and R_J(x, y, z, p) for x, y, z >= 0, at most one of them 0, and p > 0; relative error below 1e-15."""
+    """R_F(x, y, z) and R_J(x, y, z, p) for x, y, z >= 0, at most one of them 0, and p > 0; relative error
+    below 1e-15.
+    """
     f0 = (x + y + z) / 3
     j0 = (x + y + z + 2 * p) / 5
     spread = max(abs(j0 - x), abs(j0 - y), abs(j0 - z), abs(j0 - p), abs(f0 - x), abs(f0 - y), abs(f0 - z))

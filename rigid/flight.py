@@ -1,5 +1,8 @@
-"""Off the floor: G falls on a parabola, phidot is constant, and the next touch-down is found without stepping over it."""
+"""Off the floor: G falls on a parabola, phidot is constant, and the next touch-down is found without
+stepping over it.
+"""
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import pi, sin, sqrt
@@ -24,7 +27,9 @@ def height(e, gap, un, omega, s, c, time):
 
 @kernel
 def lifts(e, omega, s, c):
-    """Whether the contact point leaves the floor by itself: e c phidot^2 > 1, (and growing, where it equals 1 to round-off)."""
+    """Whether the contact point leaves the floor by itself: e c phidot^2 > 1, (and growing, where it equals
+    1 to round-off).
+    """
     w = omega * omega
     curve = e * c * w - 1
     if abs(curve) <= 1e-14 * (1 + e * w):
@@ -36,8 +41,9 @@ def lifts(e, omega, s, c):
 def touch_down(e, gap, un, omega, a, top):
     """Time until the contact point is back on the floor; inf never happens under gravity.
 
-    |gap''| <= 1 + e phidot^2 =: B makes gap + gap' dt - B dt^2/2 a lower bound: its zero is a step that cannot pass a
-    touch-down. Above 1 + e the disk's side of the hoop cannot reach the floor, so that part of the parabola is skipped.
+    |gap''| <= 1 + e phidot^2 =: B makes gap + gap' dt - B dt^2/2 a lower bound: its zero is a step that
+    cannot pass a touch-down. Above 1 + e the disk's side of the hoop cannot reach the floor, so that part of
+    the parabola is skipped.
     """
     s, c, _, _ = trig(a, top)
     w = omega * omega
@@ -94,10 +100,11 @@ def fly(par, state, time):
 
 @kernel
 def settle(par, state, lift):
-    """Put the contact point on the floor to the last digit, G being at the height ``lift`` above the hoop's centre.
+    """Put the contact point on the floor to the last digit, G being at the height ``lift`` above the hoop's
+    centre.
 
-    A fast rotation leaves the angle uncertain by the round-off of omega t, which would make or destroy energy: the height
-    of G is known better, so the angle gives way.
+    A fast rotation leaves the angle uncertain by the round-off of omega t, which would make or destroy
+    energy: the height of G is known better, so the angle gives way.
     """
     e, omega = par[ECC], state[OMEGA]
     s, c, _, _ = trig(state[ANGLE], state[TOP])

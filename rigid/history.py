@@ -1,5 +1,6 @@
 """Any instant of a motion on demand: the phases are evaluated again, from their starting states."""
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import inf
@@ -61,7 +62,7 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
         for j in range(X_C + 1):
             state[j] = phases[p * WIDTH + 1 + j]
         start = state[T]
-        if kind == SKID or kind == SPIN:
+        if kind in (SKID, SPIN):
             mu_hat = par[MU] if kind == SKID else -par[MU]
             p_known = inf
             while i < len(times) and times[i] < until:

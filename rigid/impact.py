@@ -1,16 +1,17 @@
 """Impact with friction in the impulse variable (Darboux, Keller): landing, and the jam of Painlevé.
 
-During an impact the configuration is frozen, so the velocity of the contact point is piecewise linear in the normal
-impulse I:  d(un)/dI = D/K while it slips (D of :mod:`rigid.slipping`, which may be negative),
+During an impact the configuration is frozen, so the velocity of the contact point is piecewise linear in the
+normal impulse I:  d(un)/dI = D/K while it slips (D of :mod:`rigid.slipping`, which may be negative),
 dv/dI = -mu^ (1 + (1 + e c)^2/K) - e s (1 + e c)/K, and v = 0 while it sticks.
-Slip that stops sticks if mu_s can hold it, else it reverses. Compression ends when un = 0; restitution ends when the
-normal force has given back the square of the coefficient times the work of compression (Stronge).
+Slip that stops sticks if mu_s can hold it, else it reverses. Compression ends when un = 0; restitution ends
+when the normal force has given back the square of the coefficient times the work of compression (Stronge).
 
-A jam (un = 0, D < 0, pressed to the floor) has no bounded normal force: it is an impact without collision. Friction
-drives the contact point into the floor, which takes the slip away (always: D < 0 needs mu beyond the value at which dv/dI
-changes sign) until stick or reversal gives D > 0 and turns un back to zero.
+A jam (un = 0, D < 0, pressed to the floor) has no bounded normal force: it is an impact without collision.
+Friction drives the contact point into the floor, which takes the slip away (always: D < 0 needs mu beyond the
+value at which dv/dI changes sign) until stick or reversal gives D > 0 and turns un back to zero.
 """
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import inf, sqrt

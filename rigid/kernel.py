@@ -1,8 +1,9 @@
 """One source for two machines: functions that run as plain Python and, on demand, compiled.
 
-A function marked :func:`kernel` keeps to scalars, flat sequences and :mod:`math`, so the interpreter runs it on
-lists and numba on arrays, to the same numbers. A first call therefore waits for no compiler and does not even import
-numba; :func:`compiled` builds (or loads from the cache on disk) the fast twins of all of them at once.
+A function marked :func:`kernel` keeps to scalars, flat sequences and :mod:`math`, so the interpreter runs it
+on lists and numba on arrays, to the same numbers. A first call therefore waits for no compiler and does not
+even import numba; :func:`compiled` builds (or loads from the cache on disk) the fast twins of all of them at
+once.
 """
 
 from __future__ import annotations
@@ -21,13 +22,16 @@ _REGISTER: dict[str, FunctionType] = {}
 
 def kernel(function: F) -> F:
     """Mark a function for compilation, under a name that no other kernel has."""
-    assert isinstance(function, FunctionType) and function.__name__ not in _REGISTER
+    assert isinstance(function, FunctionType)
+    assert function.__name__ not in _REGISTER
     _REGISTER[function.__name__] = function
     return function
 
 
 def _stamp() -> str:
-    """Fingerprint of every file that enters the kernel: a change in a callee makes the cached caller stale."""
+    """Fingerprint of every file that enters the kernel: a change in a callee makes the cached caller
+    stale.
+    """
     files = sorted({__file__} | {function.__code__.co_filename for function in _REGISTER.values()})
     return hashlib.sha256(b"".join(Path(name).read_bytes() for name in files)).hexdigest()[:16]
 
@@ -36,8 +40,8 @@ def _stamp() -> str:
 def compiled() -> dict[str, Callable[..., Any]]:
     """The compiled twins by name; the first call in a process loads numba, the first on a machine compiles.
 
-    Only the functions named ``entry_*`` are cached on disk (the others become part of them). The fingerprint is in
-    their names, so the cache never serves a kernel whose callee has changed since.
+    Only the functions named ``entry_*`` are cached on disk (the others become part of them). The fingerprint
+    is in their names, so the cache never serves a kernel whose callee has changed since.
     """
     import numba
 

@@ -12,7 +12,8 @@ NOTHING, FIRST_PULSE, REST = range(3)  # values of UNTIL
 # of the contact point and its height, zero on the floor.
 T, ANGLE, TOP, WHOLE, OMEGA, SLIP, UN, GAP, X_C = range(9)
 MODE, LAST_KIND, TURNS_DONE, STEPS, RECORDS, PULSES_DONE, PERIOD, STALLS, HOPS = range(9, 18)
-# The pulse that is being measured: whether it is open, whether the bottom was crossed, and the state at its start.
+# The pulse that is being measured: whether it is open, whether the bottom was crossed, and the state at its
+# start.
 P_OPEN, P_CROSSED, P_T, P_ANGLE, P_TOP, P_WHOLE, P_XDOT, P_YDOT, P_H, P_ENERGY, P_PEAK, P_T_BOTTOM = range(
     18, 30
 )
@@ -22,7 +23,8 @@ STATE = 35
 # Kinds of contact; CHOOSE stands for "find out".
 CHOOSE, ROLL, SKID, SPIN, FLIGHT, SKIM, IMPACT = range(7)
 
-# Records on the tape: a phase (tag = its kind) or END carries the state, a TURN the state and its energy, a PULSE its measures.
+# Records on the tape: a phase (tag = its kind) or END carries the state, a TURN the state and its energy, a
+# PULSE its measures.
 WIDTH = 18
 TURN, PULSE, END = 10, 11, 12
 

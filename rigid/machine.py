@@ -1,17 +1,19 @@
 """The phase machine: which phase comes next, and each phase run to its end.
 
-``entry_run`` advances a state until its tape is full, its allowance of work is spent, or the motion is over; it can be
-called again to go on. Rules where Coulomb's law leaves a choice:
+``entry_run`` advances a state until its tape is full, its allowance of work is spent, or the motion is over;
+it can be called again to go on. Rules where Coulomb's law leaves a choice:
 
-* contact point at rest: roll if |F| <= mu_s N with N >= 0; else the slip starts in the direction in which the contact
-  point would move without friction. (That slip never lies in Painlevé's D < 0: if it did, rolling would be admissible.)
+* contact point at rest: roll if |F| <= mu_s N with N >= 0; else the slip starts in the direction in which the
+  contact point would move without friction. (That slip never lies in Painlevé's D < 0: if it did, rolling
+  would be admissible.)
 * slipping with D > 0: contact while 1 - e c phidot^2 > 0, else flight.
-* slipping with D < 0 (only a release or a landing can be there): flight if 1 - e c phidot^2 <= 0 (contact would be
-  consistent too), else an impact without collision.
+* slipping with D < 0 (only a release or a landing can be there): flight if 1 - e c phidot^2 <= 0 (contact
+  would be consistent too), else an impact without collision.
 * a rebound slower than ``SLOWEST_HOP`` sqrt(g R) is no hop: the landing is taken without restitution. So an
   accumulation of ever smaller hops ends.
 """
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import inf
@@ -155,7 +157,8 @@ def hit(par, state, tape):
 def settles(par, state):
     """Whether the last ``SLIPS`` slips have taken next to nothing and brought the end of the run no closer.
 
-    A motion whose slips shrink towards a rolling that just never slips does so algebraically, and would not end.
+    A motion whose slips shrink towards a rolling that just never slips does so algebraically, and would not
+    end.
     """
     if par[UNTIL] == FIRST_PULSE or par[T_END] < inf:
         return False
@@ -171,7 +174,9 @@ def settles(par, state):
 
 @kernel
 def entry_run(par, state, work, tape):
-    """Run until the tape is full (MORE), the allowance of steps is spent (WORK_BOUND) or the motion is over."""
+    """Run until the tape is full (MORE), the allowance of steps is spent (WORK_BOUND) or the motion is
+    over.
+    """
     while True:
         if state[RECORDS] * WIDTH + ROOM * WIDTH > len(tape):
             return MORE
@@ -191,7 +196,7 @@ def entry_run(par, state, work, tape):
                 code = roll(par, state, work, tape)
                 if code == PHASE_OVER:
                     choose_slip(par, state, tape)
-        elif mode == SKID or mode == SPIN:
+        elif mode in (SKID, SPIN):
             if settles(par, state):
                 return SETTLES
             code = slide(par, state, work, tape)

@@ -1,6 +1,7 @@
 """The vocabulary both solvers speak: a scene goes in, a :class:`Motion` comes out.
 
-All values are in the units of the scene (R, m, g unless it is SI); angles in radians, energy 0 at floor level.
+All values are in the units of the scene (R, m, g unless it is SI); angles in radians, energy 0 at floor
+level.
 """
 
 from __future__ import annotations
@@ -57,8 +58,8 @@ class Turn:
 class Pulse:
     """One sweep of the disk past the floor: the phi-interval around phi = pi (mod 2 pi) with rigid N > M g.
 
-    ``friction_loss`` is the integral of |F v|. Restitution compares the velocity of the mass centre G before and
-    after: Newton's -ydot+/ydot-, Poisson's impulse of restitution over that of compression (split where
+    ``friction_loss`` is the integral of |F v|. Restitution compares the velocity of the mass centre G before
+    and after: Newton's -ydot+/ydot-, Poisson's impulse of restitution over that of compression (split where
     ydot_G = 0), and the square root of Stronge's -W_r/W_c.
     """
 
@@ -88,7 +89,8 @@ class Pulse:
 class States:
     """A motion sampled at times ``t``; every field is an array of the shape of ``t``.
 
-    ``x_C`` and ``y_C`` are the hoop's centre, ``slip_velocity`` is that of the contact point, F is positive to the right.
+    ``x_C`` and ``y_C`` are the hoop's centre, ``slip_velocity`` is that of the contact point, F is positive
+    to the right.
     """
 
     t: Array

@@ -1,10 +1,11 @@
 """The point mass on a massless hoop (k = 0, m_h = 0, r = 1), in closed form.
 
 Rolling, sin(phi/2) obeys S'' = S/4, so from rest sin(phi/2) = sin(phi0/2) cosh(t/2), with
-N = 2 cos^2(phi/2) - G/2 and F/N = tan(phi/2), G as in :mod:`rigid.rolling`. Where mu_s cannot hold that, the hoop skims: the mass falls
-freely, N = F = 0, until it hits the floor, where the motion ends.
+N = 2 cos^2(phi/2) - G/2 and F/N = tan(phi/2), G as in :mod:`rigid.rolling`. Where mu_s cannot hold that, the
+hoop skims: the mass falls freely, N = F = 0, until it hits the floor, where the motion ends.
 """
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import asin, exp, inf, log, sqrt
@@ -42,8 +43,10 @@ from .tape import begin, turn
 
 @kernel
 def choose_point_mass(par, state, tape):
-    """A point mass on a massless hoop rolls while |tan(phi/2)| <= mu_s and N >= 0, else the hoop skims, N = F = 0."""
-    s, _, h, low = trig(state[ANGLE], state[TOP])
+    """A point mass on a massless hoop rolls while |tan(phi/2)| <= mu_s and N >= 0, else the hoop skims, N =
+    F = 0.
+    """
+    s, _, h, _low = trig(state[ANGLE], state[TOP])
     g = h + state[OMEGA] * state[OMEGA] * h
     holds = h >= 0.5 * g * (1 - TIE) and abs(s) <= par[MU_S] * h * (1 + TIE)
     if state[SLIP] == 0.0 and holds and h > 0.0:
@@ -69,7 +72,7 @@ def roll_point_mass(par, state, tape, t_end):
     """Roll to the turn, to where the hoop begins to skim, or to the time ``t_end``."""
     if watch(par, state, 0.0, tape) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
-    s, _, h, low = trig(state[ANGLE], state[TOP])
+    _s, _, h, low = trig(state[ANGLE], state[TOP])
     omega = state[OMEGA]
     g = h + omega * omega * h
     # sin(phi/2) with phi measured from the nearest top, and its rate
@@ -120,11 +123,13 @@ def roll_point_mass(par, state, tape, t_end):
 
 @kernel
 def skim(par, state, tape):
-    """The point mass in free fall, the massless hoop skimming under it without a force, to the turn or to the floor."""
+    """The point mass in free fall, the massless hoop skimming under it without a force, to the turn or to
+    the floor.
+    """
     if watch(par, state, 0.0, tape) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
     a, top, omega = state[ANGLE], state[TOP], state[OMEGA]
-    s, c, h, low = trig(a, top)
+    s, _c, h, low = trig(a, top)
     ydot = -s * omega
     # height h + ydot t - t^2/2: to the floor, and over the reach of the hoop (h = 2) if it rises that high
     to_floor = ydot + sqrt(ydot * ydot + 2 * h)
@@ -154,7 +159,7 @@ def skim(par, state, tape):
 def drop(state, time):
     """Advance a skimming point mass."""
     a, top, whole, omega = state[ANGLE], state[TOP], state[WHOLE], state[OMEGA]
-    s, c, h, low = trig(a, top)
+    s, _c, h, low = trig(a, top)
     xdot = state[SLIP] + omega * h
     ydot = -s * omega
     fall = ydot * time - 0.5 * time * time

@@ -3,6 +3,7 @@
 Coefficients run from the constant upwards.
 """
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import sqrt
@@ -34,7 +35,9 @@ def value_and_slope(c, n, x):
 
 @kernel
 def polish(c, n, low, high):
-    """The root between ``low`` and ``high``, where the polynomial has opposite signs: Newton kept in its bracket."""
+    """The root between ``low`` and ``high``, where the polynomial has opposite signs: Newton kept in its
+    bracket.
+    """
     rising = value(c, n, high) > 0
     x = 0.5 * (low + high)
     for _ in range(200):
@@ -51,7 +54,7 @@ def polish(c, n, low, high):
                 new = sqrt(low * high)
             else:
                 new = 0.5 * (low + high)
-        if abs(new - x) <= 2.3e-16 * abs(new) or new == low or new == high:
+        if abs(new - x) <= 2.3e-16 * abs(new) or new in (low, high):
             return new
         x = new
     return x
@@ -59,11 +62,13 @@ def polish(c, n, low, high):
 
 @kernel
 def first_positive(c, n, start, stop):
-    """First x on the way from ``start`` to ``stop`` (both >= 0, either order) beyond which the polynomial is positive.
+    """First x on the way from ``start`` to ``stop`` (both >= 0, either order) beyond which the polynomial is
+    positive.
 
-    -1 if there is none. An interval is dropped when the polynomial is bounded below zero on it: for x >= 0 the terms
-    of positive and of negative coefficients are each monotone. It is decided when the slope keeps its sign, by the
-    same bound; else it is halved, geometrically over several orders of magnitude, so that all scales are seen.
+    -1 if there is none. An interval is dropped when the polynomial is bounded below zero on it: for x >= 0
+    the terms of positive and of negative coefficients are each monotone. It is decided when the slope keeps
+    its sign, by the same bound; else it is halved, geometrically over several orders of magnitude, so that
+    all scales are seen.
     """
     here = start
     there = stop
@@ -120,11 +125,12 @@ def first_positive(c, n, start, stop):
 
 @kernel
 def first_crossing(c, n, length, sign):
-    """First x in (0, length] where ``sign`` times a resolved polynomial falls through zero; -1 if it does not.
+    """First x in (0, length] where ``sign`` times a resolved polynomial falls through zero; -1 if it does
+    not.
 
-    A root at x = 0 (c[0] = 0, an event that has just happened) does not count; 0 if it is negative from the start. The polynomial is a Taylor series well
-    inside its circle of convergence, so it has at most one extremum between neighbours of ``SAMPLES`` points, and the
-    slopes there betray it.
+    A root at x = 0 (c[0] = 0, an event that has just happened) does not count; 0 if it is negative from the
+    start. The polynomial is a Taylor series well inside its circle of convergence, so it has at most one
+    extremum between neighbours of ``SAMPLES`` points, and the slopes there betray it.
     """
     lead = 0
     while lead < n and c[lead] == 0.0:

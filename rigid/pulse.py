@@ -1,10 +1,11 @@
 """Inside a pulse: the stretch around a bottom crossing in which N > M g, and its measures.
 
-Everything follows from the states at both ends: the impulses are those of the momentum of G, the friction loss is the
-lost energy. A pulse is cut short by the release or by the end of the motion; a release exactly at the bottom is no
-crossing, so it opens no pulse.
+Everything follows from the states at both ends: the impulses are those of the momentum of G, the friction
+loss is the lost energy. A pulse is cut short by the release or by the end of the motion; a release exactly at
+the bottom is no crossing, so it opens no pulse.
 """
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import sqrt
@@ -60,7 +61,9 @@ def energy(par, state):
 
 @kernel
 def watch(par, state, normal_force, tape):
-    """Open or close the pulse at the present state, N being the force from here on; True if one was closed and counted."""
+    """Open or close the pulse at the present state, N being the force from here on; True if one was closed
+    and counted.
+    """
     if normal_force > 1.0:
         if state[P_OPEN] == 0.0:
             open_pulse(par, state)

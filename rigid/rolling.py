@@ -1,10 +1,11 @@
 """Rolling without slipping, in closed form: (4) to (8) and (17) to (19).
 
-With h = 1 + cos phi the energy integral (7), (18) reads phidot^2 = 2 (G - h)/(zeta + 2 h): G is the height that the
-motion would turn at. Near the bottom of a small hoop h ~ k^2, so every expression below is written in h and in
-1 - e, free of cancellation.
+With h = 1 + cos phi the energy integral (7), (18) reads phidot^2 = 2 (G - h)/(zeta + 2 h): G is the height
+that the motion would turn at. Near the bottom of a small hoop h ~ k^2, so every expression below is written
+in h and in 1 - e, free of cancellation.
 """
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import asin, inf, pi, sin, sqrt, tan
@@ -47,12 +48,14 @@ def normal_cubic(e, one_minus_e, zeta, g, h):
 
 @kernel
 def margin_polynomials(par, g, reverse, plus, minus):
-    """+-|F| - mu_s N, times (zeta + 2 h)^2 (1 + y^2)^3, as polynomials of degree 6 in y = tan|psi/2|, psi = phi - pi.
+    """+-|F| - mu_s N, times (zeta + 2 h)^2 (1 + y^2)^3, as polynomials of degree 6 in y = tan|psi/2|, psi =
+    phi - pi.
 
     ``reverse`` writes them in 1/y, for the upper half.
     """
     e, one_minus_e, zeta, mu_s = par[ECC], par[ONE_MINUS_E], par[ZETA], par[MU_S]
-    # F z^2/s = a0 + a1 h + a2 h^2; 1 - e - 2 e G + ... regrouped: e (1 - e) - K is all that can cancel, and does so mildly
+    # F z^2/s = a0 + a1 h + a2 h^2; 1 - e - 2 e G + ... regrouped: e (1 - e) - K is all that can cancel, and
+    # does so mildly
     a0 = one_minus_e * zeta + 2 * g * (e * one_minus_e - par[GYR])
     a1 = e * (3 * zeta - 2 * g)
     a2 = 4 * e
@@ -80,7 +83,9 @@ def margin_polynomials(par, g, reverse, plus, minus):
 
 @kernel
 def first_slip(par, g, upper, start, stop, plus, minus):
-    """First y (or 1/y in the upper half) from ``start`` to ``stop`` at which |F| passes mu_s N; -1 if it never does."""
+    """First y (or 1/y in the upper half) from ``start`` to ``stop`` at which |F| passes mu_s N; -1 if it
+    never does.
+    """
     margin_polynomials(par, g, upper, plus, minus)
     x = first_positive(plus, 6, start, stop)
     other = first_positive(minus, 6, start, stop)
@@ -162,9 +167,11 @@ def pulse_edge(zeta, g):
 
 @kernel
 def slip_edges(par, g, below, a, top, plus, minus):
-    """How far a swing may roll: (found, |offset|, chart) of the nearest slip inwards and outwards of the angle.
+    """How far a swing may roll: (found, |offset|, chart) of the nearest slip inwards and outwards of the
+    angle.
 
-    The forces depend on |psi| only, so the stretch around the present |psi| in which friction holds is all one needs.
+    The forces depend on |psi| only, so the stretch around the present |psi| in which friction holds is all
+    one needs.
     """
     turn_a, turn_top = turning_point(g, below)
     y = tan(0.5 * abs(a))
@@ -192,7 +199,9 @@ def slip_edges(par, g, below, a, top, plus, minus):
 
 @kernel
 def angle_at_time(zeta, g, below, time):
-    """(|offset|, chart, G - h) at a time from the bottom of one swing: Newton on a convex increasing function."""
+    """(|offset|, chart, G - h) at a time from the bottom of one swing: Newton on a convex increasing
+    function.
+    """
     full = below <= 0
     a2 = 0.5 * g
     # u: x = a sin u on a swing, x = sin u on a rotation; dT/du is smooth and grows with u

@@ -1,11 +1,13 @@
 """A slipping phase: Taylor steps in tau, cut at every event, so that each event is the end of a step.
 
-When D has fallen to round-off the configuration is frozen: the rest of the slip is an impact (:mod:`rigid.impact`).
+When D has fallen to round-off the configuration is frozen: the rest of the slip is an impact
+(:mod:`rigid.impact`).
 
-Events: the slip stops, lift-off (1 - e c phidot^2 = 0), a turn, the bottom, N = M g, and the end of the run. All are
-roots of the step's own polynomials.
+Events: the slip stops, lift-off (1 - e c phidot^2 = 0), a turn, the bottom, N = M g, and the end of the run.
+All are roots of the step's own polynomials.
 """
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import inf
@@ -84,7 +86,8 @@ def peak_force(gyr, work, length):
             low, high = x0, x
             slope_low, slope_high = slope0, slope
             middle = low
-            # regula falsi (Illinois): the peak is flat, so eight digits of its place are sixteen of its height
+            # regula falsi (Illinois): the peak is flat, so eight digits of its place are sixteen of its
+            # height
             for _ in range(12):
                 middle = (low * slope_high - high * slope_low) / (slope_high - slope_low)
                 y, dy = value_and_slope(b, ORDER, middle)
@@ -146,7 +149,8 @@ def slide(par, state, work, tape):
         event = 0
         b, v, om, n1, tt = work[S_B], work[S_SLIP], work[S_OMEGA], work[S_N1], work[S_T]
         if v[0] == 0.0:
-            # a slip that starts with mu_s = mu starts with no acceleration either, up to the round-off of its terms
+            # a slip that starts with mu_s = mu starts with no acceleration either, up to the round-off of its
+            # terms
             es = par[ECC] * abs(work[S_SIN][0])
             arm = par[ONE_MINUS_E] + par[ECC] * work[S_H][0]
             terms = (gyr + es + par[MU] * arm) * abs(b[0]) + es * om[0] * om[0] * work[S_D][0]

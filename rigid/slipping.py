@@ -1,15 +1,18 @@
 """Skidding and spinning: (10) to (16), with the normal impulse as the independent variable.
 
-With dt = D dtau, where D = K + e s P and P = e s + mu^ (1 + e c), the equation of motion (12) loses its denominator:
+With dt = D dtau, where D = K + e s P and P = e s + mu^ (1 + e c), the equation of motion (12) loses its
+denominator:
 
     dphi/dtau = D w,   dw/dtau = P b,   b = 1 - e c w^2,   d(impulse) = N dt = K b dtau      (w = phidot).
 
-All of it is polynomial in (s, 1 + c, w), so its Taylor series follow from convolutions and every step is summed to
-round-off. tau is proportional to the normal impulse, so neither the pulse of a tiny disk (D ~ k^2) nor a near-jam
-(D -> 0+, N ~ 1/D) needs small steps: both are passed in a number of steps that grows like the logarithm.
-The slip velocity is the first integral xdot_G + mu^ (ydot_G + t) = const; N = K b/D, and N - 1 is the slope of ydot_G.
+All of it is polynomial in (s, 1 + c, w), so its Taylor series follow from convolutions and every step is
+summed to round-off. tau is proportional to the normal impulse, so neither the pulse of a tiny disk (D ~ k^2)
+nor a near-jam (D -> 0+, N ~ 1/D) needs small steps: both are passed in a number of steps that grows like the
+logarithm. The slip velocity is the first integral xdot_G + mu^ (ydot_G + t) = const; N = K b/D, and N - 1 is
+the slope of ydot_G.
 """
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import exp, log
@@ -114,6 +117,8 @@ def normal_force(par, mu_hat, omega, a, top):
 
 @kernel
 def denominator(par, mu_hat, a, top):
-    """D = K + e s P; the contact point is free to leave the floor with acceleration D/K per unit of normal force."""
+    """D = K + e s P; the contact point is free to leave the floor with acceleration D/K per unit of normal
+    force.
+    """
     s, _, h, _ = trig(a, top)
     return par[GYR] + par[ECC] * s * (par[ECC] * s + mu_hat * (par[ONE_MINUS_E] + par[ECC] * h))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import threading
 from dataclasses import dataclass
 from math import floor, inf, pi
@@ -28,6 +29,8 @@ STEPS = 200_000  # the work bound of one motion: Taylor steps and phases
 MOST_RECORDS = 200_000  # and its phases, turns and pulses together
 PATIENCE = 4_000  # interpreted steps, some 0.4 s, after which a process goes over to the compiled kernel
 
+BOTTOM = 2.3e-16  # relative distance of phi0 from pi that means pi: the float nearest to it is not pi itself
+
 UNTIL_CODES = {None: at.NOTHING, "pulse": at.FIRST_PULSE, "rest": at.REST}
 _REASONS = {
     at.TIME_REACHED: "the time to run is over",
@@ -40,7 +43,7 @@ _REASONS = {
     at.TURNS_REACHED: "the last turn asked for is reached",
     at.ROLLS: "rolls for ever: |F| < mu_s N over the whole swing",
     at.WHIRLS: "rolls for ever, over the top in every revolution, so there is no turn to wait for",
-    at.ROLLS_ON: f"the time to run is over; rolls for ever, and the first {LISTED_PERIODS:g} periods are listed",
+    at.ROLLS_ON: f"the time to run is over; it rolls for ever, of which {LISTED_PERIODS:g} periods are listed",
     at.WORK_BOUND: "the work bound is reached",
     at.LIFTED: "the point mass rises out of the hoop's reach and takes it off the floor",
 }
@@ -78,7 +81,10 @@ def release_state(scene: Scene) -> list[float]:
     state = [0.0] * at.STATE
     turns = float(floor(release.phi0 / (2 * pi) + 0.5))
     a = (release.phi0 - turns * (2 * pi)) - turns * (2 * PI_LOW)
-    state[at.ANGLE], state[at.TOP], state[at.WHOLE] = chart(a, 1.0, turns)
+    a, top, whole = chart(a, 1.0, turns)
+    if top == 0.0 and abs(a) <= BOTTOM * max(1.0, abs(release.phi0)):
+        a = 0.0
+    state[at.ANGLE], state[at.TOP], state[at.WHOLE] = a, top, whole
     state[at.OMEGA] = float(release.omega0 * scene.time_unit)
     state[at.SLIP] = float(release.slip0 / scene.velocity_unit)
     state[at.STEPS] = float(STEPS)
@@ -99,14 +105,15 @@ _workspace = _Workspace()
 def _run(par: list[float], state: list[float]) -> tuple[int, list[list[float]], list[float]]:
     """Run to the end: why it ended, the records, the final state.
 
-    Interpreted until this process has spent ``PATIENCE`` steps, from then on compiled: the same numbers to round-off.
+    Interpreted until this process has spent ``PATIENCE`` steps, from then on compiled: the same numbers to
+    round-off.
     """
     global _interpreted_steps
     records: list[list[float]] = []
     left = float(STEPS)
     if _interpreted_steps < PATIENCE:
-        tape = [0.0] * (TAPE_RECORDS * at.WIDTH)
-        work = [[0.0] * (ORDER + 1) for _ in range(SERIES)]
+        tape: Any = [0.0] * (TAPE_RECORDS * at.WIDTH)
+        work: Any = [[0.0] * (ORDER + 1) for _ in range(SERIES)]
         code = at.MORE
         while code == at.MORE and _interpreted_steps < PATIENCE:
             allowance = float(PATIENCE - _interpreted_steps)
@@ -148,8 +155,8 @@ def simulate(scene: Scene) -> Motion:
     Returns
     -------
     Motion
-        Phases, turns and pulses in the units of the scene; ``at(t)`` gives any instant between. ``period`` is that of
-        a motion that ends rolling for ever. A motion never fails: what stops it is said in ``ended``.
+        Phases, turns and pulses in the units of the scene; ``at(t)`` gives any instant between. ``period`` is
+        that of a motion that ends rolling for ever. A motion never fails: what stops it is said in ``ended``.
     """
     par = parameters(scene)
     code, records, final = _run(par, release_state(scene))
@@ -177,11 +184,12 @@ def simulate(scene: Scene) -> Motion:
     end = [float(at.END), *final[: at.X_C + 1]]
     starts = _merged(starts, end)
     edges = [*starts, end]
+    # the angle of release is given, not rounded through its chart
     phases = tuple(
         Phase(
             KINDS[int(a[0])], a[1] * time, b[1] * time, angle_of(a[2], a[3], a[4]), angle_of(b[2], b[3], b[4])
         )
-        for a, b in zip(edges, edges[1:], strict=False)
+        for a, b in itertools.pairwise(edges)
     )
     period = final[at.PERIOD] * time if 0 < final[at.PERIOD] < inf else None
     sample = Sampler(tuple(par), tuple(map(tuple, starts)), scene)

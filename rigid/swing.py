@@ -1,9 +1,11 @@
 """A rolling phase: from one place of interest to the next, each at a closed-form time.
 
-A pass over the bottom meets, in this order where they exist: slip on the way in, the start of the pulse, the bottom, the end
-of the pulse, slip on the way out, and the turn (or the top). Passes without slip repeat for ever at the same cost each.
+A pass over the bottom meets, in this order where they exist: slip on the way in, the start of the pulse, the
+bottom, the end of the pulse, slip on the way out, and the turn (or the top). Passes without slip repeat for
+ever at the same cost each.
 """
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import asin, atan, floor, inf, sqrt, tan
@@ -86,7 +88,9 @@ def arrive(state, zeta, rest, d, x_start, a0, top0, whole0):
 
 @kernel
 def place(state, psi_sign, offset, top, bottom):
-    """Set the angle at |psi| given as (|offset|, chart), on the side ``psi_sign`` of the bottom number ``bottom``."""
+    """Set the angle at |psi| given as (|offset|, chart), on the side ``psi_sign`` of the bottom number
+    ``bottom``.
+    """
     if top == 0.0:
         state[ANGLE], state[TOP], state[WHOLE] = psi_sign * offset, 0.0, bottom
     elif psi_sign > 0:
@@ -183,7 +187,8 @@ def roll(par, state, work, tape):
     if watch(par, state, max(n, 1.0 + 1e-15) if inside else min(n, 1.0), tape) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
     while True:
-        # the next place on the way, by its time from the bottom: 0 slip, 1 pulse begins, 2 bottom, 3 pulse ends, 4 slip, 5 turn
+        # the next place on the way, by its time from the bottom: 0 slip, 1 pulse begins, 2 bottom, 3 pulse
+        # ends, 4 slip, 5 turn
         at, where = t_turn, 5
         if outer >= 0 and cur <= t_outer:
             at, where = t_outer, 4
@@ -197,6 +202,9 @@ def roll(par, state, work, tape):
             at, where = -t_edge, 1
         time = state[T] + max(at - cur, 0.0)
         limit = min(par[T_END], stop)
+        if time == inf and limit == inf:
+            state[PERIOD] = inf
+            return CREEPS
         if time > listed and time < limit:
             roll_on(par, state, par[T_END] - state[T])
             state[T] = par[T_END]
@@ -211,9 +219,6 @@ def roll(par, state, work, tape):
             if limit < par[T_END]:
                 return WHIRLS if below <= 0 and par[UNTIL] != REST else ROLLS
             return TIME_REACHED
-        if at == inf:
-            state[PERIOD] = inf
-            return CREEPS
         state[T] = time
         cur = at
         if where == 0 or where == 4:

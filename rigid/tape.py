@@ -1,5 +1,8 @@
-"""What a motion leaves behind: phases, turns and pulses, one record of ``WIDTH`` numbers each on a flat tape."""
+"""What a motion leaves behind: phases, turns and pulses, one record of ``WIDTH`` numbers each on a flat
+tape.
+"""
 
+# mypy: allow-untyped-defs
 from __future__ import annotations
 
 from .kernel import kernel

@@ -1,4 +1,6 @@
-"""Where the kind of motion changes: inception of slip (9), and the smallest friction or disk that rolls throughout."""
+"""Where the kind of motion changes: inception of slip (9), and the smallest friction or disk that rolls
+throughout.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
 """Every number and figure of the paper again: V. A. Lubarda, J. Mech. Mater. Struct. 4(6), 2009.
 
-:func:`reproduce` writes figures 2 to 12 and a table that puts the paper's value beside ours to ten digits, the difference, and
-in words whether the printed digits hold. Forces are over m g, times over sqrt(R/g), angles in radians.
+:func:`reproduce` writes figures 2 to 12 and a table that puts the paper's value beside ours to ten
+digits, the difference, and in words whether the printed digits hold.
+Forces are over m g, times over sqrt(R/g), angles in radians.
 """
 
 from __future__ import annotations
@@ -79,10 +80,9 @@ def _section_2() -> Iterator[Row]:
             rounding,
         )
     hoop = load_scene("paper-3.3-heavier").hoop
-    yield Row(
-        "2.2", "mu_s at inception (9), k = 0.1, r = 1.02, m_h/m = 0.1", 0.045, inception_mu_s(hoop, RELEASE.phi0), 0.001,
-        "does not hold: (9) itself gives this value, so mu_s = 0.09 is not twice the minimum",
-    )  # fmt: skip
+    why = "does not hold: (9) itself gives this value, so mu_s = 0.09 is not twice the minimum"
+    inception = inception_mu_s(hoop, RELEASE.phi0)
+    yield Row("2.2", "mu_s at inception (9), k = 0.1, r = 1.02, m_h/m = 0.1", 0.045, inception, 0.001, why)
 
 
 def _section_3_1() -> Iterator[Row]:
@@ -126,7 +126,10 @@ def _section_3_3() -> Iterator[Row]:
 
 
 def _section_3_4() -> Iterator[Row]:
-    tiny = "does not hold: at k = 1e-5 the pulse takes 1e-10 of the time unit, and a run in t picks its modes from round-off"
+    tiny = (
+        "does not hold: at k = 1e-5 the pulse takes 1e-10 of the time unit, "
+        "and a run in t picks its modes from round-off"
+    )
     for name, paper in (("tiny", 1.38862), ("tiny-rough", 1.80266)):
         motion = _first_rotation(f"paper-3.4-{name}")
         mu = motion.scene.friction.mu
@@ -249,26 +252,33 @@ def _figures() -> list[_Figure]:
         "m_h/m = 0.1": "paper-3.3-heavier",
     }
     tiny = {"0.35 / 0.3": "paper-3.4-tiny", "0.7 / 0.6": "paper-3.4-tiny-rough"}
+    larger = {f"k = {k}": f"paper-3.2-k{k}" for k in (0.25, 0.5, 0.75)}
+    same = {"m_h/m = 4.04": "paper-3.3-same-density"}
+    force, slip, energy = "N, m g", "v, sqrt(g R)", "E, m g R"
+    slip_in_time = _curves(first, "slip_velocity", slip, against="t")
     return [
-        _Figure(2, "Static friction at which a hoop released at rest begins to roll, (9), against the angle of release.", _inception),
-        _Figure(3, "Section 3.1: angular velocity over the first cycle.", _curves(first, "omega", "phidot, sqrt(g/R)")),
-        _Figure(4, "Section 3.1: normal force over the first cycle (linear below 1).", _curves(first, "normal_force", "N, m g", log=True)),
-        _Figure(5, "Section 3.1: friction force over the first cycle (linear within 1).", _curves(first, "friction_force", "F, m g", log=True)),
-        _Figure(6, "Section 3.1: slip velocity of the contact point over time; the second pulse slips forward throughout.",
-                _curves(first, "slip_velocity", "v, sqrt(g R)", against="t")),
-        _Figure(7, "Section 3.2: normal force of larger disks (linear below 1).",
-                _curves({f"k = {k}": f"paper-3.2-k{k}" for k in (0.25, 0.5, 0.75)}, "normal_force", "N, m g", log=True)),
-        _Figure(8, "Section 3.3: slip velocity of light hoops, r = 1.02, k = 0.1.", _curves(masses, "slip_velocity", "v, sqrt(g R)")),
-        _Figure(9, "Section 3.3: normal force where hoop and disk have one density, m_h/m = 4.04.",
-                _curves({"m_h/m = 4.04": "paper-3.3-same-density"}, "normal_force", "N, m g", against="t")),
-        _Figure(10, "Section 3.4: energy for k = 1e-5 and two pairs mu_s / mu.", _curves(tiny, "energy", "E, m g R", against="t")),
-        _Figure(11, "Section 3.4: slip velocity for four pairs mu_s / mu, m_h/m = 0.1.", _curves(friction, "slip_velocity", "v, sqrt(g R)", against="t")),
-        _Figure(12, "Section 3.4: energy for four pairs mu_s / mu, m_h/m = 0.1.", _curves(friction, "energy", "E, m g R", against="t")),
-    ]  # fmt: skip
+        _Figure(
+            2, "Smallest mu_s at which a hoop released at rest begins to roll, (9), over phi0.", _inception
+        ),
+        _Figure(3, "3.1: angular velocity, first cycle.", _curves(first, "omega", "phidot, sqrt(g/R)")),
+        _Figure(4, "3.1: normal force, linear below 1.", _curves(first, "normal_force", force, log=True)),
+        _Figure(
+            5, "3.1: friction force, linear within 1.", _curves(first, "friction_force", "F, m g", log=True)
+        ),
+        _Figure(6, "3.1: slip velocity in time; the second pulse slips forward throughout.", slip_in_time),
+        _Figure(7, "3.2: normal force of larger disks.", _curves(larger, "normal_force", force, log=True)),
+        _Figure(8, "3.3: slip velocity, light hoops, r = 1.02.", _curves(masses, "slip_velocity", slip)),
+        _Figure(9, "3.3: normal force, one density.", _curves(same, "normal_force", force, against="t")),
+        _Figure(
+            10, "3.4: energy, k = 1e-5, two pairs mu_s/mu.", _curves(tiny, "energy", energy, against="t")
+        ),
+        _Figure(11, "3.4: slip velocity, four pairs.", _curves(friction, "slip_velocity", slip, against="t")),
+        _Figure(12, "3.4: energy, four pairs mu_s/mu.", _curves(friction, "energy", energy, against="t")),
+    ]
 
 
 def reproduce(out: Path, progress: Progress | None = None) -> list[Row]:
-    """Write ``figure-02.png`` … ``figure-12.png``, ``table.csv`` and ``table.md`` into ``out``; return the table.
+    """Write ``figure-02.png`` to ``figure-12.png``, ``table.csv`` and ``table.md``; return the table.
 
     Parameters
     ----------

@@ -1,0 +1,177 @@
+"""Off the floor and back: lift-off, parabola, landing with friction, jam; closed-form cases and laws of mechanics."""
+
+from __future__ import annotations
+
+from math import cos, pi, radians, sin, sqrt
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from rigid import Friction, Hoop, Kind, Landing, Release, Run, Scene, simulate
+from rigid.angle import chart
+from rigid.flight import height, touch_down
+from rigid.impact import strike
+from rigid.layout import ANGLE, OMEGA, SLIP, STATE, TOP, UN
+from rigid.pulse import energy
+from rigid.solve import parameters
+
+HOP = Scene(Hoop(0.3), Friction(0.5, 0.4), Release(radians(200), 3.5), Run(turns=2))
+
+
+@pytest.mark.parametrize("phi0", [0.3, 1.0, 2.0, 3.0])
+@pytest.mark.parametrize("k", [0.02, 0.2, 0.6])
+def test_no_hop_from_rest(k, phi0):
+    """Released at rest the hoop never leaves the floor, whatever k and friction (N > 0 always)."""
+    for mu in (0.0, 0.2, 0.5):
+        motion = simulate(Scene(Hoop(k), Friction(1.2 * mu, mu), Release(phi0), Run(turns=6)))
+        assert all(phase.kind != Kind.FLIGHT for phase in motion.phases)
+
+
+def test_lift_off_lies_in_the_last_quadrant():
+    """Rotating clockwise, e c phidot^2 reaches 1 from below only where c > 0 rises: 270 to 360 degrees; N = 0 there."""
+    seen = 0
+    for omega in np.linspace(2, 5, 13):
+        motion = simulate(HOP.replace(release=Release(radians(200), float(omega))))
+        for before, phase in zip(motion.phases, motion.phases[1:], strict=False):
+            if phase.kind == Kind.FLIGHT and before.kind in (Kind.SKID, Kind.SPIN):
+                seen += 1
+                assert 1.5 * pi < phase.phi_start % (2 * pi) < 2 * pi
+                t = phase.t_start - 1e-9
+                state = motion.at(phase.t_start)
+                assert motion.at(t).normal_force == pytest.approx(0, abs=1e-7)
+                assert motion.scene.hoop.e * cos(state.phi) * state.omega**2 == pytest.approx(1, abs=1e-12)
+    assert seen >= 3
+
+
+def test_flight_is_a_parabola_with_constant_rotation():
+    motion = simulate(HOP.replace(release=Release(radians(200), 4.5)))
+    flight = next(phase for phase in motion.phases if phase.kind == Kind.FLIGHT)
+    t = np.linspace(flight.t_start, flight.t_end, 9)[1:-1]
+    states = motion.at(t)
+    e = motion.scene.hoop.e
+    x, y = states.x_C + e * np.sin(states.phi), states.y_C + e * np.cos(states.phi)
+    assert np.polyfit(t, y, 2)[0] == pytest.approx(-0.5, abs=1e-9)
+    assert np.abs(np.diff(x, 2)).max() < 1e-12
+    assert np.ptp(states.omega) < 1e-14
+    assert np.ptp(states.energy) < 1e-13
+    assert (states.y_C > 1).all()
+
+
+@pytest.mark.parametrize("omega", [0.5, 3.0, 40.0, 3e3])
+def test_touch_down_is_the_first(omega):
+    """No instant before the touch-down found has the hoop below the floor, on a grid finer than a rotation."""
+    e, un, phi = 0.9, 0.8, 5.0
+    a, top, _ = chart(phi, 1.0, 0.0)
+    time = touch_down(e, 0.0, un, omega, a, top)
+    grid = np.linspace(0, time, 20001)[1:-1]
+    heights = [height(e, 0.0, un, omega, sin(phi), cos(phi), t)[0] for t in grid]
+    assert min(heights) > -1e-9
+    assert height(e, 0.0, un, omega, sin(phi), cos(phi), time)[0] == pytest.approx(0, abs=1e-12)
+
+
+def at_landing(phi, omega, slip, un):
+    state = [0.0] * STATE
+    state[ANGLE], state[TOP], _ = chart(phi, 1.0, 0.0)
+    state[OMEGA], state[SLIP], state[UN] = omega, slip, un
+    return state
+
+
+@pytest.mark.parametrize("restitution", [0.0, 0.4, 1.0])
+def test_smooth_landing(restitution):
+    """Without friction the normal velocity is reversed times the coefficient; with 1 energy is kept."""
+    par = parameters(Scene(Hoop(0.3), Friction(0, 0), Release(1.0)))
+    state = at_landing(5.0, 2.0, 0.7, -1.3)
+    before = energy(par, state)
+    strike(par, state, restitution)
+    assert state[UN] == pytest.approx(1.3 * restitution, abs=1e-14)
+    lost = before - energy(par, state)
+    e, gyr = par[0], par[2]
+    mass = gyr / (gyr + (e * sin(5.0)) ** 2)
+    assert lost == pytest.approx(0.5 * mass * 1.3**2 * (1 - restitution**2), abs=1e-13)
+
+
+def test_landing_against_its_differential_equation():
+    """The impact in the impulse variable, with slip reversal, against scipy on the regularised law.
+
+    Coulomb's sign(v) is smoothed to tanh(v/1e-7), which moves the result by about that much.
+    """
+    rng = np.random.default_rng(7)
+    reversed_or_stuck = 0
+    for _ in range(30):
+        hoop = Hoop(float(rng.uniform(0.05, 0.8)), 1.0, float(rng.choice([0, 0.1, 1])))
+        mu, phi = float(rng.uniform(0, 0.6)), float(rng.uniform(0, 2 * pi))
+        par = parameters(Scene(hoop, Friction(mu, mu), Release(1.0)))
+        state = at_landing(phi, float(rng.normal()), float(rng.normal() * 0.3), -float(rng.uniform(0.1, 2)))
+        omega, v0, un0 = state[OMEGA], state[SLIP], state[UN]
+        e, gyr, s, arm = par[0], par[2], sin(phi), 1 + par[0] * cos(phi)
+
+        def slope(_, y, mu=mu, s=s, e=e, arm=arm, gyr=gyr):
+            f = -mu * np.tanh(y[0] / 1e-7)
+            return [
+                f * (1 + arm**2 / gyr) - e * s * arm / gyr,
+                1 + (e * s) ** 2 / gyr - f * e * s * arm / gyr,
+                (e * s - f * arm) / gyr,
+            ]
+
+        def compression_over(_, y):
+            return y[1]
+
+        compression_over.terminal = True
+        run = solve_ivp(slope, (0, 50), [v0, un0, omega], "Radau", events=compression_over, rtol=1e-9, atol=1e-11)
+        strike(par, state, 0.0)
+        assert state[SLIP] == pytest.approx(run.y[0, -1], abs=2e-5)
+        assert state[OMEGA] == pytest.approx(run.y[2, -1], abs=2e-5 / sqrt(gyr))
+        reversed_or_stuck += v0 * state[SLIP] <= 0
+    assert reversed_or_stuck > 5
+
+
+def test_no_landing_makes_energy():
+    rng = np.random.default_rng(3)
+    for _ in range(400):
+        hoop = Hoop(float(10 ** rng.uniform(-4, -0.05)), float(rng.uniform(1, 2)), float(rng.choice([0, 0.01, 1])))
+        mu = float(rng.uniform(0, 3))
+        par = parameters(Scene(hoop, Friction(mu * float(rng.uniform(1, 3)), mu), Release(1.0)))
+        state = at_landing(float(rng.uniform(0, 2 * pi)), float(rng.normal()), float(rng.normal()), -float(rng.exponential()))
+        before = energy(par, state)
+        strike(par, state, float(rng.uniform()))
+        assert energy(par, state) <= before * (1 + 1e-12)
+        assert state[UN] >= 0
+
+
+def test_bouncing_comes_to_an_end():
+    """Ever smaller hops accumulate in finite time; the last is taken without restitution and the motion goes on."""
+    scene = Scene(Hoop(0.5), Friction(0.5, 0.4), Release(radians(300), 3.0), Run(turns=2), Landing(0.6))
+    motion = simulate(scene)
+    hops = [phase for phase in motion.phases if phase.kind == Kind.FLIGHT]
+    assert len(hops) > 5
+    assert motion.phases[-1].kind != Kind.FLIGHT
+    assert "turn" in motion.ended
+
+
+def test_near_jam_of_a_skid():
+    """k = 0.1, mu_s = 0.7, mu = 0.6 from 10 degrees: N blows up as D -> 0+ near 294.6 degrees, then the hoop rolls.
+
+    N there is of the order of 3e6 m g; it takes no more phases than any other motion.
+    """
+    motion = simulate(Scene(Hoop(0.1), Friction(0.7, 0.6), Release(radians(10)), Run(turns=1)))
+    skid = next(p for p in motion.phases if p.kind == Kind.SKID and p.phi_end > radians(280))
+    assert np.degrees(skid.phi_end) == pytest.approx(294.6, abs=0.1)
+    following = motion.phases[motion.phases.index(skid) + 1 :]
+    assert next(phase.kind for phase in following if phase.kind != Kind.IMPACT) == Kind.ROLL
+    t = skid.t_end - np.geomspace(1e-12, 1e-3, 200)
+    assert motion.at(t).normal_force.max() > 1e5
+
+
+def test_release_in_a_jam():
+    """Skidding where D < 0 there is no bounded force: an impact without collision stops the slip at once."""
+    hoop, phi = Hoop(0.05), radians(300)
+    s, c = sin(phi), cos(phi)
+    limit = (hoop.K + (hoop.e * s) ** 2) / (-hoop.e * s * (1 + hoop.e * c))
+    motion = simulate(Scene(hoop, Friction(2 * limit, 1.2 * limit), Release(phi, 0.0, 0.5), Run(turns=1)))
+    assert motion.phases[0].kind == Kind.IMPACT
+    assert motion.phases[0].t_end == 0
+    assert motion.phases[1].kind == Kind.ROLL
+    assert motion.at(0.0).slip_velocity == 0
+    below = simulate(Scene(hoop, Friction(2 * limit, 0.8 * limit), Release(phi, 0.0, 0.5), Run(turns=1)))
+    assert below.phases[0].kind == Kind.SKID
