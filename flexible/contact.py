@@ -17,9 +17,9 @@ the instant of the step at which its gap, a parabola in time, crosses zero. ``PA
 bristle follows its point, and while it slides, mu N is shared over the patch like the pressure; which of both is
 decided on the resultants, by the caller. ``BRUSH``: each point breaks at mu_s p and slides at mu p by itself.
 
-Damping, if any, is that of the patch as a whole, N = N_el + theta dN_el/dt, and while it sticks F = F_el - theta k_t v with
-v the mean slip of the patch: it damps the approach and the slip, and not a material point's own gap rate, which under
-rolling would be a rolling resistance.
+Damping, if any, is that of the patch as a whole, N = N_el + theta dN_el/dt, and while it sticks
+F = F_el - theta k_t v with v the mean slip of the patch: it damps the approach and the slip, and not a material point's
+own gap rate, which under rolling would be a rolling resistance.
 """
 
 from __future__ import annotations

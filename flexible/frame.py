@@ -118,10 +118,20 @@ def inertia(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta
         square, l1, l2, rotation, stretching = modal[i]
         q, qv, qa = pos[3 + i], vel[3 + i], acc[3 + i]
         force[3 + i] = (
-            qa + square * q + a1 * l1 + a2 * l2 + alpha * (rotation + turned[i]) + 2 * w * turned_v[i] - w * w * (stretching + q)
+            qa
+            + square * q
+            + a1 * l1
+            + a2 * l2
+            + alpha * (rotation + turned[i])
+            + 2 * w * turned_v[i]
+            - w * w * (stretching + q)
         )
         tangent[3 + i, 2] = (
-            a1_phi * l1 + a2_phi * l2 + (rotation + turned[i]) * r2 + 2 * turned_v[i] * r1 - 2 * w * (stretching + q) * r1
+            a1_phi * l1
+            + a2_phi * l2
+            + (rotation + turned[i]) * r2
+            + 2 * turned_v[i] * r1
+            - 2 * w * (stretching + q) * r1
         )
         f1_q = -alpha * l2 - 2 * w * l2 * r1 - w * w * l1 + l1 * r2
         f2_q = alpha * l1 + 2 * w * l1 * r1 - w * w * l2 + l2 * r2

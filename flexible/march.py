@@ -1,7 +1,7 @@
 """The march in time: adaptive steps, stick and slip of the patch as located events, and the books on energy.
 
-Nothing here knows how a stage is solved: a *model* does (``stage``, ``displacement``, ``energies``), and there is one for
-each level of fidelity.
+Nothing here knows how a stage is solved: a *model* does (``stage``, ``displacement``, ``energies``), and there is one
+for each level of fidelity.
 """
 
 from __future__ import annotations
@@ -14,7 +14,20 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact import BRISTLE_ENERGY, BRUSH, DRAG, ELASTIC, ETA, FRICTION, LENGTH, NORMAL, NORMAL_ENERGY, SLIP, STICK, STUCK
+from .contact import (
+    BRISTLE_ENERGY,
+    BRUSH,
+    DRAG,
+    ELASTIC,
+    ETA,
+    FRICTION,
+    LENGTH,
+    NORMAL,
+    NORMAL_ENERGY,
+    SLIP,
+    STICK,
+    STUCK,
+)
 from .step import BETA, ERROR_WEIGHTS, TAU
 
 Array = NDArray[np.float64]

@@ -13,8 +13,8 @@ from .contact import HIGH, LOW, NORMAL
 from .frame import energies
 from .march import State
 from .reduction import ReducedRing, reduce
-from .touch import POINTS, RimContact
 from .step import filtered_error, solve_stage
+from .touch import POINTS, RimContact
 
 Array = NDArray[np.float64]
 
@@ -73,7 +73,8 @@ class ReducedHoop(RimContact):
             ring = self.ring
             iterations, d, u, acc, matrix, nodal, res, bristles, flags = solve_stage(
                 ring.body, ring.modal, ring.gyro, shapes, compliance, window[0], ring.vertex, self.law, mode,
-                old.pos[:3], u_old, old.bristles, old.flags, damper, pos_pred, vel_pred, beta, guess, u_guess, self.tolerance,
+                old.pos[:3], u_old, old.bristles, old.flags, damper, pos_pred, vel_pred, beta, guess, u_guess,
+                self.tolerance,
             )  # fmt: skip
             if iterations != -2:
                 break
@@ -87,7 +88,7 @@ class ReducedHoop(RimContact):
         if state.res[NORMAL] > 0:
             compliance = self._arrays(state.window)[1]
             force = state.nodal.ravel()
-            strain += force @ compliance @ force / 2
+            strain += float(force @ compliance @ force) / 2
         return kinetic, gravity, strain
 
     def momentum_error(self, state: State, beta: float, matrix: Array, error: Array) -> float:

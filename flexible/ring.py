@@ -125,7 +125,9 @@ class Ring:
         if known is None or len(known[0]) < count:
             operator = LinearOperator(self.free_stiffness.shape, self.solve, dtype=float)
             start = np.random.default_rng(1).standard_normal(len(self.free))  # fixed: the same modes in every run
-            values, shapes = eigsh(self.free_stiffness, max(count, 8), self.free_mass, sigma=0.0, OPinv=operator, v0=start)
+            values, shapes = eigsh(
+                self.free_stiffness, max(count, 8), self.free_mass, sigma=0.0, OPinv=operator, v0=start
+            )
             order = np.argsort(values)
             known = self.__dict__["_modes"] = (values[order], shapes[:, order])
         return known[0][:count], known[1][:, :count]

@@ -204,12 +204,15 @@ class _Builder:
         self.steps += attempts
         return stretch
 
-    def march(self, hoop: ReducedHoop, state: State, *arguments: Any, **options: Any) -> tuple[State, list[Record], int, str]:
+    def march(
+        self, hoop: ReducedHoop, state: State, *arguments: Any, **options: Any
+    ) -> tuple[State, list[Record], int, str]:
         """:func:`march.march`, and the states if they are to be kept."""
         if self.kept is None:
             return march(hoop, state, *arguments, **options)
         states: list[State] = []
-        result = march(hoop, state, *arguments, keep=states.append, **options)
+        options["keep"] = states.append
+        result = march(hoop, state, *arguments, **options)
         self.kept.append(Kept(hoop, tuple(states)))
         return result
 
@@ -263,7 +266,9 @@ def simulate(scene: Scene, *, history: bool = False, progress: Progress | None =
         A point mass without inertia cannot ride on a flexible hoop.
     """
     if scene.hoop.k == 0 and scene.hoop.mass_ratio == 0:
-        raise rigid.SceneError("hoop.k = 0 is not possible here: the flexible hoop needs a disk with a radius, or a hoop with a mass.")
+        raise rigid.SceneError(
+            "hoop.k = 0 is not possible here: the flexible hoop needs a disk with a radius, or a hoop with a mass."
+        )
     inner = dimensionless(scene)
     hoop = ReducedHoop(inner)
     builder = _Builder(inner)
@@ -293,9 +298,9 @@ def _through_pulses(scene: Scene, hoop: ReducedHoop, builder: _Builder, progress
         def finished(s: State, sign: float = sign, end: float = pulse.phi_end, limit: float = limit) -> float:
             return max(sign * (s.pos[2] - end), s.t - limit)
 
-        span = (state.pos[2], pulse.phi_end)
+        span = (float(state.pos[2]), pulse.phi_end)
         low, high = done / (done + 2), (done + 1) / (done + 3)
-        watch = progress.watch(low, high, lambda s, span=span: (s.pos[2] - span[0]) / (span[1] - span[0]))
+        watch = progress.watch(low, high, _swept(span))
         state, records, attempts, trouble = builder.march(hoop, state, finished, scene.solve.rtol, progress=watch)
         stretch = builder.add_flexible(records, attempts)
         first = stretch.crossing(pulse.phi_start, stretch.t_start)
@@ -311,6 +316,11 @@ def _through_pulses(scene: Scene, hoop: ReducedHoop, builder: _Builder, progress
         slip = 0.0 if state.mode == STICK else state.slip_velocity
         release = Release(float(state.pos[2]), float(state.vel[2]), float(slip))
         current = dataclasses.replace(scene, release=release, run=rest)
+
+
+def _swept(span: tuple[float, float]) -> Callable[[State], float]:
+    """Fraction of an angle swept."""
+    return lambda state: (state.pos[2] - span[0]) / (span[1] - span[0])
 
 
 def _rest_of(run: Run, builder: _Builder) -> Run | None:

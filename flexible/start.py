@@ -96,11 +96,11 @@ def equilibrium(hoop: ReducedHoop, pose: Pose, t: float = 0.0, x_C: float = 0.0)
     law[MU] = pose.friction_force / normal  # shares any F over the patch like the pressure
     half = (1.5 * normal / law[1]) ** (1 / 3)
     q, height = np.zeros(n), -(half**2) / 2
-    u = None
+    u = np.zeros((0, 2))
     for _ in range(60):
         window = hoop.window(pose.phi, -half, half, half + 0.2 * hoop.element)
         shapes, compliance = hoop._arrays(window)
-        if u is None or len(u) != 2 * window[1] + 1:
+        if len(u) != 2 * window[1] + 1:
             u = np.zeros((2 * window[1] + 1, 2))
         old = np.array([0.0, height, pose.phi])
         force, nodal, tangent, res, bristles, new_flags = contact_forces(
@@ -111,7 +111,9 @@ def equilibrium(hoop: ReducedHoop, pose: Pose, t: float = 0.0, x_C: float = 0.0)
             [[res[NORMAL] - normal], dynamic @ q + rest - shapes.T @ flat, u.ravel() - shapes @ q - compliance @ flat]
         )
         scale = 1 + abs(tangent[1, 1])
-        error = max(abs(residual[0]), np.abs(residual[1 : n + 1]).max(initial=0.0), scale * np.abs(residual[n + 1 :]).max())
+        error = max(
+            abs(residual[0]), np.abs(residual[1 : n + 1]).max(initial=0.0), scale * np.abs(residual[n + 1 :]).max()
+        )
         if error < 1e-10 * (1 + normal) + 1e-15 * scale * abs(height):
             break
         if res[NORMAL] == 0:

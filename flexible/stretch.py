@@ -107,7 +107,9 @@ class Stretch:
         for i in np.nonzero((w[:-1] * w[1:] < 0) | ((w[1:] == 0) & (w[:-1] != 0)))[0]:
             moment = np.array([t[i] + (t[i + 1] - t[i]) * w[i] / (w[i] - w[i + 1])])
             state = self.states(moment)
-            turns.append(Turn(float(moment[0]), float(state.phi[0]), float(state.slip_velocity[0]), float(state.energy[0])))
+            turns.append(
+                Turn(float(moment[0]), float(state.phi[0]), float(state.slip_velocity[0]), float(state.energy[0]))
+            )
         return turns
 
     def crossing(self, phi: float, after: float) -> float | None:
@@ -147,7 +149,7 @@ class Stretch:
         work = normal_force * velocity
         gained = np.concatenate([[0.0], np.cumsum((work[1:] + work[:-1]) / 2 * np.diff(grid))])
         split = int(np.argmax(velocity >= 0)) if (velocity >= 0).any() else len(grid) - 1
-        if 0 < split and velocity[split] > velocity[split - 1]:
+        if split > 0 and velocity[split] > velocity[split - 1]:
             part = -velocity[split - 1] / (velocity[split] - velocity[split - 1])
         else:
             part = 1.0

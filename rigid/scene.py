@@ -1,4 +1,4 @@
-"""What a user describes: the hoop, the friction, the release, how far to run; and, for the flexible solver, ring and contact.
+"""What a user describes: hoop, friction, release, how far to run; and, for the flexible solver, ring and contact.
 
 A :class:`Scene` is a frozen value: it compares, hashes, pickles and prints, and it is all that either solver takes.
 Numbers are dimensionless in the paper's scaling (lengths by the outer radius R, times by sqrt(R/g), forces by m g with
@@ -92,7 +92,8 @@ class Hoop:
             _require(f"hoop.{key}", getattr(self, key), 0, inf, f"{key} must be positive", open_low=True)
         if self.k == 0 and self.mass_ratio == 0 and self.r != 1:
             raise SceneError(
-                f"hoop.r = {self.r!r} is not possible: a point mass (k = 0) on a massless hoop sits on the rim, so r must be 1."
+                f"hoop.r = {self.r!r} is not possible: "
+                "a point mass (k = 0) on a massless hoop sits on the rim, so r must be 1."
             )
 
     @property
@@ -146,13 +147,14 @@ class Friction:
         _require("friction.mu", self.mu, 0, inf, "mu is the kinetic coefficient, at least 0")
         if self.mu > self.mu_s:
             raise SceneError(
-                f"friction.mu = {self.mu!r} is not possible: the kinetic coefficient may not exceed mu_s = {self.mu_s!r}."
+                f"friction.mu = {self.mu!r} is not possible: "
+                f"the kinetic coefficient may not exceed mu_s = {self.mu_s!r}."
             )
 
 
 @dataclass(frozen=True, slots=True)
 class Release:
-    """The state at t = 0: angle ``phi0``, angular velocity ``omega0``, and ``slip0``, the velocity of the contact point."""
+    """The state at t = 0: angle ``phi0``, angular velocity ``omega0``, and the contact point's velocity ``slip0``."""
 
     phi0: float
     omega0: float = 0.0
@@ -165,7 +167,7 @@ class Release:
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """How far to run: to a number of turns (instants with phidot = 0 after release), to a time, or until something happens.
+    """How far to run: to a number of turns (instants with phidot = 0 after release), to a time, or until an event.
 
     ``until`` is "pulse" (the end of the first pulse) or "rest" (nothing is lost any more).
     """
@@ -180,7 +182,8 @@ class Run:
             object.__setattr__(self, "turns", 2)
         if len(given) > 1:
             raise SceneError(
-                f"run.{given[1]} = {getattr(self, given[1])!r} is not possible: run.{given[0]} already says how far to run."
+                f"run.{given[1]} = {getattr(self, given[1])!r} is not possible: "
+                f"run.{given[0]} already says how far to run."
             )
         if self.turns is not None:
             _require_whole("run.turns", self.turns, 1, 1_000_000)
@@ -308,7 +311,7 @@ class Solve:
     resolve : {"pulses", "all"}
         Flexible inside the pulses only, with the rigid closed form between them, or flexible throughout.
     start : {"equilibrium", "undeformed"}
-        Whether a flexible stretch begins sagged in quasi-static equilibrium or with an undeformed ring touching the floor.
+        Whether the flexible hoop begins sagged in quasi-static equilibrium, or undeformed and touching the floor.
     rtol : float
         Tolerance on the impulses.
     elements : int

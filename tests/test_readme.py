@@ -1,0 +1,72 @@
+"""Every command in the README runs as printed."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def commands() -> list[str]:
+    """Lines of the README's shell blocks, without the two that make the environment this test runs in."""
+    blocks = re.findall(r"```sh\n(.*?)```", README, flags=re.DOTALL)
+    lines = [line.split("  #")[0].strip() for block in blocks for line in block.splitlines()]
+    return [line for line in lines if line and "venv" not in line]
+
+
+def quick(command: str) -> bool:
+    """The rest are run by hand or under the slow marker: they take minutes."""
+    return not any(word in command for word in ("stress", "bench", "study", "paper --out"))
+
+
+def run(command: str, folder: Path) -> None:
+    environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+    words = shlex.split(command)
+    done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, timeout=900)
+    assert done.returncode == 0, f"{command}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}"
+
+
+def test_quick_commands_run_in_their_order(tmp_path: Path) -> None:
+    found = [command for command in commands() if quick(command)]
+    assert found, "the README shows no command"
+    for command in found:
+        if ".gif" in command or "--png" in command or "--html" in command:
+            pytest.importorskip("pyvista")
+            if not renders():
+                continue
+        run(command, tmp_path)
+
+
+@pytest.mark.slow
+def test_long_commands_run(tmp_path: Path) -> None:
+    for command in commands():
+        if not quick(command):
+            run(command, tmp_path)
+
+
+def renders() -> bool:
+    from meshes.renderer import renderer_problem
+
+    return renderer_problem() is None
+
+
+def test_python_examples_run() -> None:
+    blocks = re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)
+    assert blocks, "the README shows no Python"
+    for block in blocks:
+        exec(compile(block, "README.md", "exec"), {})
+
+
+def test_both_set_up_lines_are_one_line_each() -> None:
+    lines = [line for line in README.splitlines() if "venv .venv" in line]
+    assert len(lines) == 2
+    assert sum("pytest" in line for line in lines) == 1
+    assert sum("hoop study stiffness" in line for line in lines) == 1
