@@ -42,7 +42,7 @@ from meshes.scales import tidy
 from rigid import Pulse, Scene
 
 from .curves import curves
-from .interior import Interior
+from .interior import Interior, interior_of
 from .march import State, advanced
 from .motion import FlexibleMotion, Kept
 from .rim import RIM_FIELDS, rim_of
@@ -206,14 +206,14 @@ class _Painter:
 
     def __init__(self, scene: Scene, asked: tuple[str, ...], instants: list[_Instant]) -> None:
         self.scene, self.asked = scene, set(asked)
-        self.interiors = {id(i.kept): Interior(i.kept.hoop) for i in instants if i.kept is not None}
+        self.interiors = {id(i.kept): interior_of(i.kept.hoop) for i in instants if i.kept is not None}
         hoop = scene.hoop
         self.length = hoop.R
         self.stress = hoop.m * hoop.g / hoop.R**2
         x = [i.place.x_C for i in instants]
         R = self.length
         self.floor = floor_block((min(x) - 2) * R, (max(x) + 2) * R, 0.1 * R)
-        self.mesh = ring_of(scene).mesh
+        self.mesh = next((interior.mesh for interior in self.interiors.values()), ring_of(scene).mesh)
         self.factor = np.array([self._display_factor(instants)])
 
     def frames(self, instants: list[_Instant]) -> Iterator[Frame]:
@@ -235,10 +235,8 @@ class _Painter:
             after = [i.after for i in instants if i.after is not None]
             found["rate"] = interior.rate(states, before, after)
         if self.asked & {"stress", "von_mises", "hoop_stress", "bending_stress", "energy_density"}:
-            strain = interior.strain(u)
-            found["stress"] = interior.stress(strain)
+            found["stress"], found["density"] = interior.stress(u)
             if "energy_density" in self.asked:
-                found["density"] = (strain * found["stress"]).sum(axis=1) / 2
                 found["energy"] = interior.element_energy(u)
         for number in range(len(instants)):
             yield {name: values[..., number] for name, values in found.items()}
@@ -265,7 +263,7 @@ class _Painter:
         blocks = {"ring": ring}
         if self.asked & set(RIM_FIELDS):
             hoop = None if instant.kept is None else instant.kept.hoop
-            on_rim = {name: nodal[name] for name in ("displacement", "velocity") if name in nodal}
+            on_rim: dict[str, Array] = {n: nodal[n] for n in ("displacement", "velocity") if n in nodal}
             blocks["rim"] = rim_of(mesh, points, on_rim, hoop, instant.state, place, self.asked, self.stress, R)
         inner = 1 - self.scene.wall
         radius = max(self.scene.hoop.k * inner, 0.025)  # a point mass has to be seen too

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rigid import Motion, Phase, Pulse
 
 if TYPE_CHECKING:
+    from .full import FullHoop
     from .march import State
     from .reduced import ReducedHoop
 
@@ -88,7 +89,7 @@ class History:
 class Kept:
     """States of the ring at every accepted step of one flexible stretch, in the solver's units (R = m = g = 1)."""
 
-    hoop: ReducedHoop
+    hoop: ReducedHoop | FullHoop
     states: tuple[State, ...]
 
     def __repr__(self) -> str:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from .contact import BRUSH, DRAG, ELASTIC, EPS_N, EPS_T, ETA, SPACING, STICK
 from .march import State
-from .reduced import ReducedHoop
+from .touch import RimContact
 
 Array = NDArray[np.float64]
 
@@ -41,7 +41,7 @@ class Profile:
     stick: NDArray[np.int8]
 
 
-def profile(hoop: ReducedHoop, state: State) -> Profile:
+def profile(hoop: RimContact, state: State) -> Profile:
     """The profile at a state; empty off the floor."""
     if not len(state.bristles):
         none = np.empty(0)
@@ -72,9 +72,9 @@ def profile(hoop: ReducedHoop, state: State) -> Profile:
     return Profile(*(np.concatenate(column) for column in zip(*pieces, strict=True)))
 
 
-def _gap(hoop: ReducedHoop, state: State, theta: Array) -> Array:
+def _gap(hoop: RimContact, state: State, theta: Array) -> Array:
     """Gap of material points, on the displacement that the contact used."""
-    vertex = hoop.ring.vertex
+    vertex = hoop.vertex
     turn = np.floor((theta - vertex[0]) / (2 * pi))
     element = np.searchsorted(vertex, theta - 2 * pi * turn, side="right") - 1
     element = element + turn.astype(np.int64) * len(vertex)

@@ -12,7 +12,7 @@ from meshes.fields import LINE
 
 from .march import State
 from .profile import FREE, Profile, profile
-from .reduced import ReducedHoop
+from .touch import RimContact
 
 Array = NDArray[np.float64]
 
@@ -24,7 +24,7 @@ def rim_of(
     mesh: RingMesh,
     points: Array,
     nodal: dict[str, Array],
-    hoop: ReducedHoop | None,
+    hoop: RimContact | None,
     state: State | None,
     place: Placement,
     asked: set[str],
@@ -40,7 +40,7 @@ def rim_of(
         Undeformed nodes in the world.
     nodal : mapping of (n_nodes, 2) arrays
         Fields of the ring that the rim gets too.
-    hoop, state : ReducedHoop, State or None
+    hoop, state : RimContact, State or None
         The contact at this instant; None while the hoop is rigid.
     place : Placement
     asked : set of str
@@ -76,8 +76,8 @@ def rim_of(
             here = np.einsum("ni,nij->nj", shape, value[nodes])
             on_line[name] = np.concatenate([value, here])[order]
         theta = together[order]
-    scale = {"pressure": stress, "traction": stress}
-    kept = {name: value * scale[name] if name in scale else value for name, value in columns.items() if name in asked}
+    kept = {name: value if name == "stick" else stress * value.astype(float) for name, value in columns.items()}
+    kept = {name: value for name, value in kept.items() if name in asked}
     start = np.arange(len(theta))
     return Block(at, np.column_stack([start, np.roll(start, -1)]), LINE, {"theta": theta, **on_line, **kept})
 

@@ -76,7 +76,7 @@ class Sheet:
         self._title(title, room, em)
         if drawn:
             self._curves(below, em)
-        self._over: list[tuple[tuple[slice, slice], Image, NDArray[np.bool_]]] = []
+        self._over: list[tuple[tuple[slice, slice], Image, Any]] = []
         self._aside = 0  # pixels at the left of the stage that the patch covers
         self._plot: PatchPlot | None = None
         if shots:
@@ -104,7 +104,7 @@ class Sheet:
         for columns in (slice(width - self.covered, width), slice(0, self._aside)):
             box = (slice(top, foot), columns)
             drawn = np.array(page[box])
-            self._over.append((box, drawn, (drawn[..., :3] < 255).any(axis=2)))
+            self._over.append((box, drawn, np.any(drawn[..., :3] < 255, axis=2)))
 
     def fill(
         self, stage: Image, shot: Shot, factor: float, lens: tuple[float, float, str] | None = None
@@ -211,7 +211,7 @@ class Sheet:
         ten = f"$10^{{{power}}}$" if power else ""
         unit = " ".join(filter(None, [ten, looks.unit(colours.field, self.units)]))
         name = looks.label(colours.field) + (f"  [{unit}]" if unit else "")
-        style = {"color": looks.INK, "ha": "right", "va": "center"}
+        style: dict[str, Any] = {"color": looks.INK, "ha": "right", "va": "center"}
         printed = self._text(self.size[0] - 1.2 * em, top * 0.62, name, **style)
         return float(printed.get_window_extent(self.canvas.get_renderer()).width)
 
