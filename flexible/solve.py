@@ -287,7 +287,8 @@ def _through_pulses(scene: Scene, hoop: ReducedHoop, builder: _Builder, progress
         pulse = next((p for p in motion.pulses if p.t_start > 0 or not builder.pulses), None)
         if pulse is None:
             builder.add_rigid(motion, motion.t_end)
-            return motion.ended
+            over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
+            return _last_turn(scene.run.turns or 0) if over else motion.ended
         start = max(0.0, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
         state = hand_over(hoop, motion, start, scene.contact.law)
         builder.add_rigid(motion, start)
@@ -312,10 +313,14 @@ def _through_pulses(scene: Scene, hoop: ReducedHoop, builder: _Builder, progress
             return "the first pulse is over"
         rest = _rest_of(scene.run, builder)
         if rest is None:
-            return motion.ended
+            return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
         slip = 0.0 if state.mode == STICK else state.slip_velocity
         release = Release(float(state.pos[2]), float(state.vel[2]), float(slip))
         current = dataclasses.replace(scene, release=release, run=rest)
+
+
+def _last_turn(number: int) -> str:
+    return f"the last turn asked for is reached: number {number}"
 
 
 def _swept(span: tuple[float, float]) -> Callable[[State], float]:
