@@ -82,16 +82,36 @@ def rigid(scene: str, as_json: bool, out: Path | None) -> None:
 @as_json
 @out_folder
 @click.option(
-    "--fields", is_flag=True, help="With --out: also the ring's fields, a PVD series for ParaView or pyvista."
+    "--fields", is_flag=True, help="With --out: also the ring's fields, a PVD series for ParaView, pyvista, hoop view."
 )
-def flexible(scene: str, as_json: bool, out: Path | None, fields: bool) -> None:
+@click.option(
+    "--frames", type=click.IntRange(2, 100_000), metavar="N", help="Frames through the first pulse, 200 by default."
+)
+@click.option("--times", metavar="T,T,...", help="Frames at these times instead.")
+@click.option("--only", metavar="NAME,NAME,...", help="Only these fields, von_mises,displacement for instance.")
+def flexible(
+    scene: str,
+    as_json: bool,
+    out: Path | None,
+    fields: bool,
+    frames: int | None,
+    times: str | None,
+    only: str | None,
+) -> None:
     """Motion of the flexible hoop, measured like the rigid one, and where the energy went."""
+    from .output import field_wishes
+
     if fields and out is None:
         raise StudyError("--fields needs --out DIR: the fields are files.")
-    _one_motion(load_scene(scene), "flexible", as_json, out, fields)
+    if not fields and (frames or times or only):
+        raise StudyError("--frames, --times and --only need --fields, which writes the frames.")
+    wishes = field_wishes(frames, times, only) if fields else None
+    _one_motion(load_scene(scene), "flexible", as_json, out, wishes)
 
 
-def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, fields: bool = False) -> None:
+def _one_motion(
+    scene: Scene, name: str, as_json: bool, out: Path | None, wishes: dict[str, Any] | None = None
+) -> None:
     from .progress import bar
     from .solvers import solver
 
@@ -102,9 +122,9 @@ def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, fields
         from .output import write_fields, write_motion
 
         write_motion(motion, target)
-        if fields:
+        if wishes is not None:
             with bar("fields") as progress:
-                write_fields(motion, target, progress)
+                write_fields(motion, target, progress, **wishes)
     _print_motion(motion, as_json)
 
 
@@ -134,9 +154,8 @@ hoop.add_command(view)
 @out_folder
 def paper(out: Path | None) -> None:
     """Every figure and number of the paper, ours beside the printed one."""
-    from .progress import bar
-
     from .paper import reproduce
+    from .progress import bar
 
     target = folder(out if out is not None else Path("out-paper"))
     with bar("paper") as told:
@@ -160,9 +179,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
     """Run one command line and return its exit status; what a user can mend is one sentence on stderr."""
     line = list(arguments) if arguments is not None else sys.argv[1:]
     try:
-        status: Any = hoop.main(
-            line, prog_name="hoop", standalone_mode=False, obj=shlex.join(["hoop", *line])
-        )
+        status: Any = hoop.main(line, prog_name="hoop", standalone_mode=False, obj=shlex.join(["hoop", *line]))
         sys.stdout.flush()
         return status if isinstance(status, int) else 0
     except (SceneError, StudyError) as error:

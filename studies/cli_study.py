@@ -39,7 +39,7 @@ def study() -> None:
     "--out",
     type=click.Path(path_type=Path),
     metavar="DIR",
-    help="Write table, figures and report.html here; finished cases are kept and found again.",
+    help="Write table, figures, report.html and the ring's fields here; finished cases are kept and found again.",
 )
 @click.option(
     "--along",
@@ -47,9 +47,7 @@ def study() -> None:
     default="both",
     help="What is raised: contact foundation, ring bending, or both in the scene's ratio (default).",
 )
-@click.option(
-    "--low", type=float, metavar="S", help="Softest rung; by default 1e-2 of the scene's own stiffness."
-)
+@click.option("--low", type=float, metavar="S", help="Softest rung; by default 1e-2 of the scene's own stiffness.")
 @click.option("--high", type=float, metavar="S", help="Stiffest rung; by default 1e4 of it.")
 @click.option("--count", type=int, default=9, metavar="N", help="Number of rungs, 9 by default.")
 @click.option("--law", type=click.Choice(["patch", "brush"]), help="Contact law, in place of the scene's.")
@@ -129,6 +127,11 @@ def stiffness(
         show(*study_tables(found))
         if target is not None:
             click.echo(f"Figures, table and report are in {target}; open {target / 'report.html'}.")
+    if target is not None and solver_name == "flexible":  # last, so that nothing is lost if it fails
+        from .output import write_first_pulse
+
+        with bar("fields of the first pulse") as progress:
+            write_first_pulse(described, target, progress)
     if found.failures:
         ctx.exit(1)
 
@@ -176,9 +179,7 @@ def sweep(
     from .workers import pool
 
     asked = load_sweep(file)
-    target = folder(
-        out if out is not None else file.with_suffix("") if file.suffix else Path(f"{file}-results")
-    )
+    target = folder(out if out is not None else file.with_suffix("") if file.suffix else Path(f"{file}-results"))
     with (
         bar(f"{len(asked.points) * len(asked.solvers)} cases") as progress,
         pool(workers, scheduler) as place,

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
-from rigid import Motion
+from rigid import Motion, Scene
 
 from . import history
 from .files import StudyError, to_json, write_text
@@ -25,6 +26,44 @@ def write_motion(motion: Motion, out: Path) -> None:
         figures.save(ledger, out / "energy.png")
 
 
+def field_wishes(frames: int | None = None, times: str | None = None, only: str | None = None) -> dict[str, Any]:
+    """What a user typed about fields as arguments of :func:`write_fields`, checked before anything runs.
+
+    Raises
+    ------
+    StudyError
+        Times that are no numbers, or fields that do not exist.
+    """
+    from flexible.fields import FIELDS
+
+    wishes: dict[str, Any] = {}
+    if frames is not None:
+        wishes["frames"] = frames
+    if times is not None:
+        if frames is not None:
+            raise StudyError("--frames and --times cannot both be: the times say how many frames there are.")
+        try:
+            wishes["times"] = [float(entry) for entry in times.split(",")]
+        except ValueError:
+            raise StudyError(f"--times {times} is not possible: it takes numbers with commas between them.") from None
+    if only is not None:
+        names = [name.strip() for name in only.split(",") if name.strip()]
+        unknown = [name for name in names if name not in FIELDS]
+        if unknown or not names:
+            raise StudyError(f"--only {only} is not possible: the fields are {', '.join(FIELDS)}.")
+        wishes["fields"] = names
+    return wishes
+
+
 def write_fields(motion: Motion, out: Path, progress: Callable[[float], None]) -> None:
-    """The ring's displacement and stress through the motion as ``fields.pvd`` and its frames."""
-    raise StudyError("--fields is not there yet.")
+    """The ring's displacement, stress and the rest through the first pulse: ``fields.pvd`` and its frames."""
+    from flexible.fields import write_fields as write
+    from flexible.motion import FlexibleMotion
+    from meshes import SeriesError
+
+    if not isinstance(motion, FlexibleMotion):
+        raise StudyError("Only a flexible motion has fields.")
+    try:
+        write(motion, out, progress=progress)
+    except SeriesError as error:
+        raise StudyError(str(error)) from None
