@@ -176,9 +176,7 @@ def _resolved(case: Case) -> dict[str, Any]:
 def _pair(case: Case, rtol: float) -> tuple[dict[str, Any], float]:
     """The run at half a tolerance with its error, known from the run at all of it, and how many times it is
     too large."""
-    coarse, fine = (
-        _once(case, case.scene.replace(solve={"rtol": tolerance})) for tolerance in (rtol, rtol / 2)
-    )
+    coarse, fine = (_once(case, case.scene.replace(solve={"rtol": tolerance})) for tolerance in (rtol, rtol / 2))
     if not fine["pulses"] or len(coarse["pulses"]) != len(fine["pulses"]):
         raise Unfinished(f"no pulse came to its end: {fine['ended']}")
     errors = tuple(

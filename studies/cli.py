@@ -109,9 +109,7 @@ def flexible(
     _one_motion(load_scene(scene), "flexible", as_json, out, wishes)
 
 
-def _one_motion(
-    scene: Scene, name: str, as_json: bool, out: Path | None, wishes: dict[str, Any] | None = None
-) -> None:
+def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, wishes: dict[str, Any] | None = None) -> None:
     from .progress import bar
     from .solvers import solver
 

@@ -131,7 +131,7 @@ def stiffness(
         from .output import write_first_pulse
 
         with bar("fields of the first pulse") as progress:
-            write_first_pulse(described, target, progress)
+            write_first_pulse(found.scene, target, progress)
     if found.failures:
         ctx.exit(1)
 

@@ -57,8 +57,8 @@ def view(
     Without a file to draw into, a window opens: space plays, [ and ] change the factor, c the field.
     """
     films = [file for file in (gif, mp4, html) if file is not None]
-    pacing: dict[str, Any] = {"start": start, "stop": stop, "frames": frames, "fps": fps, "pace": pace}
-    pacing = {name: value for name, value in pacing.items() if value is not None}
+    given = {"start": start, "stop": stop, "frames": frames, "fps": fps, "pace": pace}
+    pacing: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     if pacing and not films:
         raise StudyError(f"--{next(iter(pacing))} needs --gif, --mp4 or --html: it is about an animation.")
     for file, suffix in ((png, ".png"), (gif, ".gif"), (mp4, ".mp4"), (html, ".html")):

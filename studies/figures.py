@@ -43,6 +43,7 @@ STYLE: Any = {
 }
 
 RIGID = "black"
+_FRONT = {"linewidth": 1.8, "zorder": 5}
 OKABE_ITO = {
     "kinetic": "#0072B2",
     "gravity": "#56B4E9",
@@ -87,32 +88,53 @@ def power_of_ten(value: float) -> str:
 
 
 def pulse(curves: Sequence[Curve], title: str = "") -> Figure:
-    """N, F and slip velocity over time through a pulse, one line for each ``(label, columns, colour)``."""
+    """N, F and slip velocity over time through a pulse; beside it the same around the largest jump of F.
+
+    The last curve is the reference, from which that instant is taken.
+    """
+    names = ("normal_force", "friction_force", "slip_velocity")
+    labels = ("normal force $N/(mg)$", "friction force $F/(mg)$", r"slip velocity $v/\sqrt{gR}$")
     with matplotlib.rc_context(STYLE):
-        figure = _figure(8.0, 8.2)
-        rows = figure.subplots(3, 1, sharex=True)
+        figure = _figure(11.0, 8.0)
+        grid = figure.subplots(3, 2, sharex="col", width_ratios=[3, 2])
+        low, high = _around_the_jump(curves[-1][1])
         for label, columns, colour in curves:
-            t = columns["t"] - columns["t"][0] if columns["t"].size else columns["t"]
-            style: Any = {
-                "color": colour,
-                "label": label,
-                **({"linewidth": 1.8, "zorder": 5} if colour == RIGID else {"alpha": 0.9}),
-            }
-            for axes, name in zip(rows, ("normal_force", "friction_force", "slip_velocity"), strict=True):
-                axes.plot(t, columns[name], **style)
-        _robust_limits(rows[0], [columns["normal_force"] for _, columns, _ in curves], floor=True)
-        _robust_limits(rows[1], [columns["friction_force"] for _, columns, _ in curves])
-        _robust_limits(rows[2], [columns["slip_velocity"] for _, columns, _ in curves])
-        rows[0].set_ylabel("normal force $N/(mg)$")
-        rows[1].set_ylabel("friction force $F/(mg)$")
-        rows[2].set_ylabel(r"slip velocity $v/\sqrt{gR}$")
-        rows[2].set_xlabel(r"time since the pulse began $t/\sqrt{R/g}$")
-        for axes in rows[1:]:
-            axes.axhline(0, color="0.6", linewidth=0.8)
+            t = _since_start(columns)
+            style: Any = {"color": colour, "label": label, **(_FRONT if colour == RIGID else {"alpha": 0.9})}
+            near = (t >= low) & (t <= high)
+            for (whole, close), name in zip(grid, names, strict=True):
+                whole.plot(t, columns[name], **style)
+                close.plot(t[near], columns[name][near], **style)
+        for (whole, close), name, label in zip(grid, names, labels, strict=True):
+            _robust_limits(whole, [columns[name] for _, columns, _ in curves], floor=name == "normal_force")
+            whole.set_ylabel(label)
+            whole.axvspan(low, high, color="0.94", zorder=0)
+            close.set_xlim(low, high)
+            if name != "normal_force":
+                for axes in (whole, close):
+                    axes.axhline(0, color="0.6", linewidth=0.8)
+        for axes in grid[2]:
+            axes.set_xlabel(r"time since the pulse began $t/\sqrt{R/g}$")
+        grid[0, 1].set_title("the grey stretch, enlarged", fontsize=10)
         figure.suptitle(title)
         if len(curves) > 1:
-            figure.legend(*rows[0].get_legend_handles_labels(), loc="outside right upper", title="foundation")
+            handles = grid[0, 0].get_legend_handles_labels()
+            figure.legend(*handles, loc="outside lower center", ncols=len(curves), title="foundation")
         return figure
+
+
+def _since_start(columns: Columns) -> Any:
+    t = columns["t"]
+    return t - t[0] if t.size else t
+
+
+def _around_the_jump(columns: Columns) -> tuple[float, float]:
+    """A sixth of the pulse around the largest jump of F (or, without one, its steepest place)."""
+    t, force = _since_start(columns), columns["friction_force"]
+    if t.size < 3:
+        return 0.0, 1.0
+    middle = float(t[int(np.argmax(np.abs(np.diff(force))))])
+    return middle - t[-1] / 12, middle + t[-1] / 12
 
 
 def _robust_limits(axes: Axes, values: list[np.ndarray], floor: bool = False) -> None:
@@ -135,8 +157,8 @@ def impulses(curves: Sequence[Curve], mu: float) -> Figure:
     A slope of mu is skidding's opposite, spinning; -mu is skidding; anything flatter is rolling.
     """
     with matplotlib.rc_context(STYLE):
-        figure = _figure(7.6, 5.2)
-        axes = figure.subplots()
+        figure = _figure(11.0, 5.0)
+        axes, close = figure.subplots(1, 2, width_ratios=[3, 2])
         reach = max(float(columns["normal_impulse"][-1]) for _, columns, _ in curves if columns["t"].size)
         line = np.array([0.0, reach])
         axes.fill_between(line, -mu * line, mu * line, color="0.95", zorder=0)
@@ -153,10 +175,8 @@ def impulses(curves: Sequence[Curve], mu: float) -> Figure:
                 fontsize=9,
             )
         for label, columns, colour in curves:
-            front: Any = {"linewidth": 1.8, "zorder": 5} if colour == RIGID else {}
-            axes.plot(
-                columns["normal_impulse"], columns["friction_impulse"], color=colour, label=label, **front
-            )
+            front: Any = _FRONT if colour == RIGID else {}
+            axes.plot(columns["normal_impulse"], columns["friction_impulse"], color=colour, label=label, **front)
             if columns["t"].size:
                 axes.plot(
                     columns["normal_impulse"][-1],
@@ -166,11 +186,34 @@ def impulses(curves: Sequence[Curve], mu: float) -> Figure:
                     markersize=4,
                     zorder=6,
                 )
+        _enlarged_end(close, axes, curves, reach)
         axes.set_xlim(0, 1.02 * reach)
         axes.set_xlabel(r"normal impulse $J_N/(m\sqrt{gR})$")
         axes.set_ylabel(r"friction impulse $J_F/(m\sqrt{gR})$")
-        figure.legend(loc="outside right upper", title="foundation")
+        figure.legend(
+            *axes.get_legend_handles_labels(), loc="outside lower center", ncols=len(curves), title="foundation"
+        )
         return figure
+
+
+def _enlarged_end(axes: Axes, whole: Axes, curves: Sequence[Curve], reach: float) -> None:
+    """The last quarter of the pulse once more, where the curves part."""
+    ends = []
+    for _, columns, colour in curves:
+        late = columns["normal_impulse"] >= 0.75 * reach
+        if late.any():
+            x, y = columns["normal_impulse"][late], columns["friction_impulse"][late]
+            front: Any = _FRONT if colour == RIGID else {}
+            axes.plot(x, y, color=colour, **front)
+            axes.plot(x[-1], y[-1], "o", color=colour, markersize=5, zorder=6)
+            ends.append((y.min(), y.max()))
+    if ends:
+        low, high = min(e[0] for e in ends), max(e[1] for e in ends)
+        pad = 0.08 * (high - low or 1.0)
+        axes.set(xlim=(0.75 * reach, 1.02 * reach), ylim=(low - pad, high + pad))
+        whole.indicate_inset_zoom(axes, edgecolor="0.4")
+    axes.set_title("the end, enlarged", fontsize=10)
+    axes.set_xlabel(r"normal impulse $J_N/(m\sqrt{gR})$")
 
 
 def distances(study: StiffnessStudy) -> Figure:
@@ -180,9 +223,7 @@ def distances(study: StiffnessStudy) -> Figure:
         figure = _figure(9.6, 4.4)
         through = [rung for rung in study.rungs if not rung.outcome.failure]
         s = np.array([rung.stiffness for rung in through])
-        for axes, (name, words), colour in zip(
-            figure.subplots(1, 2), names, ("#0072B2", "#D55E00"), strict=True
-        ):
+        for axes, (name, words), colour in zip(figure.subplots(1, 2), names, ("#0072B2", "#D55E00"), strict=True):
             limit = study.limits[name]
             unit = study.scene.energy_unit if name == "friction_loss" else 1.0
             distance = np.abs([rung.measure(name) - limit.rigid for rung in through]) / unit
@@ -199,9 +240,7 @@ def distances(study: StiffnessStudy) -> Figure:
                 zorder=4,
                 label="distance, with its numerical error",
             )
-            axes.plot(
-                s, np.where(error > 0, error, np.nan), "v", color="0.6", markersize=4, label="numerical error"
-            )
+            axes.plot(s, np.where(error > 0, error, np.nan), "v", color="0.6", markersize=4, label="numerical error")
             if np.isfinite(limit.rate):
                 use = np.isfinite(shown)
                 anchor = np.exp(np.mean(np.log(shown[use][-3:]) + limit.rate * np.log(s[use][-3:])))

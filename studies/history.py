@@ -28,6 +28,9 @@ ENERGIES = (
 )
 """Columns that are energies."""
 
+TOTALS = ("normal_impulse", "friction_impulse", "friction_loss", "damping_loss", "numerical_loss")
+"""Columns that a solver gathers from its start; through a pulse they count from the pulse's start."""
+
 
 def through(motion: Motion, pulse: Pulse) -> Columns:
     """Time histories through one pulse: the solver's own steps where it kept them, else sampled finely enough
@@ -45,8 +48,15 @@ def through(motion: Motion, pulse: Pulse) -> Columns:
     else:
         kept = (own["t"] >= pulse.t_start) & (own["t"] <= pulse.t_end)
         columns = {name: values[kept] for name, values in own.items()}
+    for name in TOTALS:
+        if name in columns and columns[name].size:
+            columns[name] = columns[name] - columns[name][0]
     for force, impulse in (("normal_force", "normal_impulse"), ("friction_force", "friction_impulse")):
-        columns[impulse] = gathered(columns["t"], columns[force])
+        if impulse not in columns:
+            columns[impulse] = gathered(columns["t"], columns[force])
+    booked = [columns[name] for name in ENERGIES[1:] if name in columns]
+    if "kinetic" in columns and "numerical_loss" not in columns and columns["t"].size:
+        columns["numerical_loss"] = sum(values[0] for values in booked) - np.sum(booked, axis=0)
     return columns
 
 
@@ -89,22 +99,14 @@ def at(motion: Motion, t: Array) -> Columns:
 
 def gathered(t: Array, values: Array) -> Array:
     """Integral from the first time to each (trapezoids)."""
-    return (
-        np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(t))])
-        if t.size
-        else t.copy()
-    )
+    return np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(t))]) if t.size else t.copy()
 
 
 def bottom(motion: Motion, pulse: Pulse) -> float:
     """Time in a pulse at which the disk is lowest, phi = pi (mod 2 pi), or the pulse's middle if it never
     is."""
     low, high = sorted((pulse.phi_start, pulse.phi_end))
-    turns = [
-        n
-        for n in range(floor(low / (2 * pi)) - 1, ceil(high / (2 * pi)) + 1)
-        if low <= pi + 2 * pi * n <= high
-    ]
+    turns = [n for n in range(floor(low / (2 * pi)) - 1, ceil(high / (2 * pi)) + 1) if low <= pi + 2 * pi * n <= high]
     early, late = pulse.t_start, pulse.t_end
     if not turns:
         return 0.5 * (early + late)
@@ -143,9 +145,7 @@ def times(
         middle = 0.5 * (t[where] + t[where + 1])
         found = _forces(motion, middle)
         scale = np.ptp(values, axis=1, keepdims=True) + 1e-300
-        bent = (np.abs(found - 0.5 * (values[:, where] + values[:, where + 1])) > tolerance * scale).any(
-            axis=0
-        )
+        bent = (np.abs(found - 0.5 * (values[:, where] + values[:, where + 1])) > tolerance * scale).any(axis=0)
         if not bent.any():
             break
         where, middle, found = where[bent], middle[bent], found[:, bent]

@@ -107,11 +107,7 @@ def time_off_floor(motion: Motion, pulse: Pulse) -> float:
     """Time without contact: hopping, footnote 1 of the paper."""
     if hasattr(pulse, "time_off_floor"):
         return pulse.time_off_floor
-    return sum(
-        phase.t_end - phase.t_start
-        for phase in inside(motion, pulse)
-        if phase.kind in (Kind.FLIGHT, Kind.SKIM)
-    )
+    return sum(phase.t_end - phase.t_start for phase in inside(motion, pulse) if phase.kind in (Kind.FLIGHT, Kind.SKIM))
 
 
 @measure("peak ring energy", "mgR")

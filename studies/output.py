@@ -6,10 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from rigid import Motion, Scene
+from rigid import Motion, Run, Scene
 
 from . import history
-from .files import StudyError, to_json, write_text
+from .files import StudyError, to_json, trouble, write_text
 
 
 def write_motion(motion: Motion, out: Path) -> None:
@@ -55,8 +55,25 @@ def field_wishes(frames: int | None = None, times: str | None = None, only: str 
     return wishes
 
 
-def write_fields(motion: Motion, out: Path, progress: Callable[[float], None]) -> None:
-    """The ring's displacement, stress and the rest through the first pulse: ``fields.pvd`` and its frames."""
+def write_fields(motion: Motion, out: Path, progress: Callable[[float], None], **wishes: Any) -> None:
+    """The ring's displacement, stress and the rest as ``fields.pvd`` and its frames.
+
+    Parameters
+    ----------
+    motion : Motion
+        A flexible motion with its history.
+    out : Path
+        Folder of the series.
+    progress : callable
+        Told the fraction done.
+    **wishes
+        From :func:`field_wishes`; by default all fields through the first pulse.
+
+    Raises
+    ------
+    StudyError
+        No such instants, or a folder that cannot be written to.
+    """
     from flexible.fields import write_fields as write
     from flexible.motion import FlexibleMotion
     from meshes import SeriesError
@@ -64,6 +81,16 @@ def write_fields(motion: Motion, out: Path, progress: Callable[[float], None]) -
     if not isinstance(motion, FlexibleMotion):
         raise StudyError("Only a flexible motion has fields.")
     try:
-        write(motion, out, progress=progress)
+        write(motion, out, progress=progress, **wishes)
     except SeriesError as error:
         raise StudyError(str(error)) from None
+    except OSError as error:
+        raise StudyError(trouble(error, out)) from None
+
+
+def write_first_pulse(scene: Scene, out: Path, progress: Callable[[float], None]) -> None:
+    """Run the scene's first pulse, at the scene's own stiffness, and write its fields."""
+    from .solvers import solver
+
+    motion = solver("flexible")(scene.replace(run=Run(until="pulse")), history=True)
+    write_fields(motion, out, progress)

@@ -23,9 +23,7 @@ class Solver(Protocol):
     """A scene to its motion; ``history`` asks to keep the steps, ``progress`` takes the fraction done, 0 to
     1."""
 
-    def __call__(
-        self, scene: Scene, *, history: bool = False, progress: Progress | None = None
-    ) -> Motion: ...
+    def __call__(self, scene: Scene, *, history: bool = False, progress: Progress | None = None) -> Motion: ...
 
 
 def rigid(scene: Scene, *, history: bool = False, progress: Progress | None = None) -> Motion:
@@ -56,9 +54,7 @@ def solver(name: str) -> Solver:
     """
     module, colon, function = NAMED.get(name, name).partition(":")
     if not colon:
-        raise StudyError(
-            f"{name!r} is not a solver: it must be one of {', '.join(NAMED)}, or module:function."
-        )
+        raise StudyError(f"{name!r} is not a solver: it must be one of {', '.join(NAMED)}, or module:function.")
     try:
         return getattr(import_module(module), function)
     except (ImportError, AttributeError) as error:

@@ -73,9 +73,7 @@ class Rung:
             "resolved": found.resolved,
             "rtol": found.rtol,
             "seconds": found.seconds,
-            "pulses": [
-                {**pulse, "phases": phases} for pulse, phases in zip(found.pulses, found.phases, strict=True)
-            ],
+            "pulses": [{**pulse, "phases": phases} for pulse, phases in zip(found.pulses, found.phases, strict=True)],
         }
 
 
@@ -195,16 +193,12 @@ def stiffness_study(
     rigid, reference = run_cases([Case(name, scene, histories=True) for name in ("rigid", TENDED)], Here())
     for outcome in (rigid, reference):
         if outcome.failure or not outcome.pulses:
-            raise StudyError(
-                f"The rigid hoop has no pulse to study here: {outcome.failure or outcome.ended}."
-            )
+            raise StudyError(f"The rigid hoop has no pulse to study here: {outcome.failure or outcome.ended}.")
 
     # 2. the flexible hoop on every rung, as finely as its distance from the rigid one asks for
     against = tuple((name, reference.pulses[0][name]) for name in TIED)
     scenes = ladder.rungs(scene)
-    outcomes = run_cases(
-        [Case(solver, rung, against, histories=True) for rung in scenes], pool, out, progress
-    )
+    outcomes = run_cases([Case(solver, rung, against, histories=True) for rung in scenes], pool, out, progress)
     rungs = tuple(
         Rung(rung.ring.bending_stiffness, rung.contact.stiffness, stiffness, outcome)
         for rung, stiffness, outcome in zip(scenes, ladder.stiffness.tolist(), outcomes, strict=True)
@@ -213,15 +207,11 @@ def stiffness_study(
     # 3. rate and limit of the first pulse's measures over the rungs that came through
     through = [rung for rung in rungs if not rung.outcome.failure]
     if not through:
-        raise StudyError(
-            f"No rung of the ladder came through; the stiffest says: {rungs[-1].outcome.failure}."
-        )
+        raise StudyError(f"No rung of the ladder came through; the stiffest says: {rungs[-1].outcome.failure}.")
     limits = {}
     for name in LIMITS:
         values, errors = [r.measure(name) for r in through], [r.error(name) for r in through]
-        limits[name] = limit_of(
-            [r.stiffness for r in through], values, reference.pulses[0][name], errors, exponent
-        )
+        limits[name] = limit_of([r.stiffness for r in through], values, reference.pulses[0][name], errors, exponent)
     return StiffnessStudy(scene, ladder, solver, rigid, reference, limit_mu_s(scene), rungs, limits)
 
 

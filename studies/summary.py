@@ -41,9 +41,7 @@ def case_cells(rung: Rung) -> list[str]:
     cells = []
     for name in ("impulse_ratio", "friction_loss"):
         cells += [f"{rung.measure(name):.5f}", number(rung.error(name), 2)]
-    rest = [
-        number(rung.measure(name), 5) for name in ("normal_impulse", "peak_normal_force", "time_off_floor")
-    ]
+    rest = [number(rung.measure(name), 5) for name in ("normal_impulse", "peak_normal_force", "time_off_floor")]
     star = "" if rung.outcome.resolved else " *"
     return [*stiffness, *cells, *rest, f"{rung.outcome.seconds:.2f}{star}"]
 
@@ -131,9 +129,7 @@ def law_sentence(study: StiffnessStudy) -> str:
     """Which rigid hoop the limit is compared with, and why."""
     mu_s, mu = study.scene.friction.mu_s, study.scene.friction.mu
     if study.scene.contact.law == "patch":
-        return (
-            f"The stick threshold acts on the patch's resultants: it keeps mu_s = {mu_s:g} and mu = {mu:g}."
-        )
+        return f"The stick threshold acts on the patch's resultants: it keeps mu_s = {mu_s:g} and mu = {mu:g}."
     if study.reference_mu_s == mu_s:
         return f"A brush with mu_s = mu = {mu:g} tends to the rigid hoop of the same coefficients."
     paper = study.rigid.pulses[0]

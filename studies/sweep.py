@@ -81,9 +81,7 @@ class Table:
             empty: dict[str, float] = dict.fromkeys(MEASURES, float("nan"))
             for number, pulse in enumerate(found.pulses or (empty,), 1):
                 phases = " ".join(found.phases[number - 1]) if found.pulses else ""
-                records.append(
-                    {**head, "pulse": number if found.pulses else 0, **pulse, "phases": phases, **tail}
-                )
+                records.append({**head, "pulse": number if found.pulses else 0, **pulse, "phases": phases, **tail})
         return records
 
     def to_dataframe(self) -> pandas.DataFrame:
@@ -134,9 +132,7 @@ def sweep_from_dict(data: Mapping[str, Any]) -> Sweep:
         or not solvers
         or not all(isinstance(name, str) and (name in BOTH or ":" in name) for name in solvers)
     ):
-        raise SceneError(
-            f"sweep.solvers = {solvers!r} is not possible: it lists 'rigid', 'flexible' or both."
-        )
+        raise SceneError(f"sweep.solvers = {solvers!r} is not possible: it lists 'rigid', 'flexible' or both.")
     histories = settings.get("histories", False)
     if not isinstance(histories, bool):
         raise SceneError(f"sweep.histories = {histories!r} is not possible: it is true or false.")
@@ -157,9 +153,7 @@ def sweep_from_dict(data: Mapping[str, Any]) -> Sweep:
     return Sweep(tuple(keys), tuple(points), tuple(solvers), histories)
 
 
-def _varied(
-    data: Mapping[str, Any], base: Mapping[str, Any]
-) -> tuple[list[str], list[list[Any]], dict[str, Any]]:
+def _varied(data: Mapping[str, Any], base: Mapping[str, Any]) -> tuple[list[str], list[list[Any]], dict[str, Any]]:
     """Keys given as lists, their values, and the tables of the scene over which they are laid."""
     keys, choices = [], []
     tables: dict[str, Any] = {part: dict(table) for part, table in base.items()}

@@ -41,9 +41,7 @@ def show(*things: Any) -> None:
 def motion_tables(motion: Motion) -> list[Any]:
     """Phases, turns and pulses of a motion, and why it ended."""
     shown: list[Any] = []
-    phases = Table(
-        "phase", "from t", "to t", "from phi [deg]", "to phi [deg]", title="Phases", title_justify="left"
-    )
+    phases = Table("phase", "from t", "to t", "from phi [deg]", "to phi [deg]", title="Phases", title_justify="left")
     for phase in motion.phases:
         ends = (
             number(phase.t_start),
@@ -58,9 +56,7 @@ def motion_tables(motion: Motion) -> list[Any]:
             "t", "phi [deg]", "slip velocity", "energy", title="Turns, where phidot = 0", title_justify="left"
         )
         for turn in motion.turns:
-            turns.add_row(
-                number(turn.t), number(degrees(turn.phi)), number(turn.slip_velocity), number(turn.energy)
-            )
+            turns.add_row(number(turn.t), number(degrees(turn.phi)), number(turn.slip_velocity), number(turn.energy))
         shown.append(turns)
     if motion.pulses:
         shown.append(
@@ -112,9 +108,7 @@ def study_tables(study: StiffnessStudy) -> list[Any]:
         limits.add_column(heading, justify="right", no_wrap=True)
     for row in limit_rows(study):
         limits.add_row(*row)
-    failed = [
-        f"Foundation {number(r.contact_stiffness, 3)} failed: {r.outcome.failure}" for r in study.failures
-    ]
+    failed = [f"Foundation {number(r.contact_stiffness, 3)} failed: {r.outcome.failure}" for r in study.failures]
     loose = any(not r.outcome.resolved for r in study.rungs if not r.outcome.failure)
     star = ["* numerical error neither below a tenth of the distance nor below 1e-5"] if loose else []
     return [ladder, *star, *failed, limits, law_sentence(study), damping_sentence(study), verdict(study)]

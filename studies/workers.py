@@ -20,9 +20,7 @@ from .case import Case, Outcome, run_case
 from .files import StudyError, plain
 from .solvers import version
 
-_ONE_THREAD = dict.fromkeys(
-    ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1"
-)
+_ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
 
 _DEATHS = 3
 """A case whose worker has died this often is not tried again."""
@@ -71,9 +69,7 @@ class Processes:
 
     def _start(self) -> ProcessPoolExecutor:
         # spawn: nothing of this process, its threads least of all, is inherited but the environment
-        executor = ProcessPoolExecutor(
-            self.workers, multiprocessing.get_context("spawn"), initializer=_be_a_worker
-        )
+        executor = ProcessPoolExecutor(self.workers, multiprocessing.get_context("spawn"), initializer=_be_a_worker)
         with _one_thread(), _deaf_to_interrupts():
             executor.submit(os.getpid)  # the first task starts all the processes
         return executor
@@ -107,9 +103,7 @@ class Cluster:
         try:
             self.client = Client(address, timeout="20s", set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
-            raise StudyError(
-                f"There is no Dask scheduler at {address}: {' '.join(str(error).split())}."
-            ) from None
+            raise StudyError(f"There is no Dask scheduler at {address}: {' '.join(str(error).split())}.") from None
         self.executor: Executor = self.client.get_executor(pure=False)
 
     def submit(self, case: Case) -> Future[Outcome]:
@@ -188,9 +182,7 @@ def run_all(cases: Iterable[Case], pool: Pool) -> Iterator[tuple[Case, Outcome]]
                 yield case, failed(case, f"{type(error).__name__}: {' '.join(str(error).split())}")
                 continue
             if outcome.version != version():
-                raise StudyError(
-                    f"The workers run hoop-pulse {outcome.version}, we run {version()}: they must agree."
-                )
+                raise StudyError(f"The workers run hoop-pulse {outcome.version}, we run {version()}: they must agree.")
             yield case, outcome
         if broken:
             suspects.extend(flying.values())

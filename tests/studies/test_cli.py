@@ -12,6 +12,8 @@ from pathlib import Path
 import pytest
 from command_line import SCENE, command, environment, is_one_sentence, process
 
+from meshes import read
+
 HEAVY = ("skfem", "meshio", "pyvista", "vtk", "matplotlib", "pandas", "dask", "distributed", "jinja2")
 
 
@@ -165,9 +167,7 @@ def test_a_full_disk_under_stdout_is_one_sentence():
 
 def test_a_reader_that_leaves_early_is_no_trouble():
     line = " ".join(f"'{word}'" for word in command("rigid", "paper-3.1", "--json"))
-    done = subprocess.run(
-        ["sh", "-c", f"{line} | head -c 10"], env=environment(), capture_output=True, timeout=60
-    )
+    done = subprocess.run(["sh", "-c", f"{line} | head -c 10"], env=environment(), capture_output=True, timeout=60)
     assert done.stderr == b""
 
 
@@ -176,7 +176,21 @@ def test_the_rigid_command_imports_nothing_heavy():
         "import sys; from studies.cli import run; run(['rigid', 'paper-3.1', '--json']); "
         f"print([name for name in {HEAVY!r} if name in sys.modules], file=sys.stderr)"
     )
-    done = subprocess.run(
-        [sys.executable, "-c", code], env=environment(), capture_output=True, text=True, timeout=60
-    )
+    done = subprocess.run([sys.executable, "-c", code], env=environment(), capture_output=True, text=True, timeout=60)
     assert done.stderr.strip() == "[]"
+
+
+def test_a_flexible_run_leaves_motion_ledger_and_fields(hoop, tmp_path):
+    """The soft hoop of a short scene: history, figures and a series that the mesh layer reads back."""
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE.format(k=0.25) + "[contact]\nstiffness = 1e8\ndamping = 1\n[solve]\nrtol = 1e-3\n")
+    status, out, err = hoop("flexible", scene, "--json", "--out", tmp_path / "out", "--fields")
+    assert (status, err) == (0, "")
+    found = json.loads(out)
+    assert {"time_off_floor", "ring_energy_peak", "contact_energy_peak"} <= set(found["pulses"][0])
+    books = dict(found["energy_ledger"])
+    left = books.pop("initial") + books.pop("hand_over")
+    assert sum(books.values()) == pytest.approx(left, rel=1e-12)
+    names = {path.name for path in (tmp_path / "out").iterdir()}
+    assert {"motion.json", "history.csv", "pulse.png", "energy.png", "fields.pvd"} <= names
+    assert len(read(tmp_path / "out")) > 10

@@ -35,9 +35,7 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
         found = limit_of(S, 0.17 + distance + error * random.uniform(-1, 1, S.size), 0.17, error)
         limits += found.rigid_inside
         rates += found.rate_interval[0] <= 1 / 3 <= found.rate_interval[1]
-        assert (
-            found.uncertainty < 0.5 * found.distance
-        )  # extrapolating must have told more than the last case
+        assert found.uncertainty < 0.5 * found.distance  # extrapolating must have told more than the last case
     # 95 of 100 is the level; 88 is two standard deviations below it
     assert limits >= 88
     assert rates >= 88

@@ -128,9 +128,7 @@ def test_a_scene_in_si_units_draws_the_same_curves():
     for scene in (SCENE, SCENE.replace(hoop={"R": 0.3, "m": 2.0, "g": 9.81})):
         motion = solver("rigid")(scene)
         columns = history.through(motion, motion.pulses[0])
-        curves.append(
-            (history.dimensionless(columns, scene), motion.pulses[0].friction_loss / scene.energy_unit)
-        )
+        curves.append((history.dimensionless(columns, scene), motion.pulses[0].friction_loss / scene.energy_unit))
     (one, loss), (other, other_loss) = curves
     assert other_loss == pytest.approx(loss, rel=1e-9)
     for name in ("normal_force", "friction_impulse", "slip_velocity", "energy", "omega"):

@@ -115,9 +115,7 @@ def test_a_pulse_measured_over_its_own_interval_is_itself():
 
 
 def test_json_is_the_contract(hoop):
-    status, out, err = hoop(
-        "study", "stiffness", "paper-3.3-massless", "--solver", THIRD, "--workers", 1, "--json"
-    )
+    status, out, err = hoop("study", "stiffness", "paper-3.3-massless", "--solver", THIRD, "--workers", 1, "--json")
     assert (status, err) == (0, "")
     found = json.loads(out, parse_constant=lambda word: pytest.fail(f"{word} is not JSON"))
     assert {"rigid", "cases", "limit"} <= set(found)

@@ -77,9 +77,7 @@ def test_the_table_is_a_data_frame_and_a_csv_of_the_same_numbers(tmp_path):
 
 
 def test_a_base_scene_by_name():
-    sweep = sweep_from_dict(
-        {"sweep": {"scene": "paper-3.1", "solvers": "rigid"}, "friction": {"mu": [0.2, 0.3]}}
-    )
+    sweep = sweep_from_dict({"sweep": {"scene": "paper-3.1", "solvers": "rigid"}, "friction": {"mu": [0.2, 0.3]}})
     assert sweep.keys == ("friction.mu",)
     assert [scene.friction.mu for _, scene in sweep.points] == [0.2, 0.3]
     assert sweep.points[1][1] == scene_from_dict(scene_to_dict(load_scene("paper-3.1")))
@@ -207,9 +205,7 @@ def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(tmp_path):
     file = sweep_file(tmp_path, "['third_solver:slow']")
     out = tmp_path / "out"
     line = command("study", "sweep", file, "--out", out, "--workers", 2)
-    running = subprocess.Popen(
-        line, env=environment(), stderr=subprocess.PIPE, text=True, start_new_session=True
-    )
+    running = subprocess.Popen(line, env=environment(), stderr=subprocess.PIPE, text=True, start_new_session=True)
     wait_for_rows(out, 1)
     os.killpg(running.pid, signal.SIGINT)  # as a terminal does: to the workers too
     _, err = running.communicate(timeout=30)
@@ -223,9 +219,7 @@ def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(tmp_path):
 def assert_same_as_undisturbed(file: Path, out: Path, tmp_path: Path) -> None:
     """The table in ``out`` is, to the byte, that of the same sweep run at once."""
     calm = tmp_path / "undisturbed"
-    done = process(
-        "study", "sweep", file, "--out", calm, "--workers", 1, env=environment(HOOP_TEST_MARK=str(file))
-    )
+    done = process("study", "sweep", file, "--out", calm, "--workers", 1, env=environment(HOOP_TEST_MARK=str(file)))
     assert done.returncode == 0
     assert (calm / "table.csv").read_bytes() == (out / "table.csv").read_bytes()
 
@@ -292,9 +286,7 @@ def test_a_case_that_kills_its_worker_takes_no_other_with_it(tmp_path):
 def test_an_unreachable_scheduler_is_one_sentence(hoop, tmp_path):
     pytest.importorskip("distributed")
     for address in ("nonsense", "carrier-pigeon://loft"):
-        status, _, err = hoop(
-            "study", "sweep", sweep_file(tmp_path), "--out", tmp_path / "out", "--scheduler", address
-        )
+        status, _, err = hoop("study", "sweep", sweep_file(tmp_path), "--out", tmp_path / "out", "--scheduler", address)
         assert status == 2
         assert is_one_sentence(err)
 
@@ -307,9 +299,7 @@ def test_a_cluster_that_loses_a_worker_gives_the_same_table(tmp_path, monkeypatc
     for name, value in environment().items():
         monkeypatch.setenv(name, value)
     file = sweep_file(tmp_path, "['third_solver:deadly_once']")
-    cluster = distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
-    )
+    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None)
     with cluster:
         line = ("study", "sweep", file, "--out", tmp_path / "out", "--scheduler", cluster.scheduler_address)
         done = process(*line, env=environment(HOOP_TEST_MARK=str(mark)))
