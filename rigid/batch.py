@@ -34,7 +34,7 @@ from .machine import entry_run
 from .motion import Array
 from .scene import Friction, Hoop, Landing, Release, Scene, SceneError
 from .slipping import ORDER, SERIES
-from .solve import BOTTOM, TAPE_RECORDS, UNTIL_CODES, reason
+from .solve import LEVEL, TAPE_RECORDS, UNTIL_CODES, reason
 from .solve import STEPS as WORK
 
 TURN_VALUES = 4  # t, phi, slip velocity, energy
@@ -289,6 +289,6 @@ def _constants(
     offsets = (phi0 - whole * (2 * pi)) - whole * (2 * PI_LOW)
     angles = [chart(a, 1.0, n) for a, n in zip(offsets.tolist(), whole.tolist(), strict=True)]
     release = np.column_stack([np.array(angles, dtype=float).reshape(len(table), 3), omega0, slip0])
-    lowest = (release[:, 1] == 0) & (np.abs(release[:, 0]) <= BOTTOM * np.maximum(1, np.abs(phi0)))
-    release[lowest, 0] = 0.0
+    level = (release[:, 0] != phi0) & (np.abs(release[:, 0]) <= LEVEL * np.maximum(1, np.abs(phi0)))
+    release[level, 0] = 0.0
     return pars, np.ascontiguousarray(release)

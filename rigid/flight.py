@@ -64,7 +64,7 @@ def touch_down(e, gap, un, omega, a, top):
         y, rate = height(e, gap, un, omega, s, c, time)
         clear = y_g + ydot * time - 0.5 * time * time - (1 + e)
         fall = ydot - time
-        if clear > 0.0:
+        if clear > 1e-12 * (1.0 + time * time):
             time += (
                 (fall + sqrt(fall * fall + 2 * clear))
                 if fall > 0

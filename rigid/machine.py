@@ -48,6 +48,7 @@ from .layout import (
     SETTLES,
     SKID,
     SKIM,
+    SLIDES,
     SLIDES_DONE,
     SLIP,
     SPIN,
@@ -198,7 +199,7 @@ def entry_run(par, state, work, tape):
                     choose_slip(par, state, tape)
         elif mode in (SKID, SPIN):
             if settles(par, state):
-                return SETTLES
+                return SLIDES if par[MU] == 0.0 else SETTLES
             code = slide(par, state, work, tape)
             if state[MODE] == FLIGHT:
                 begin(state, FLIGHT, tape)

@@ -50,7 +50,7 @@ def polish(c, n, low, high):
             low = x
         new = x - y / d if d != 0.0 else low - 1.0
         if not min(low, high) < new < max(low, high):
-            if (low > 0 and high > 4 * low) or (high > 0 and low > 4 * high):
+            if 0 < 4 * min(low, high) < max(low, high):
                 new = sqrt(low * high)
             else:
                 new = 0.5 * (low + high)

@@ -29,7 +29,8 @@ STEPS = 200_000  # the work bound of one motion: Taylor steps and phases
 MOST_RECORDS = 200_000  # and its phases, turns and pulses together
 PATIENCE = 4_000  # interpreted steps, some 0.4 s, after which a process goes over to the compiled kernel
 
-BOTTOM = 2.3e-16  # relative distance of phi0 from pi that means pi: the float nearest to it is not pi itself
+# phi0 this close to a multiple of pi, relatively, means that multiple: no float but 0 is one itself
+LEVEL = 2.3e-16
 
 UNTIL_CODES = {None: at.NOTHING, "pulse": at.FIRST_PULSE, "rest": at.REST}
 _REASONS = {
@@ -82,7 +83,7 @@ def release_state(scene: Scene) -> list[float]:
     turns = float(floor(release.phi0 / (2 * pi) + 0.5))
     a = (release.phi0 - turns * (2 * pi)) - turns * (2 * PI_LOW)
     a, top, whole = chart(a, 1.0, turns)
-    if top == 0.0 and abs(a) <= BOTTOM * max(1.0, abs(release.phi0)):
+    if a != release.phi0 and abs(a) <= LEVEL * max(1.0, abs(release.phi0)):
         a = 0.0
     state[at.ANGLE], state[at.TOP], state[at.WHOLE] = a, top, whole
     state[at.OMEGA] = float(release.omega0 * scene.time_unit)

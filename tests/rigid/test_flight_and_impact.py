@@ -16,8 +16,6 @@ from rigid.layout import ANGLE, OMEGA, SLIP, STATE, TOP, UN
 from rigid.pulse import energy
 from rigid.solve import parameters
 
-HOP = Scene(Hoop(0.3), Friction(0.5, 0.4), Release(radians(200), 3.5), Run(turns=2))
-
 
 @pytest.mark.parametrize("phi0", [0.3, 1.0, 2.0, 3.0])
 @pytest.mark.parametrize("k", [0.02, 0.2, 0.6])
@@ -28,25 +26,31 @@ def test_no_hop_from_rest(k, phi0):
         assert all(phase.kind != Kind.FLIGHT for phase in motion.phases)
 
 
-def test_lift_off_lies_in_the_last_quadrant():
-    """Rotating clockwise, e c phidot^2 reaches 1 from below only where c > 0 rises: 270 to 360 degrees; N = 0 there."""
-    seen = 0
-    for omega in np.linspace(2, 5, 13):
-        motion = simulate(HOP.replace(release=Release(radians(200), float(omega))))
-        for before, phase in zip(motion.phases, motion.phases[1:], strict=False):
-            if phase.kind == Kind.FLIGHT and before.kind in (Kind.SKID, Kind.SPIN):
-                seen += 1
-                assert 1.5 * pi < phase.phi_start % (2 * pi) < 2 * pi
-                t = phase.t_start - 1e-9
-                state = motion.at(phase.t_start)
-                assert motion.at(t).normal_force == pytest.approx(0, abs=1e-7)
-                assert motion.scene.hoop.e * cos(state.phi) * state.omega**2 == pytest.approx(1, abs=1e-12)
-    assert seen >= 3
+def lifting(omega):
+    """Spun up at release, the hoop slips round once and hops."""
+    scene = Scene(Hoop(0.1), Friction(0.48, 0.4), Release(radians(30), omega), Run(turns=2))
+    motion = simulate(scene)
+    index = next(
+        i for i, p in enumerate(motion.phases) if i and p.kind == Kind.FLIGHT and motion.phases[i - 1].kind == Kind.SPIN
+    )
+    return motion, motion.phases[index]
+
+
+@pytest.mark.parametrize("omega", [1.0, 1.5, 2.0])
+def test_lift_off_lies_in_the_last_quadrant(omega):
+    """Rotating clockwise, e c phidot^2 rises through 1 between 270 and 360 degrees only; N falls to 0 there."""
+    motion, flight = lifting(omega)
+    state = motion.at(flight.t_start)
+    assert state.omega > 0
+    assert 1.5 * pi < flight.phi_start % (2 * pi) < 2 * pi
+    assert motion.scene.hoop.e * cos(state.phi) * state.omega**2 == pytest.approx(1, abs=1e-12)
+    # N is linear in time on its way to zero
+    before = motion.at(flight.t_start - np.array([1e-6, 2e-6])).normal_force
+    assert before[1] / before[0] == pytest.approx(2, abs=1e-4)
 
 
 def test_flight_is_a_parabola_with_constant_rotation():
-    motion = simulate(HOP.replace(release=Release(radians(200), 4.5)))
-    flight = next(phase for phase in motion.phases if phase.kind == Kind.FLIGHT)
+    motion, flight = lifting(1.5)
     t = np.linspace(flight.t_start, flight.t_end, 9)[1:-1]
     states = motion.at(t)
     e = motion.scene.hoop.e
@@ -56,6 +60,8 @@ def test_flight_is_a_parabola_with_constant_rotation():
     assert np.ptp(states.omega) < 1e-14
     assert np.ptp(states.energy) < 1e-13
     assert (states.y_C > 1).all()
+    after = motion.phases[motion.phases.index(flight) + 1]
+    assert after.kind == Kind.IMPACT
 
 
 @pytest.mark.parametrize("omega", [0.5, 3.0, 40.0, 3e3])
@@ -67,7 +73,8 @@ def test_touch_down_is_the_first(omega):
     grid = np.linspace(0, time, 20001)[1:-1]
     heights = [height(e, 0.0, un, omega, sin(phi), cos(phi), t)[0] for t in grid]
     assert min(heights) > -1e-9
-    assert height(e, 0.0, un, omega, sin(phi), cos(phi), time)[0] == pytest.approx(0, abs=1e-12)
+    # the rim moves by omega times the round-off of the time
+    assert height(e, 0.0, un, omega, sin(phi), cos(phi), time)[0] == pytest.approx(0, abs=1e-14 + 2e-16 * omega * time)
 
 
 def at_landing(phi, omega, slip, un):
@@ -132,7 +139,9 @@ def test_no_landing_makes_energy():
         hoop = Hoop(float(10 ** rng.uniform(-4, -0.05)), float(rng.uniform(1, 2)), float(rng.choice([0, 0.01, 1])))
         mu = float(rng.uniform(0, 3))
         par = parameters(Scene(hoop, Friction(mu * float(rng.uniform(1, 3)), mu), Release(1.0)))
-        state = at_landing(float(rng.uniform(0, 2 * pi)), float(rng.normal()), float(rng.normal()), -float(rng.exponential()))
+        state = at_landing(
+            float(rng.uniform(0, 2 * pi)), float(rng.normal()), float(rng.normal()), -float(rng.exponential())
+        )
         before = energy(par, state)
         strike(par, state, float(rng.uniform()))
         assert energy(par, state) <= before * (1 + 1e-12)

@@ -98,9 +98,7 @@ def test_slip_against_its_closed_form(k):
 
         def log_e(x):
             u = mp.tan(x / 2)
-            return (
-                mu * e * mp.re(mp.fsum(a * mp.log(u - root) for a, root in zip(weights, roots, strict=True)))
-            )
+            return mu * e * mp.re(mp.fsum(a * mp.log(u - root) for a, root in zip(weights, roots, strict=True)))
 
         start, end = mp.mpf(spin.phi_start), mp.mpf(spin.phi_end)
         # stay below phi = pi, where u is infinite: compare where the sweep is still short of the bottom

@@ -123,7 +123,9 @@ def test_interpreted_and_compiled_agree(monkeypatch):
     monkeypatch.setattr(solve, "_interpreted_steps", solve.PATIENCE)
     fast = simulate(SCENE)
     assert [t.t for t in fast.turns] == pytest.approx([t.t for t in slow.turns], rel=1e-13)
-    assert [p.friction_impulse for p in fast.pulses] == pytest.approx([p.friction_impulse for p in slow.pulses], rel=1e-11)
+    assert [p.friction_impulse for p in fast.pulses] == pytest.approx(
+        [p.friction_impulse for p in slow.pulses], rel=1e-11
+    )
     batch = simulate_batch([SCENE, SCENE], turns=6)
     assert list(batch.turn_phi[1]) == [t.phi for t in fast.turns]
     assert np.array_equal(batch.friction_impulse[0], [p.friction_impulse for p in fast.pulses[:2]])

@@ -1,0 +1,179 @@
+"""Thresholds, ties, the point mass, and every way for a motion to end."""
+
+from __future__ import annotations
+
+from math import acosh, asin, atan, cosh, inf, pi, radians, sin, sqrt, tan
+
+import numpy as np
+import pytest
+
+from rigid import (
+    Friction,
+    Hoop,
+    Kind,
+    Release,
+    Run,
+    Scene,
+    SceneError,
+    load_scene,
+    simulate,
+    simulate_batch,
+)  # fmt: skip
+from rigid.thresholds import inception_mu_s, rolling_k, rolling_mu_s
+
+RELEASE = Release(radians(10))
+
+
+def kinds(motion):
+    return [phase.kind for phase in motion.phases]
+
+
+def test_smallest_disk_that_rolls_throughout():
+    """Section 3.2: k = 0.5385 for mu_s = 0.35; just below it slips, just above it never does."""
+    k = rolling_k(0.35, RELEASE)
+    assert k == pytest.approx(0.5385, abs=1e-4)
+    assert kinds(simulate(Scene(Hoop(k * (1 + 1e-10)), Friction(0.35, 0.3), RELEASE))) == [Kind.ROLL]
+    assert len(kinds(simulate(Scene(Hoop(k * (1 - 1e-10)), Friction(0.35, 0.3), RELEASE)))) > 1
+
+
+def test_smallest_friction_that_rolls_throughout():
+    """Section 3.4: mu_s = 0.78 for k = 0.1, r = 1.02, m_h/m = 0.1."""
+    hoop = load_scene("paper-3.4-rough").hoop
+    mu_s = rolling_mu_s(hoop, RELEASE)
+    assert mu_s == pytest.approx(0.78, abs=0.01)
+    assert kinds(simulate(Scene(hoop, Friction(mu_s * (1 + 1e-10), 0.3), RELEASE))) == [Kind.ROLL]
+    assert len(kinds(simulate(Scene(hoop, Friction(mu_s * (1 - 1e-10), 0.3), RELEASE)))) > 1
+
+
+def test_no_friction_rolls_where_n_would_vanish():
+    """A tiny disk on a massless hoop cannot roll through: N of rolling falls below 0."""
+    assert rolling_mu_s(Hoop(1e-3), RELEASE) == inf
+
+
+@pytest.mark.parametrize("phi0", [0.2, 1.0, 2.5])
+def test_inception(phi0):
+    """(9): above mu_s of inception a release at rest starts rolling, below it slipping."""
+    hoop = Hoop(0.1, 1.02, 0.1)
+    mu_s = inception_mu_s(hoop, phi0)
+    for factor, kind in ((1 - 1e-9, Kind.SPIN), (1 + 1e-9, Kind.ROLL)):
+        motion = simulate(Scene(hoop, Friction(mu_s * factor, 0.5 * mu_s), Release(phi0), Run(t_end=1e-3)))
+        assert motion.phases[0].kind == kind
+
+
+def test_equal_coefficients():
+    """mu_s = mu: the slip starts without acceleration, and is the limit of mu_s -> mu."""
+    equal = simulate(Scene(Hoop(0.1), Friction(0.3, 0.3), RELEASE, Run(turns=2)))
+    near = simulate(Scene(Hoop(0.1), Friction(0.3 * (1 + 1e-9), 0.3), RELEASE, Run(turns=2)))
+    assert kinds(equal) == kinds(near)
+    assert equal.turns[1].phi == pytest.approx(near.turns[1].phi, abs=1e-7)
+
+
+@pytest.mark.parametrize("phi0", [0.0, pi, -pi, 3 * pi, 2 * pi])
+def test_at_rest_on_top_or_bottom(phi0):
+    for friction in (Friction(0.3, 0.3), Friction(0, 0)):
+        motion = simulate(Scene(Hoop(0.1), friction, Release(phi0), Run(until="rest")))
+        assert motion.ended.startswith("rests")
+        assert motion.at(0.0).omega == 0
+
+
+def test_released_at_the_bottom():
+    """A release at phi = pi exactly is no sweep past the floor: the first pulse is that of the next crossing."""
+    motion = simulate(Scene(Hoop(0.3), Friction(0.5, 0.4), Release(pi, 0.5), Run(until="pulse")))
+    assert len(motion.pulses) == 1
+    assert motion.pulses[0].t_start > 0
+
+
+def test_smooth_floor():
+    """mu = 0: x of G is never pushed, energy is kept, and a run to rest says that it slides for ever."""
+    motion = simulate(load_scene("paper-3.4-frictionless").replace(run={"until": "rest"}))
+    assert motion.ended.startswith("slides for ever")
+    states = motion.at(np.linspace(0, motion.t_end, 50))
+    x = states.x_C + motion.scene.hoop.e * np.sin(states.phi)
+    # hundreds of swings, each adding its round-off
+    assert np.ptp(x) < 1e-11
+    assert np.ptp(states.energy) < 1e-11
+
+
+def test_slide_at_a_steady_tilt():
+    """Skidding with P = 0, e sin phi = -mu (1 + e cos phi), phi stays: the slip decays like v0 - mu t."""
+    hoop, mu, v0 = Hoop(0.4), 0.2, 1.3
+    # tan(x/2) from e sin x + mu e cos x = -mu
+    e = hoop.e
+    phi = pi + asin(mu / (e * sqrt(1 + mu * mu))) - atan(mu)
+    motion = simulate(Scene(hoop, Friction(0.4, mu), Release(phi, 0.0, v0), Run(t_end=1.5 * v0 / mu)))
+    assert motion.phases[0].kind == Kind.SKID
+    assert motion.phases[0].t_end == pytest.approx(v0 / mu, rel=1e-9)
+    assert motion.phases[0].phi_end == pytest.approx(phi, abs=1e-9)
+
+
+def test_point_mass_law():
+    """k = 0: sin(phi/2) = sin(phi0/2) cosh(t/2), N = 2 cos^2(phi/2) - cos^2(phi0/2), until tan(phi/2) = mu_s."""
+    motion = simulate(load_scene("paper-point-mass"))
+    roll = motion.phases[0]
+    assert kinds(motion) == [Kind.ROLL, Kind.SKIM]
+    assert roll.phi_end == pytest.approx(2 * atan(0.35), rel=1e-14)
+    s0 = sin(radians(5))
+    assert roll.t_end == pytest.approx(2 * acosh(sin(roll.phi_end / 2) / s0), rel=1e-13)
+    states = motion.at(np.linspace(0, roll.t_end, 7)[:-1])
+    assert states.phi == pytest.approx([2 * asin(s0 * cosh(t / 2)) for t in states.t], rel=1e-13)
+    assert states.normal_force == pytest.approx(2 * np.cos(states.phi / 2) ** 2 - 1 + s0**2, abs=1e-13)
+    assert states.friction_force == pytest.approx(states.normal_force * np.tan(states.phi / 2), abs=1e-13)
+    assert motion.ended == "the point mass hits the floor"
+
+
+def test_point_mass_skims_below_inception():
+    """Below mu_s = tan(phi0/2) the hoop skims: N = F = 0 and the mass falls freely from 1 + cos phi0 to the floor."""
+    phi0 = 1.0
+    motion = simulate(Scene(Hoop(0.0), Friction(tan(0.5) * (1 - 1e-9), 0.1), Release(phi0)))
+    assert kinds(motion) == [Kind.SKIM]
+    assert motion.t_end == pytest.approx(sqrt(2 * (1 + np.cos(phi0))), rel=1e-14)
+    states = motion.at(np.linspace(0, motion.t_end, 9)[:-1])
+    assert np.ptp(states.x_C + np.sin(states.phi)) < 1e-14
+    assert 1 + np.cos(states.phi) == pytest.approx(1 + np.cos(phi0) - states.t**2 / 2, abs=1e-14)
+    assert not states.normal_force.any()
+
+
+def test_runs_to_rest():
+    """A lossy scene runs through all its cycles to a rolling that never slips, and says its period."""
+    motion = simulate(load_scene("paper-3.1").replace(run={"until": "rest"}))
+    assert motion.ended.startswith(("rolls for ever", "all but rolls"))
+    if motion.period is not None:
+        last = motion.phases[-1]
+        assert last.kind == Kind.ROLL
+        assert last.t_end - last.t_start == pytest.approx(motion.period, rel=1e-9)
+        assert motion.at(last.t_end).phi == pytest.approx(float(motion.at(last.t_start).phi), abs=1e-9)
+
+
+def test_until_the_first_pulse():
+    whole, first = simulate(load_scene("paper-3.1")), simulate(load_scene("paper-3.1").replace(run={"until": "pulse"}))
+    assert first.pulses == whole.pulses[:1]
+    assert first.t_end == first.pulses[0].t_end
+    assert first.at(first.t_end).normal_force == pytest.approx(1, abs=1e-10)
+
+
+def test_until_a_time():
+    for t_end in (0.3, 4.5, 5.745, 6.5, 100.0):
+        motion = simulate(load_scene("paper-3.1").replace(run={"t_end": t_end}))
+        assert motion.t_end == t_end
+
+
+def test_rotation_without_turns():
+    """Rolling over the top in every revolution: the energy is kept, and no run waits for a turn that never comes."""
+    motion = simulate(Scene(Hoop(0.9, 1.0, 5.0), Friction(3, 2), Release(1.0, 2.0), Run(turns=2)))
+    assert "over the top" in motion.ended
+    turned = motion.at(motion.t_end).phi - motion.at(0.0).phi
+    assert turned == pytest.approx(2 * pi, abs=1e-11)
+
+
+def test_batch_is_many_single_motions():
+    ks = np.array([0.05, 0.1, 0.2, 0.7])
+    batch = simulate_batch({"k": ks, "mu_s": 0.35, "mu": 0.3, "phi0": RELEASE.phi0}, turns=2)
+    for i, k in enumerate(ks):
+        motion = simulate(Scene(Hoop(float(k)), Friction(0.35, 0.3), RELEASE, Run(turns=2)))
+        assert batch.turn_phi[i] == pytest.approx([turn.phi for turn in motion.turns], rel=1e-12)
+        assert batch.impulse_ratio[i] == pytest.approx([p.impulse_ratio for p in motion.pulses], abs=1e-11)
+        assert batch.turn_count[i] == 2
+    with pytest.raises(SceneError, match=r"scene 2 of the batch: hoop\.k"):
+        simulate_batch({"k": [0.1, 0.2, 1.5], "mu_s": 0.35, "mu": 0.3, "phi0": 0.1})
+    with pytest.raises(SceneError, match="phi0 is missing"):
+        simulate_batch({"k": 0.1, "mu_s": 0.35, "mu": 0.3})
