@@ -166,16 +166,22 @@ def _times(motion: FlexibleMotion, frames: int, times: ArrayLike | None, pulse: 
     if pulse is not None and motion.pulses:
         if not 0 <= pulse < len(motion.pulses):
             raise SeriesError(f"pulse = {pulse!r} is not possible: the motion has {len(motion.pulses)}.")
-        start, end = _around(motion.pulses[pulse], end)
+        start, end = _around(motion, motion.pulses[pulse])
     history = motion.history
     if history is None or not len(history.t):
         return frame_times(start, end, frames)
     return frame_times(start, end, frames, history.t, history.normal_force)
 
 
-def _around(pulse: Pulse, end: float) -> tuple[float, float]:
-    margin = _AROUND * (pulse.t_end - pulse.t_start)
-    return max(0.0, pulse.t_start - margin), min(end, pulse.t_end + margin)
+def _around(motion: FlexibleMotion, pulse: Pulse) -> tuple[float, float]:
+    """From a little before a pulse to a little after it, as far as the hoop is flexible there."""
+    margin, unit = _AROUND * (pulse.t_end - pulse.t_start), motion.scene.time_unit
+    start, end = max(0.0, pulse.t_start - margin), min(motion.t_end, pulse.t_end + margin)
+    for kept in motion.kept:
+        first, last = kept.states[0].t * unit, kept.states[-1].t * unit
+        if first <= (pulse.t_start + pulse.t_end) / 2 <= last:
+            start, end = max(start, first), min(end, last)
+    return start, end
 
 
 def _instant(motion: FlexibleMotion, t: float, told: float) -> _Instant:

@@ -77,7 +77,8 @@ class Sheet:
         if drawn:
             self._curves(below, em)
         self._over: list[tuple[tuple[slice, slice], Image, Any]] = []
-        self._aside = 0  # pixels at the left of the stage that the patch covers
+        #: pixels at the left of the stage that the patch covers
+        self.aside = 0
         self._plot: PatchPlot | None = None
         if shots:
             self._patch(shots, em)
@@ -101,7 +102,7 @@ class Sheet:
         foot = top + int(height * ABOVE_FLOOR) - 4
         page = np.asarray(self.canvas.buffer_rgba())
         self._over = []
-        for columns in (slice(width - self.covered, width), slice(0, self._aside)):
+        for columns in (slice(width - self.covered, width), slice(0, self.aside)):
             box = (slice(top, foot), columns)
             drawn = np.array(page[box])
             self._over.append((box, drawn, np.any(drawn[..., :3] < 255, axis=2)))
@@ -123,7 +124,7 @@ class Sheet:
         self._phase.set_bbox({"facecolor": band, "edgecolor": "none", "pad": 0.25 * self.type})
         how = "" if self.curves.usual is None else " (log)"
         self._force.set_text("" if not shot.normal_force else f"↑ contact force{how}")
-        self._slip.set_text("" if not shot.slip_velocity else "→ slip velocity")
+        self._slip.set_text("" if kind == "roll" or not shot.slip_velocity else "→ slip velocity")
         rigid = "displacement" not in shot.ring.point_data
         self._factor.set_text("" if rigid else f"deformation × {factor:g}")
         self._lens.set_text("" if lens is None else lens[2])
@@ -189,7 +190,7 @@ class Sheet:
             axes = self._axes(3.2 * em, top + foot - high, wide, high)
             self._plot = PatchPlot(axes, list(shots), self.units, self.type)
             self._moving += self._plot.moving
-            self._aside = round(3.2 * em + wide + em)
+            self.aside = round(3.2 * em + wide + em)
 
     def _colour_bar(self, colours: Colours, em: float) -> float:
         """Draw it; how wide its name is, in pixels."""

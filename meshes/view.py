@@ -30,7 +30,7 @@ from .renderer import ViewError, require_renderer, require_screen
 from .scales import field_names, limits, sampled, scale_of, tidy_factor
 from .series import Series
 from .sheet import Sheet
-from .stage import ABOVE_FLOOR, VIEW_HEIGHT, Colours, Stage
+from .stage import ABOVE_FLOOR, Colours, Stage
 from .subject import Shot, Subject, subject_of
 from .times import frame_times
 
@@ -97,28 +97,22 @@ class Camera:
         require_renderer()
         self.setting, self.oversampling = chosen, oversampling
         subject = chosen.subject
+        patches: tuple[Shot, ...] = chosen.patches if chosen.zoom == 1 else ()
         self.sheet = Sheet(
-            size, subject.curves, subject.span, chosen.colours, subject.units, subject.title, self._patches(size)
+            size, subject.curves, subject.span, chosen.colours, subject.units, subject.title, patches
         )
         _, _, width, height = self.sheet.stage_box
         pixels = (self.oversampling * width, self.oversampling * height)
         self.stage = Stage(chosen.first, pixels, chosen.zoom, chosen.colours, chosen.largest)
         self.height = self.stage.height
-        # where the hoop may be: left of the colour bar
-        self.width = self.height * (width - self.sheet.covered) / height
-        self.aside = self.height * self.sheet.covered / height / 2
+        # where the hoop may be: left of the colour bar, right of the patch
+        right, left = self.sheet.covered, self.sheet.aside
+        self.width = self.height * (width - right - left) / height
+        self.aside = self.height * (right - left) / height / 2
         self.scale = height / self.height
         self.lens = None
         if chosen.colours is not None and chosen.zoom == 1 and enlargement(chosen.first) >= 2:
             self.lens = Lens(chosen.first, self.scale, chosen.colours, chosen.lens_factor)
-
-    def _patches(self, size: tuple[int, int]) -> tuple[Shot, ...]:
-        """Shots of the contact patch, if the hoop leaves room for its plot."""
-        chosen = self.setting
-        left, right = chosen.reach
-        free = size[0] / size[1] * VIEW_HEIGHT / 0.65 * chosen.first.radius  # width of the stage, roughly
-        fits = chosen.zoom == 1 and right - left <= 0.9 * free
-        return chosen.patches if fits else ()
 
     def __enter__(self) -> Camera:
         return self
@@ -147,6 +141,8 @@ class Camera:
     def _middle(self, shot: Shot) -> float:
         """The view stands still if the whole run fits in it, or else goes with the hoop."""
         left, right = self.setting.reach
+        if self.sheet.aside:  # nothing of the legend is in the way
+            left += 0.5 * self.setting.first.radius
         if self.setting.zoom > 1:
             return float(shot.centre[0]) + self.aside
         if right - left <= self.width:
