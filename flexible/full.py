@@ -29,8 +29,9 @@ from .contact import ELASTIC, EPS_N, EPS_T, HIGH, LENGTH, LOW, NORMAL, OUTSIDE, 
 from .frame import DISK_INERTIA, OFFSET, RING_INERTIA, RING_MASS
 from .march import State
 from .reduction import body_constants
-from .touch import POINTS, RimContact
+from .rest import RestingNodes
 from .ring import Ring, membrane_stiffness, ring_of
+from .touch import POINTS, RimContact
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -259,6 +260,12 @@ class FullHoop(RimContact):
     def coordinates(self) -> int:
         """Number of coordinates of the ring in ``State.pos``."""
         return self.ring.size
+
+    def resting(self, omega: float, alpha: float, a1: float, a2: float) -> RestingNodes:
+        """The ring at rest in a frame with these rates and this acceleration of C, gravity included."""
+        ring = self.ring
+        load = a1 * ring.along[0] + a2 * ring.along[1] + alpha * ring.rotation - omega**2 * ring.stretching
+        return RestingNodes(ring, ring.gyro * alpha - ring.mass * omega**2, load)
 
     def nodes(self, state: State) -> Array:
         """Displacement (y1, y2) of every node of the mesh, (n_nodes, 2)."""

@@ -13,6 +13,7 @@ from .contact import HIGH, LOW, NORMAL
 from .frame import energies
 from .march import State
 from .reduction import ReducedRing, reduce
+from .rest import RestingModes
 from .step import filtered_error, solve_stage
 from .touch import POINTS, RimContact
 
@@ -39,6 +40,12 @@ class ReducedHoop(RimContact):
             shapes, compliance = self.ring.window(*key)
             self._blocks[key] = (np.ascontiguousarray(shapes), np.ascontiguousarray(compliance))
         return self._blocks[key]
+
+    def resting(self, omega: float, alpha: float, a1: float, a2: float) -> RestingModes:
+        """The ring at rest in a frame with these rates and this acceleration of C, gravity included."""
+        square, l1, l2, rotation, stretching = self.ring.modal.T
+        dynamic = np.diag(square - omega**2) + alpha * self.ring.gyro
+        return RestingModes(dynamic, a1 * l1 + a2 * l2 + alpha * rotation - omega**2 * stretching, self._arrays)
 
     def displacement(self, state: State, window: tuple[int, int]) -> Array:
         """Displacement of the nodes of another window at a known state."""

@@ -20,20 +20,18 @@ from .contact import (
     FRICTION,
     HIGH,
     LOW,
-    MU,
-    NORMAL,
     RESULTANTS,
-    SLIDE_RIGHT,
     SPACING,
     STICK,
-    UNDAMPED,
-    contact_forces,
 )
 from .frame import OFFSET
-from .march import State, restart
+from .full import FullHoop
+from .march import MarchError, State, restart
 from .reduced import ReducedHoop
+from .rest import Patch, settle
 
 Array = NDArray[np.float64]
+Hoop = ReducedHoop | FullHoop
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +45,7 @@ class Pose:
     friction_force: float
     rolls: bool
 
-    def accelerations(self, hoop: ReducedHoop) -> tuple[float, float]:
+    def accelerations(self, hoop: Hoop) -> tuple[float, float]:
         """Horizontal acceleration of C and angular acceleration, from the balance of the rigid hoop."""
         rigid = hoop.scene.hoop
         mass = 1 + rigid.mass_ratio
@@ -71,72 +69,41 @@ def pose_at(motion: Motion, t: float) -> Pose:
     )
 
 
-def equilibrium(hoop: ReducedHoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> State:
-    """The ring and the patch at rest in the disk's frame under the forces of a rigid pose."""
-    ring = hoop.ring
-    n = len(ring.modal)
+def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> State:
+    """The ring and the patch at rest in the disk's frame under the forces of a rigid pose.
+
+    Raises
+    ------
+    MarchError
+        No equilibrium was found: the ring is too soft to carry these forces.
+    """
     s, c = sin(pose.phi), cos(pose.phi)
     a_x, angular = pose.accelerations(hoop)
-    square, l1, l2, rotation, stretching = ring.modal.T
-    rest = (a_x * s + c) * l1 + (a_x * c - s) * l2 + angular * rotation - pose.omega**2 * stretching
-    dynamic = np.diag(square - pose.omega**2) + angular * ring.gyro
-    empty, flags = np.empty((0, 2)), np.empty(0, np.int8)
-    normal = pose.normal_force
-    if normal <= 0:
-        q = np.linalg.solve(dynamic, -rest)
+    ring = hoop.resting(pose.omega, angular, a_x * s + c, a_x * c - s)
+    zero = np.zeros(3 + hoop.coordinates)
+    if pose.normal_force <= 0:
         window = hoop.window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
-        u = (hoop._arrays(window)[0] @ q).reshape(-1, 2)
+        ring.linearise(1.0)
+        ring.move(window, np.zeros(2 * (2 * window[1] + 1)))
+        u = ring.response(window)[0].reshape(-1, 2)
         # just clear of the floor
         height = -min(0.0, float((u[:, 0] * c - u[:, 1] * s).min()))
-        pos = np.concatenate([[0.0, height, pose.phi], q])
-        zero = np.zeros(3 + n)
-        nothing = (np.zeros_like(u), np.zeros(RESULTANTS))
-        return State(t, x_C, pos, zero, zero, STICK, window, u, *nothing, empty, flags, pose.slip_velocity)
-    law = hoop.law.copy()
-    law[MU] = pose.friction_force / normal  # shares any F over the patch like the pressure
-    half = (1.5 * normal / law[1]) ** (1 / 3)
-    q, height = np.zeros(n), -(half**2) / 2
-    u = np.zeros((0, 2))
-    for _ in range(60):
-        window = hoop.window(pose.phi, -half, half, half + 0.2 * hoop.element)
-        shapes, compliance = hoop._arrays(window)
-        if len(u) != 2 * window[1] + 1:
-            u = np.zeros((2 * window[1] + 1, 2))
-        old = np.array([0.0, height, pose.phi])
-        force, nodal, tangent, res, bristles, new_flags = contact_forces(
-            old, u, window[0], ring.vertex, law, SLIDE_RIGHT, old, u, empty, flags, UNDAMPED
+        pos = np.concatenate([[0.0, height, pose.phi], ring.coordinates])
+        nothing = (np.zeros_like(u), np.zeros(RESULTANTS), np.empty((0, 2)), np.empty(0, np.int8))
+        return State(t, x_C, pos, zero, zero, STICK, window, u, *nothing, pose.slip_velocity)
+    patch = Patch(hoop, pose.phi, pose.normal_force, pose.friction_force)
+    if not settle(ring, patch):
+        raise MarchError(
+            f"no start at phi = {pose.phi:.6g}: no equilibrium of the ring under N = {pose.normal_force:.4g} was found."
         )
-        flat = nodal.ravel()
-        residual = np.concatenate(
-            [[res[NORMAL] - normal], dynamic @ q + rest - shapes.T @ flat, u.ravel() - shapes @ q - compliance @ flat]
-        )
-        scale = 1 + abs(tangent[1, 1])
-        error = max(
-            abs(residual[0]), np.abs(residual[1 : n + 1]).max(initial=0.0), scale * np.abs(residual[n + 1 :]).max()
-        )
-        if error < 1e-10 * (1 + normal) + 1e-15 * scale * abs(height):
-            break
-        if res[NORMAL] == 0:
-            height -= half**2 / 2 + float(np.maximum(height + u[:, 0] * c - u[:, 1] * s, 0).min())
-            continue
-        t_uu, t_uh = tangent[3:, 3:], tangent[3:, 1]
-        matrix = np.block(
-            [
-                [tangent[1:2, 1:2], np.zeros((1, n)), tangent[1:2, 3:]],
-                [-(shapes.T @ t_uh)[:, None], dynamic, -shapes.T @ t_uu],
-                [-(compliance @ t_uh)[:, None], -shapes, np.eye(len(flat)) - compliance @ t_uu],
-            ]
-        )
-        update = np.linalg.solve(matrix, residual)
-        height -= update[0]
-        q = q - update[1 : n + 1]
-        u = u - update[n + 1 :].reshape(-1, 2)
-    pos = np.concatenate([[0.0, height, pose.phi], q])
-    zero = np.zeros(3 + n)
-    return State(t, x_C, pos, zero, zero, STICK, window, u, nodal, res, bristles, new_flags, pose.slip_velocity)
+    pos = np.concatenate([[0.0, patch.height, pose.phi], ring.coordinates])
+    return State(
+        t, x_C, pos, zero, zero, STICK, patch.window, patch.u, patch.nodal, patch.res, patch.bristles, patch.flags,
+        pose.slip_velocity,
+    )  # fmt: skip
 
 
-def undeformed(hoop: ReducedHoop, pose: Pose, mode: int) -> State:
+def undeformed(hoop: Hoop, pose: Pose, mode: int) -> State:
     """The unstrained ring touching the floor with one point, moving as the rigid hoop does."""
     n = hoop.coordinates
     window = hoop.window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
@@ -152,7 +119,7 @@ def undeformed(hoop: ReducedHoop, pose: Pose, mode: int) -> State:
     return restart(hoop, state, mode)
 
 
-def hand_over(hoop: ReducedHoop, motion: Motion, t: float, law: str) -> State:
+def hand_over(hoop: Hoop, motion: Motion, t: float, law: str) -> State:
     """The flexible hoop at time ``t`` of a rigid motion, with the rates of the equilibria around it."""
     scene = motion.scene
     pose = pose_at(motion, t)
@@ -174,7 +141,7 @@ def hand_over(hoop: ReducedHoop, motion: Motion, t: float, law: str) -> State:
         u_rate = (_abscissa(hoop, late, state) - _abscissa(hoop, early, state)) / elapsed
     rolls = pose.rolls
     res = state.res
-    normal, friction = res[NORMAL], res[FRICTION]
+    friction = res[FRICTION]
     bristles = state.bristles
     creep = 0.0
     mode = BRUSH if law == "brush" else (STICK if rolls else int(np.sign(friction)) or STICK)
@@ -190,7 +157,6 @@ def hand_over(hoop: ReducedHoop, motion: Motion, t: float, law: str) -> State:
             bristles[:, 1] = -friction * way / (eps_t * length**2 / 2)
             creep = -friction * abs(pose.omega) / (eps_t * length**2 / 2)
     vel[0] = pose.slip_velocity + creep - u_rate
-    del normal
     flags = np.zeros(len(bristles), np.int8)
     if law == "brush" and not rolls:
         flags[:] = 1 if friction > 0 else -1
@@ -201,7 +167,7 @@ def hand_over(hoop: ReducedHoop, motion: Motion, t: float, law: str) -> State:
     return restart(hoop, state, mode)
 
 
-def _abscissa(hoop: ReducedHoop, state: State, reference: State) -> float:
+def _abscissa(hoop: Hoop, state: State, reference: State) -> float:
     """Mean u_X at ``state`` of the rim nodes under load at ``reference``, weighted by that load."""
     u = hoop.displacement(state, reference.window)
     s, c = sin(reference.pos[2]), cos(reference.pos[2])

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rigid import Scene
 
-from .contact import EPS_T, LENGTH, element_at
+from .contact import EPS_T, LENGTH, element_at, vertex_angle
 from .march import State
 
 Array = NDArray[np.float64]
@@ -65,3 +65,7 @@ class RimContact:
         first = element_at(self.vertex, theta + low - margin)
         last = element_at(self.vertex, theta + high + margin)
         return first, last - first + 1
+
+    def rim_angle(self, nodes: NDArray[np.int64]) -> Array:
+        """Angles of rim nodes, counted round and round from the first element's first."""
+        return np.array([(vertex_angle(self.vertex, n // 2) + vertex_angle(self.vertex, (n + 1) // 2)) / 2 for n in nodes])
