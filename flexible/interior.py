@@ -26,25 +26,27 @@ from .exact import ExactHoop
 from .full import FullHoop
 from .march import State
 from .reduced import ReducedHoop
+from .reduction import ReducedRing
+from .ring import Ring
 
 Array = NDArray[np.float64]
 
 
 class Interior:
-    """Fields of a hoop's ring at its nodes, linear elasticity.
+    """Fields of a ring at its nodes, linear elasticity; states hold the displacement of its free dofs.
 
     Parameters
     ----------
-    hoop : ReducedHoop or FullHoop
-        The model that marched.
+    ring : Ring
+    young : float
+        E b in m g/R, which is also E of a ring of width R.
+    mass : float
+        Of the ring over that of the disk.
     """
 
-    def __init__(self, hoop: ReducedHoop | FullHoop) -> None:
-        self.ring = hoop.ring.ring
-        self.mesh = self.ring.mesh
-        self.mass = hoop.scene.hoop.mass_ratio
-        #: E b, which is also E for a ring of width R
-        self.young = hoop.ring.stiffness
+    def __init__(self, ring: Ring, young: float, mass: float) -> None:
+        self.ring, self.mesh = ring, ring.mesh
+        self.young, self.mass = young, mass
 
     def free(self, states: Sequence[State]) -> Array:
         """Displacement of the free dofs, (n_free, n_states)."""
@@ -124,9 +126,9 @@ class Interior:
 class ReducedInterior(Interior):
     """The same of the reduced hoop, whose ring is known by modes and by the forces on the rim."""
 
-    def __init__(self, hoop: ReducedHoop) -> None:
-        super().__init__(hoop)
-        self.reduced = hoop.ring
+    def __init__(self, reduced: ReducedRing, mass: float) -> None:
+        super().__init__(reduced.ring, reduced.stiffness, mass)
+        self.reduced = reduced
 
     @cached_property
     def _modes(self) -> tuple[Array, Array]:
@@ -176,9 +178,11 @@ class ExactInterior(Interior):
 
 def interior_of(hoop: ReducedHoop | FullHoop) -> Interior:
     """The interior of a hoop of any level."""
+    mass = hoop.scene.hoop.mass_ratio
     if isinstance(hoop, ReducedHoop):
-        return ReducedInterior(hoop)
-    return ExactInterior(hoop) if isinstance(hoop, ExactHoop) else Interior(hoop)
+        return ReducedInterior(hoop.ring, mass)
+    kind = ExactInterior if isinstance(hoop, ExactHoop) else Interior
+    return kind(hoop.ring.ring, hoop.ring.stiffness, mass)
 
 
 def _gradient(by_y1: sp.csr_matrix, by_y2: sp.csr_matrix, u: Array) -> Array:
