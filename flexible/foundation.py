@@ -1,0 +1,87 @@
+"""The normal foundation: a Winkler energy over the gap, linear between points, and its exact derivatives.
+
+The energy is eps_n/2 times the integral of the squared gap where it is negative; the edge of the patch is where the
+line between two points crosses zero. Forces are the energy's gradient, so that the contact conserves it.
+"""
+
+from __future__ import annotations
+
+from collections import namedtuple
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+Foundation = namedtuple(
+    "Foundation",
+    [
+        "force",  # normal force of each point
+        "diagonal",  # second derivative of the energy by the point's own gap
+        "coupling",  # by its gap and that of the next point
+        "energy",
+        "length",  # of the patch
+    ],
+)
+
+
+@njit(cache=True)
+def _cell(ga: float, gb: float, unit: float, out: Any) -> None:
+    """Energy of one cell with gap from ``ga`` to ``gb``, its gradient and second derivatives.
+
+    ``out``: energy, -d/da, -d/db, aa, ab, bb; ``unit`` is eps_n times the spacing.
+    """
+    if ga < 0 and gb < 0:
+        out[0] = unit * (ga * ga + ga * gb + gb * gb) / 6
+        out[1] = -unit * (2 * ga + gb) / 6
+        out[2] = -unit * (2 * gb + ga) / 6
+        out[3] = out[5] = unit / 3
+        out[4] = unit / 6
+    elif ga < 0:
+        q = ga / (gb - ga)
+        out[0] = -unit * ga * ga * q / 6
+        out[1] = unit * ga * (3 * q + q * q) / 6
+        out[2] = -unit * ga * q * q / 6
+        out[3] = -unit * (6 * q + 6 * q * q + 2 * q**3) / 6
+        out[4] = unit * (3 * q * q + 2 * q**3) / 6
+        out[5] = -unit * 2 * q**3 / 6
+    elif gb < 0:
+        _cell(gb, ga, unit, out)
+        out[1], out[2] = out[2], out[1]
+        out[3], out[5] = out[5], out[3]
+    else:
+        out[:] = 0.0
+
+
+@njit(cache=True)
+def press(gap: Any, last: Any, eps_n: float, spacing: float) -> Any:
+    """Normal forces of points with these gaps; ``last`` marks points whose next one is no neighbour."""
+    total = gap.shape[0]
+    force, diagonal, coupling = np.zeros(total), np.zeros(total), np.zeros(total)
+    energy, length = 0.0, 0.0
+    out = np.empty(6)
+    for i in range(total - 1):
+        ga, gb = gap[i], gap[i + 1]
+        if last[i] or (ga >= 0 and gb >= 0):
+            continue
+        _cell(ga, gb, eps_n * spacing, out)
+        energy += out[0]
+        force[i] += out[1]
+        force[i + 1] += out[2]
+        diagonal[i] += out[3]
+        coupling[i] = out[4]
+        diagonal[i + 1] += out[5]
+        if ga < 0 and gb < 0:
+            length += spacing
+        else:
+            length += spacing * (ga / (ga - gb) if ga < 0 else gb / (gb - ga))
+    return Foundation(force, diagonal, coupling, energy, length)
+
+
+@njit(cache=True)
+def force_by_gaps(row: Any, factor: float, foundation: Any, before: int, here: int, behind: int) -> None:
+    """Add ``factor`` times the derivatives of a point's normal force by the gaps before it, its own and behind it."""
+    row[1] -= factor * foundation.diagonal[here]
+    if before >= 0:
+        row[0] -= factor * foundation.coupling[before]
+    if behind >= 0:
+        row[2] -= factor * foundation.coupling[here]

@@ -1,0 +1,170 @@
+"""Bristles: the tangential forces of points in contact, by either law of friction.
+
+Each point carries a bristle of stiffness eps_t. It enters the patch unstrained, at the instant of the step at which its
+gap, a parabola in time, crosses zero, and then follows its point along the floor. ``STICK``: it does so without a
+limit. ``SLIDE``: mu N is shared over the patch like the pressure. ``BRUSH``: a bristle breaks at mu_s p and slides at
+mu p.
+"""
+
+from __future__ import annotations
+
+from collections import namedtuple
+from math import sqrt
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from .foundation import force_by_gaps
+
+STICK, SLIDE_RIGHT, SLIDE_LEFT, BRUSH = 0, 1, -1, 2  # SLIDE_RIGHT: friction pushes the hoop to the right (spinning)
+
+Bristles = namedtuple(
+    "Bristles",
+    [
+        "stretch",  # of each point's bristle
+        "rate",  # its derivative by the point's abscissa,
+        "by_gap",  # by the point's gap and
+        "by_phi",  # by phi, through the instant of entry
+        "touched",  # whether the point has touched the floor in this visit
+        "sliding",  # direction in which friction pushes a sliding point, 0 while it sticks
+    ],
+)
+
+Tractions = namedtuple(
+    "Tractions",
+    [
+        "force",  # tangential force of each point
+        "share",  # its derivative by the damping factor eta of the pressures, or by the patch's drag
+        "by_abscissa",
+        "by_phi",
+        "by_gap",  # (n, 3), by the gaps of the point before, the point, the point behind
+        "energy",  # of all bristles
+        "stuck",  # length of the patch that sticks
+    ],
+)
+
+
+@njit(cache=True)
+def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, float]:
+    """Fraction of the step at which a point touched, and its derivatives by the new gap and by ``sweep``.
+
+    The gap is the parabola from ``g_old`` > 0 to ``g_new`` with second derivative ``sweep`` = dphi^2 in the
+    fraction; a negative fraction says that the point never touched.
+    """
+    a = sweep / 2
+    b = g_new - g_old - a
+    disc = b * b - 4 * a * g_old
+    if disc <= 0 or b >= 0:
+        return -1.0, 0.0, 0.0
+    root = sqrt(disc)
+    fraction = 2 * g_old / (root - b)
+    if fraction >= 1:
+        return -1.0, 0.0, 0.0
+    return fraction, fraction / root, -fraction * (1 - fraction) / 2 / root
+
+
+@njit(cache=True)
+def carry(points: Any, kept: Any, flags: Any, dphi: float, brush: bool) -> Any:
+    """Bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered since."""
+    total = points.gap.shape[0]
+    stretch, rate = np.zeros(total), np.zeros(total)
+    by_gap, by_phi = np.zeros(total), np.zeros(total)
+    touched, sliding = np.zeros(total, np.bool_), np.zeros(total, np.int8)
+    p = 0
+    for i in range(total):
+        j, move = points.number[i], points.move[i]
+        while p < kept.shape[0] and kept[p, 0] < j:
+            p += 1
+        if p < kept.shape[0] and kept[p, 0] == j:
+            touched[i] = True
+            stretch[i] = kept[p, 1] + move
+            rate[i] = 1.0
+            sliding[i] = flags[p]
+            continue
+        fraction, d_gap, d_sweep = _entry(max(points.gap_old[i], 0.0), points.gap[i], dphi * dphi)
+        if fraction >= 0:
+            touched[i] = True
+            stretch[i] = (1 - fraction) * move
+            rate[i] = 1 - fraction
+            by_gap[i] = -move * d_gap
+            by_phi[i] = -move * d_sweep * 2 * dphi
+            if brush and flags.shape[0] > 0:  # a point that enters behind a sliding edge goes on sliding
+                sliding[i] = flags[0] if j < kept[0, 0] else flags[-1]
+    return Bristles(stretch, rate, by_gap, by_phi, touched, sliding)
+
+
+@njit(cache=True)
+def _weights(points: Any, bristles: Any, spacing: float, brush: bool) -> tuple[Any, Any]:
+    """Length of patch that belongs to each point, and its derivatives by the gaps before, at and behind the point."""
+    gap = points.gap
+    total = gap.shape[0]
+    weight, by = np.zeros(total), np.zeros((total, 3))
+    for i in range(total - 1):
+        if points.last[i] or (gap[i] >= 0 and gap[i + 1] >= 0):
+            continue
+        if gap[i] < 0 and gap[i + 1] < 0:
+            weight[i] += spacing / 2
+            weight[i + 1] += spacing / 2
+            continue
+        inside, outside = (i, i + 1) if gap[i] < 0 else (i + 1, i)
+        side = 2 if outside > inside else 0
+        d = gap[outside] - gap[inside]
+        f = -gap[inside] / d
+        f_in, f_out = -gap[outside] / d**2, gap[inside] / d**2
+        if not brush and bristles.touched[outside]:  # an edge that points leave: bristles stay stretched up to it
+            weight[inside] += spacing * (f - f * f / 2)
+            weight[outside] += spacing * f * f / 2
+            by[inside, 1] += spacing * (1 - f) * f_in
+            by[inside, side] += spacing * (1 - f) * f_out
+            by[outside, 1] += spacing * f * f_out
+            by[outside, 2 - side] += spacing * f * f_in
+        else:
+            weight[inside] += spacing * f / 2
+            by[inside, 1] += spacing * f_in / 2
+            by[inside, side] += spacing * f_out / 2
+    return weight, by
+
+
+@njit(cache=True)
+def rub(
+    points: Any, foundation: Any, bristles: Any, mode: int, eta: float, spacing: float, eps_n: float, eps_t: float,
+    mu_s: float, mu: float,
+) -> Any:  # fmt: skip
+    """Tangential forces; stretches and directions of ``bristles`` are brought up to date in place."""
+    total = points.gap.shape[0]
+    stretch, sliding = bristles.stretch, bristles.sliding
+    weight, weight_by = _weights(points, bristles, spacing, mode == BRUSH)
+    force, share = np.zeros(total), np.zeros(total)
+    by_abscissa, by_phi, by_gap = np.zeros(total), np.zeros(total), np.zeros((total, 3))
+    energy, stuck = 0.0, 0.0
+    for i in range(total):
+        pressure = -eps_n * min(points.gap[i], 0.0)
+        if mode == SLIDE_RIGHT or mode == SLIDE_LEFT:
+            before = i - 1 if i > 0 and not points.last[i - 1] else -1
+            behind = i + 1 if i + 1 < total and not points.last[i] else -1
+            share[i] = mode * mu * foundation.force[i]
+            force[i] = eta * share[i]
+            force_by_gaps(by_gap[i], eta * mode * mu, foundation, before, i, behind)
+            stretch[i] = -eta * mode * mu * pressure / eps_t
+            energy += weight[i] * eps_t * stretch[i] ** 2 / 2
+        elif weight[i] != 0:
+            limit = (mu if sliding[i] != 0 else mu_s) * eta * pressure
+            if mode == BRUSH and abs(eps_t * stretch[i]) > limit:
+                sliding[i] = 1 if stretch[i] < 0 else -1
+                share[i] = weight[i] * sliding[i] * mu * pressure
+                traction = sliding[i] * mu * eta * pressure
+                stretch[i] = -traction / eps_t
+                by_gap[i, 1] = -weight[i] * sliding[i] * mu * eta * eps_n
+            else:
+                sliding[i] = 0
+                traction = -eps_t * stretch[i]
+                by_abscissa[i] = -eps_t * weight[i] * bristles.rate[i]
+                by_gap[i, 1] = -eps_t * weight[i] * bristles.by_gap[i]
+                by_phi[i] = -eps_t * weight[i] * bristles.by_phi[i]
+                stuck += weight[i]
+            force[i] = weight[i] * traction
+            for q in range(3):
+                by_gap[i, q] += traction * weight_by[i, q]
+            energy += weight[i] * traction**2 / (2 * eps_t)
+    return Tractions(force, share, by_abscissa, by_phi, by_gap, energy, stuck)

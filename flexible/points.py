@@ -1,0 +1,176 @@
+"""Material points of the rim near the floor: which of them touch, where they are, how they moved since the step began.
+
+Points lie ``spacing`` apart in the material angle theta; point j is at ``theta = j spacing``, counted round and round.
+A point's angle from the bottom is ``psi = phi + theta - pi``; its displacement is interpolated on the quadratic rim.
+"""
+
+from __future__ import annotations
+
+from collections import namedtuple
+from math import ceil, cos, floor, pi, sin, sqrt
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+@njit(cache=True)
+def vertex_angle(vertex: Any, element: int) -> float:
+    """Angle at which rim element ``element`` begins; elements are counted on round and round."""
+    n = vertex.shape[0]
+    turn = element // n
+    return vertex[element - turn * n] + 2 * pi * turn
+
+
+@njit(cache=True)
+def element_at(vertex: Any, theta: float) -> int:
+    """Rim element that holds the material angle ``theta``."""
+    n = vertex.shape[0]
+    turn = int(floor((theta - vertex[0]) / (2 * pi)))
+    rest = theta - 2 * pi * turn
+    return int(np.searchsorted(vertex, rest, side="right")) - 1 + turn * n
+
+
+@njit(cache=True)
+def _touching(height: float, psi_start: float, width: float, y0: float, y1: float, y2: float) -> tuple[float, float]:
+    """Part [low, high] of an element, in 0..1, where the gap is negative; low > high when there is none."""
+    c1, c2 = -3 * y0 + 4 * y1 - y2, 2 * y0 - 4 * y1 + 2 * y2
+    base = height + y0
+    at_start = base + 2 * sin(psi_start / 2) ** 2
+    at_end = base + c1 + c2 + 2 * sin((psi_start + width) / 2) ** 2
+    lowest = min(max(-psi_start / width, 0.0), 1.0)
+    for _ in range(5):
+        slope = width * sin(psi_start + lowest * width) + c1 + 2 * c2 * lowest
+        curvature = width**2 * cos(psi_start + lowest * width) + 2 * c2
+        if curvature <= 0:
+            lowest = 0.0 if at_start < at_end else 1.0
+            break
+        lowest = min(max(lowest - slope / curvature, 0.0), 1.0)
+    bottom = base + c1 * lowest + c2 * lowest**2 + 2 * sin((psi_start + lowest * width) / 2) ** 2
+    if min(bottom, at_start, at_end) >= 0:
+        return 1.0, 0.0
+    edges = np.array([0.0, 1.0])
+    curvature = width**2 * cos(psi_start + lowest * width) + 2 * c2
+    for side in range(2):
+        end_gap = at_start if side == 0 else at_end
+        if end_gap < 0 or curvature <= 0:
+            continue
+        far = float(side)
+        s = lowest + (2 * side - 1) * sqrt(max(-2 * bottom, 0.0) / curvature)
+        for _ in range(3):
+            s = min(max(s, 0.0), 1.0)
+            value = base + c1 * s + c2 * s**2 + 2 * sin((psi_start + s * width) / 2) ** 2
+            slope = width * sin(psi_start + s * width) + c1 + 2 * c2 * s
+            if slope * (far - lowest) <= 0:
+                break
+            s -= value / slope
+        edges[side] = min(max(s, 0.0), 1.0)
+    return edges[0], edges[1]
+
+
+@njit(cache=True)
+def _candidates(height: float, phi: float, y: Any, first: int, count: int, vertex: Any, spacing: float) -> Any:
+    """Ranges of points that touch or border on a touching one, merged; rows (first, last)."""
+    ranges = np.empty((count, 2), np.int64)
+    n = 0
+    for i in range(count):
+        start = vertex_angle(vertex, first + i)
+        width = vertex_angle(vertex, first + i + 1) - start
+        low, high = _touching(height, phi - pi + start, width, y[2 * i], y[2 * i + 1], y[2 * i + 2])
+        if low > high:
+            continue
+        j_low = int(ceil((start + low * width) / spacing)) - 1
+        j_high = int(floor((start + high * width) / spacing)) + 1
+        # the edges are estimates: the range must begin and end with a point off the floor, or with the element
+        first_point, last_point = int(ceil(start / spacing)) - 1, int(floor((start + width) / spacing)) + 1
+        for j, end in ((j_low, first_point), (j_high, last_point)):
+            way = -1 if end == first_point else 1
+            while way * (end - j) > 0:
+                s = (j * spacing - start) / width
+                bend = -3 * y[2 * i] + 4 * y[2 * i + 1] - y[2 * i + 2]
+                rise = y[2 * i] + s * (bend + s * (2 * y[2 * i] - 4 * y[2 * i + 1] + 2 * y[2 * i + 2]))
+                if height + rise + 2 * sin((phi - pi + j * spacing) / 2) ** 2 >= 0:
+                    break
+                j += way
+            if way < 0:
+                j_low = j
+            else:
+                j_high = j
+        if n > 0 and j_low <= ranges[n - 1, 1] + 1:
+            ranges[n - 1, 1] = max(j_high, ranges[n - 1, 1])
+        else:
+            ranges[n, 0], ranges[n, 1] = j_low, j_high
+            n += 1
+    return ranges[:n]
+
+
+Points = namedtuple(
+    "Points",
+    [
+        "number",  # of the point
+        "last",  # whether the next point in the list is not its neighbour
+        "local",  # first node of its element in the window
+        "shape",  # (n, 3) interpolation on the element's nodes
+        "arm_x",  # derivative of the gap by phi
+        "arm_y",  # derivative of the abscissa by phi
+        "gap",  # over the floor, negative in contact
+        "gap_old",  # at the beginning of the step
+        "move",  # along the floor since then
+    ],
+)
+Points.__doc__ = "Points that touch, and their neighbours on both sides, as arrays of one length; ascending."
+
+
+@njit(cache=True)
+def gather(pose: Any, u: Any, first: int, vertex: Any, spacing: float, old_pose: Any, u_old: Any) -> tuple[Any, bool]:
+    """The points that touch and those that border on them, for the window of rim elements from ``first`` on.
+
+    Returns
+    -------
+    points : Points
+    outside : bool
+        Whether the window is too short for them.
+    """
+    nodes = u.shape[0]
+    count = (nodes - 1) // 2
+    height, phi, phi_old = pose[1], pose[2], old_pose[2]
+    s, c, s_old, c_old = sin(phi), cos(phi), sin(phi_old), cos(phi_old)
+    dv, dphi = pose[0] - old_pose[0], phi - phi_old
+    y = np.empty(nodes)
+    for i in range(nodes):
+        y[i] = u[i, 0] * c - u[i, 1] * s
+    ranges = _candidates(height, phi, y, first, count, vertex, spacing)
+    total = 0
+    for r in range(ranges.shape[0]):
+        total += ranges[r, 1] - ranges[r, 0] + 1
+    number, local, last = np.empty(total, np.int64), np.empty(total, np.int64), np.zeros(total, np.bool_)
+    shape = np.empty((total, 3))
+    arm_x, arm_y, gap = np.empty(total), np.empty(total), np.empty(total)
+    gap_old, move = np.empty(total), np.empty(total)
+    outside = False
+    m = 0
+    for r in range(ranges.shape[0]):
+        for j in range(ranges[r, 0], ranges[r, 1] + 1):
+            theta = j * spacing
+            element = min(max(element_at(vertex, theta), first), first + count - 1)
+            start = vertex_angle(vertex, element)
+            xi = (theta - start) / (vertex_angle(vertex, element + 1) - start)
+            outside = outside or xi < -1e-9 or xi > 1 + 1e-9
+            k = 2 * (element - first)
+            n0, n1, n2 = (1 - xi) * (1 - 2 * xi), 4 * xi * (1 - xi), xi * (2 * xi - 1)
+            u1 = n0 * u[k, 0] + n1 * u[k + 1, 0] + n2 * u[k + 2, 0]
+            u2 = n0 * u[k, 1] + n1 * u[k + 1, 1] + n2 * u[k + 2, 1]
+            v1 = n0 * u_old[k, 0] + n1 * u_old[k + 1, 0] + n2 * u_old[k + 2, 0]
+            v2 = n0 * u_old[k, 1] + n1 * u_old[k + 1, 1] + n2 * u_old[k + 2, 1]
+            ux, uy = u1 * s + u2 * c, u1 * c - u2 * s
+            psi, psi_old = phi - pi + theta, phi_old - pi + theta
+            raised = 2 * sin(psi / 2) ** 2
+            number[m], local[m] = j, k
+            shape[m, 0], shape[m, 1], shape[m, 2] = n0, n1, n2
+            gap[m] = height + raised + uy
+            gap_old[m] = old_pose[1] + 2 * sin(psi_old / 2) ** 2 + v1 * c_old - v2 * s_old
+            arm_x[m], arm_y[m] = sin(psi) - ux, raised + uy
+            # dphi - (sin psi - sin psi_old) is small for small psi, and is computed so
+            move[m] = dv + dphi - 2 * cos((psi + psi_old) / 2) * sin(dphi / 2) + ux - (v1 * s_old + v2 * c_old)
+            m += 1
+        last[m - 1] = True
+    return Points(number, last, local, shape, arm_x, arm_y, gap, gap_old, move), outside
