@@ -14,7 +14,7 @@ from rigid import Motion, Scene, scene_to_dict
 from .files import plain
 from .history import Columns, through
 from .measures import measures, phase_sequence
-from .solvers import solver, version
+from .solvers import build, solver, version
 
 SHARE = 0.1
 """Numerical error may be this share of the distance that a study reports."""
@@ -47,12 +47,15 @@ class Case:
         tightened from the scene's until the numerical error is at most ``SHARE`` of each distance.
     histories : bool
         Whether the forces through each pulse come back too.
+    build : str
+        Version and sources that it is meant for; those of this process by default.
     """
 
     solver: str
     scene: Scene
     against: tuple[tuple[str, float], ...] = ()
     histories: bool = False
+    build: str = field(default_factory=build)
 
     @property
     def key(self) -> str:
@@ -63,7 +66,7 @@ class Case:
             "scene": _floats(scene_to_dict(self.scene)),
             "against": [list(pair) for pair in self.against],
             "histories": self.histories,
-            "version": version(),
+            "build": self.build,
         }
         return hashlib.sha256(json.dumps(described, sort_keys=True).encode()).hexdigest()[:32]
 

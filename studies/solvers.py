@@ -7,9 +7,12 @@ A third solver is compared by writing one adapter, a function of this signature,
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
 from functools import cache
 from importlib import import_module, metadata
+from importlib.util import find_spec
+from pathlib import Path
 from typing import Protocol
 
 from rigid import Motion, Scene
@@ -63,11 +66,23 @@ def solver(name: str) -> Solver:
 
 @cache
 def version() -> str:
-    """Version of this package, part of the key under which a result is stored."""
+    """Version of this package."""
     try:
         return metadata.version("hoop-pulse")
     except metadata.PackageNotFoundError:
         return "uninstalled"
+
+
+@cache
+def build() -> str:
+    """Version and a digest of the sources: results of a checkout that has changed since are not taken for its own."""
+    digest = hashlib.sha256()
+    for package in ("rigid", "meshes", "flexible", "studies"):
+        spec = find_spec(package)
+        for place in spec.submodule_search_locations or [] if spec is not None else []:
+            for source in sorted(Path(place).rglob("*.py")):
+                digest.update(source.read_bytes())
+    return f"{version()}+{digest.hexdigest()[:12]}"
 
 
 def versions() -> dict[str, str]:
