@@ -17,6 +17,11 @@ In the order in which they build on each other:
 ``step``       one implicit step
 ``march``      adaptive steps, stick and slip, the energy's books
 ``reduced``    the reduced hoop as a model for the march
+``nodal``      inertia and elasticity of all nodes
+``full``       the hoop with all nodes, as a model for the march
+``exact``      the same with a geometrically exact ring
+``levels``     which of them a scene gets, and where the linear ones end
+``rest``       ring and patch in equilibrium
 ``start``      equilibrium under a rigid motion
 ``stretch``    records read as phases, turns and pulse measures
 ``solve``      simulate(scene)

@@ -18,7 +18,8 @@ from skfem import Basis, ElementQuad2
 
 from rigid import Scene
 
-from .full import FullHoop, NodalRing
+from .full import FullHoop
+from .nodal import NodalRing
 from .ring import Ring
 
 Array = NDArray[np.float64]
@@ -79,7 +80,8 @@ class ExactElasticity:
         tensor = stress[..., [[0, 2], [2, 1]]]
         # P = F S; the force on a node is P times the gradient of its shape function
         nodal = (self.gradients @ (deformation @ tensor).swapaxes(-1, -2)).sum(axis=1)
-        return np.bincount(self.dofs.ravel(), nodal.ravel(), self.size)[self.free]
+        total = np.asarray(np.bincount(self.dofs.ravel(), nodal.ravel(), self.size), dtype=float)
+        return total[self.free]
 
     def tangent(self, u: Array) -> sp.csc_matrix:
         """Second derivative of the energy, (n_free, n_free)."""
@@ -87,12 +89,9 @@ class ExactElasticity:
         elements, points = self.weights.shape
         g = self.gradients
         # derivative of E by the nodes: F_i1 g_1, F_i2 g_2, F_i1 g_2 + F_i2 g_1
-        b = np.empty((elements, points, 3, 9, 2))
         first, second = (deformation[..., None, :, j] for j in (0, 1))
-        b[:, :, 0] = g[..., 0:1] * first
-        b[:, :, 1] = g[..., 1:2] * second
-        b[:, :, 2] = g[..., 1:2] * first + g[..., 0:1] * second
-        b = b.reshape(elements, points, 3, 18)
+        rows = [g[..., 0:1] * first, g[..., 1:2] * second, g[..., 1:2] * first + g[..., 0:1] * second]
+        b = np.stack(rows, axis=2).reshape(elements, points, 3, 18)
         weighted = (self.weights[..., None, None] * self.stiffness) @ b
         matrix = b.reshape(elements, -1, 18).swapaxes(1, 2) @ weighted.reshape(elements, -1, 18)
         stress = strain @ self.stiffness * self.weights[..., None]

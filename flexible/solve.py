@@ -20,9 +20,10 @@ import rigid
 from rigid import Hoop, Kind, Motion, Phase, Release, Run, Scene, States, Turn
 
 from .contact import STICK
+from .levels import Hoop as FlexibleHoop
+from .levels import Range, hoop_of
 from .march import Record, State, march
 from .motion import FlexibleMotion, FlexiblePulse, History, Kept, Ledger
-from .reduced import ReducedHoop
 from .start import hand_over
 from .stretch import Stretch
 
@@ -141,6 +142,7 @@ class _Builder:
         self.turns: list[Turn] = []
         self.pulses: list[FlexiblePulse] = []
         self.steps = 0
+        self.range: Range
         self.kept: list[Kept] | None = None
         self.t = 0.0
         self.x_C = 0.0
@@ -205,15 +207,23 @@ class _Builder:
         return stretch
 
     def march(
-        self, hoop: ReducedHoop, state: State, *arguments: Any, **options: Any
+        self, hoop: FlexibleHoop, state: State, *arguments: Any, **options: Any
     ) -> tuple[State, list[Record], int, str]:
-        """:func:`march.march`, and the states if they are to be kept."""
-        if self.kept is None:
-            return march(hoop, state, *arguments, **options)
+        """:func:`march.march`, watching the ring's range, and the states if they are to be kept."""
+        progress = options.pop("progress", None)
+
+        def watch(now: State) -> None:
+            self.range(now)
+            if progress is not None:
+                progress(now)
+
         states: list[State] = []
-        options["keep"] = states.append
+        if self.kept is not None:
+            options["keep"] = states.append
+        options["progress"] = watch
         result = march(hoop, state, *arguments, **options)
-        self.kept.append(Kept(hoop, tuple(states)))
+        if self.kept is not None:
+            self.kept.append(Kept(hoop, tuple(states)))
         return result
 
     def motion(self, scene: Scene, ended: str, history: bool) -> FlexibleMotion:
@@ -270,15 +280,17 @@ def simulate(scene: Scene, *, history: bool = False, progress: Progress | None =
             "hoop.k = 0 is not possible here: the flexible hoop needs a disk with a radius, or a hoop with a mass."
         )
     inner = dimensionless(scene)
-    hoop = ReducedHoop(inner)
+    hoop = hoop_of(inner)
     builder = _Builder(inner)
+    builder.range = Range(hoop)
     builder.kept = [] if history else None
     run = _through_pulses if scene.solve.resolve == "pulses" else _throughout
     ended = run(inner, hoop, builder, _Progress(progress))
-    return builder.motion(scene, ended, history)
+    complaint = builder.range.complaint()
+    return builder.motion(scene, f"{ended}; {complaint}" if complaint else ended, history)
 
 
-def _through_pulses(scene: Scene, hoop: ReducedHoop, builder: _Builder, progress: _Progress) -> str:
+def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: _Builder, progress: _Progress) -> str:
     """Rigid between pulses, flexible inside."""
     current = scene
     done = 0
@@ -338,7 +350,7 @@ def _rest_of(run: Run, builder: _Builder) -> Run | None:
     return run
 
 
-def _throughout(scene: Scene, hoop: ReducedHoop, builder: _Builder, progress: _Progress) -> str:
+def _throughout(scene: Scene, hoop: FlexibleHoop, builder: _Builder, progress: _Progress) -> str:
     """Flexible from the release on; pulses are measured over the rigid hoop's intervals."""
     reference = rigid.simulate(scene)
     state = hand_over(hoop, reference, 0.0, scene.contact.law)

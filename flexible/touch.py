@@ -68,4 +68,5 @@ class RimContact:
 
     def rim_angle(self, nodes: NDArray[np.int64]) -> Array:
         """Angles of rim nodes, counted round and round from the first element's first."""
-        return np.array([(vertex_angle(self.vertex, n // 2) + vertex_angle(self.vertex, (n + 1) // 2)) / 2 for n in nodes])
+        before = np.array([vertex_angle(self.vertex, n // 2) for n in nodes])
+        return (before + np.array([vertex_angle(self.vertex, (n + 1) // 2) for n in nodes])) / 2
