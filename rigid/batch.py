@@ -34,7 +34,7 @@ from .machine import entry_run
 from .motion import Array
 from .scene import Friction, Hoop, Landing, Release, Scene, SceneError
 from .slipping import ORDER, SERIES
-from .solve import LEVEL, TAPE_RECORDS, UNTIL_CODES, reason
+from .solve import LEVEL, NOTHING_AT_ALL, TAPE_RECORDS, UNTIL_CODES, reason
 from .solve import STEPS as WORK
 
 TURN_VALUES = 4  # t, phi, slip velocity, energy
@@ -291,4 +291,6 @@ def _constants(
     release = np.column_stack([np.array(angles, dtype=float).reshape(len(table), 3), omega0, slip0])
     level = (release[:, 0] != phi0) & (np.abs(release[:, 0]) <= LEVEL * np.maximum(1, np.abs(phi0)))
     release[level, 0] = 0.0
+    for column in (0, 3, 4):
+        release[np.abs(release[:, column]) < NOTHING_AT_ALL, column] = 0.0
     return pars, np.ascontiguousarray(release)

@@ -9,7 +9,7 @@ from math import pi, sin, sqrt
 
 from .angle import chart, trig
 from .kernel import kernel
-from .layout import ANGLE, ECC, GAP, OMEGA, SLIP, TOP, UN, WHOLE, X_C, T
+from .layout import ANGLE, ECC, GAP, OMEGA, ONE_MINUS_E, SLIP, TOP, UN, WHOLE, X_C, T
 
 
 @kernel
@@ -86,15 +86,15 @@ def touch_down(e, gap, un, omega, a, top):
 def fly(par, state, time):
     """Advance a state in flight."""
     e, omega, a, top = par[ECC], state[OMEGA], state[ANGLE], state[TOP]
-    s, c, _, _ = trig(a, top)
+    s, c, h, _ = trig(a, top)
     gap, rate = height(e, state[GAP], state[UN], omega, s, c, time)
-    xdot_g = state[SLIP] + omega + e * c * omega
+    xdot_g = state[SLIP] + omega * (par[ONE_MINUS_E] + e * h)
     a, top, whole = chart(a + omega * time, top, state[WHOLE])
-    s1, c1, _, _ = trig(a, top)
+    s1, _, h1, _ = trig(a, top)
     state[T] += time
     state[ANGLE], state[TOP], state[WHOLE] = a, top, whole
     state[X_C] += xdot_g * time - e * (s1 - s)
-    state[SLIP] = xdot_g - omega - e * c1 * omega
+    state[SLIP] = xdot_g - omega * (par[ONE_MINUS_E] + e * h1)
     state[GAP], state[UN] = gap, rate
 
 
@@ -107,15 +107,15 @@ def settle(par, state, lift):
     energy: the height of G is known better, so the angle gives way.
     """
     e, omega = par[ECC], state[OMEGA]
-    s, c, _, _ = trig(state[ANGLE], state[TOP])
+    s, c, h, _ = trig(state[ANGLE], state[TOP])
     error = lift - e * c
     if abs(error) < 1e-5 * abs(e * s):
-        xdot_g = state[SLIP] + omega + e * c * omega
+        xdot_g = state[SLIP] + omega * (par[ONE_MINUS_E] + e * h)
         ydot_g = state[UN] - e * s * omega
         state[ANGLE], state[TOP], state[WHOLE] = chart(
             state[ANGLE] - error / (e * s), state[TOP], state[WHOLE]
         )
-        s1, c1, _, _ = trig(state[ANGLE], state[TOP])
+        s1, _, h1, _ = trig(state[ANGLE], state[TOP])
         state[X_C] -= e * (s1 - s)
-        state[SLIP] = xdot_g - omega - e * c1 * omega
+        state[SLIP] = xdot_g - omega * (par[ONE_MINUS_E] + e * h1)
         state[UN] = ydot_g + e * s1 * omega

@@ -31,7 +31,7 @@ from .polynomial import polish, value
 from .pulse import energy
 from .rolling import rolling_forces
 from .slide import carry
-from .slipping import ORDER, S_P, S_T, normal_force, series
+from .slipping import JAM, ORDER, S_D, S_P, S_T, normal_force, series
 from .swing import roll_on
 
 COLUMNS = 8  # phi, omega, x_C, height of the contact point, slip velocity, N, F, energy
@@ -72,7 +72,7 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
                 tt = work[S_T]
                 duration = value(tt, ORDER, length)
                 before = state[T]
-                if not duration > 1e-15 * before:
+                if work[S_D][0] <= JAM * par[GYR]:
                     duration = inf  # jammed: nothing moves in what is left of the phase
                 keep = (state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C])
                 while i < len(times) and times[i] < until and times[i] <= before + duration:

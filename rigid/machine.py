@@ -113,7 +113,7 @@ def choose(par, state, tape):
         return
     if state[SLIP] == 0.0:
         n, f = rolling_forces(par, omega, a, top)
-        if n >= 0.0 and abs(f) <= par[MU_S] * n * (1 + TIE) + 1e-300:
+        if n >= 0.0 and abs(f) <= par[MU_S] * n * (1 + TIE):
             begin(state, ROLL, tape)
             return
     choose_slip(par, state, tape)

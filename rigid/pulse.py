@@ -18,6 +18,7 @@ from .layout import (
     GAP,
     GYR,
     OMEGA,
+    ONE_MINUS_E,
     P_ANGLE,
     P_CROSSED,
     P_ENERGY,
@@ -45,9 +46,9 @@ from .layout import (
 @kernel
 def velocity_of_g(par, state):
     """(xdot_G, ydot_G)."""
-    s, c, _, _ = trig(state[ANGLE], state[TOP])
+    s, _, h, _ = trig(state[ANGLE], state[TOP])
     omega = state[OMEGA]
-    return state[SLIP] + omega * (1 + par[ECC] * c), state[UN] - par[ECC] * s * omega
+    return state[SLIP] + omega * (par[ONE_MINUS_E] + par[ECC] * h), state[UN] - par[ECC] * s * omega
 
 
 @kernel
@@ -55,7 +56,7 @@ def energy(par, state):
     """Kinetic and potential energy over M g R, 0 when G is at floor level."""
     x, y = velocity_of_g(par, state)
     _, _, h, _ = trig(state[ANGLE], state[TOP])
-    height = state[GAP] + (1 - par[ECC]) + par[ECC] * h
+    height = state[GAP] + par[ONE_MINUS_E] + par[ECC] * h
     return 0.5 * (x * x + y * y + par[GYR] * state[OMEGA] * state[OMEGA]) + height
 
 

@@ -29,12 +29,12 @@ S_SIN, S_H, S_OMEGA, S_CO, S_P, S_D, S_B, S_YDOT, S_SLIP, S_T, S_N1, S_PLUS, S_M
 
 
 @kernel
-def known_p(p, carried):
-    """P from the angle, or as carried along by the series where the angle has lost its digits.
+def known_p(p, terms, carried):
+    """P from the angle, or as carried along by the series where its terms have cancelled.
 
     P -> 0 is where a hoop of little inertia jams (D = K + e s P); D keeps its digits there only if P does.
     """
-    if abs(p - carried) <= 1e-13 and abs(p) < 1e-3:
+    if abs(p) < 1e-3 * terms and abs(p - carried) <= 1e-13 * terms:
         return carried
     return p
 
@@ -56,7 +56,8 @@ def series(par, mu_hat, a, top, omega, slip, p_known, work):
     for n in range(ORDER + 1):
         pp[n] = e * sn[n] + me * hh[n]
         if n == 0:
-            pp[0] = known_p(pp[0] + mu_hat * one_minus_e, p_known)
+            arm = abs(mu_hat) * (one_minus_e + e * h)
+            pp[0] = known_p(pp[0] + mu_hat * one_minus_e, e * abs(s) + arm, p_known)
         h_omega = 0.0
         s_p = 0.0
         for j in range(n + 1):

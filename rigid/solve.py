@@ -31,6 +31,8 @@ PATIENCE = 4_000  # interpreted steps, some 0.4 s, after which a process goes ov
 
 # phi0 this close to a multiple of pi, relatively, means that multiple: no float but 0 is one itself
 LEVEL = 2.3e-16
+# an angle or a velocity whose square would underflow
+NOTHING_AT_ALL = 1e-140
 
 UNTIL_CODES = {None: at.NOTHING, "pulse": at.FIRST_PULSE, "rest": at.REST}
 _REASONS = {
@@ -88,6 +90,9 @@ def release_state(scene: Scene) -> list[float]:
     state[at.ANGLE], state[at.TOP], state[at.WHOLE] = a, top, whole
     state[at.OMEGA] = float(release.omega0 * scene.time_unit)
     state[at.SLIP] = float(release.slip0 / scene.velocity_unit)
+    for i in (at.ANGLE, at.OMEGA, at.SLIP):
+        if abs(state[i]) < NOTHING_AT_ALL:
+            state[i] = 0.0
     state[at.STEPS] = float(STEPS)
     return state
 
@@ -217,10 +222,13 @@ def _pulse(t0: float, t1: float, start: list[float], stop: list[float], measures
 
 
 def _merged(starts: list[list[float]], end: list[float]) -> list[list[float]]:
-    """Phases that last (an impact need not), neighbours of one kind as one."""
+    """Phases that go somewhere (an impact need not), neighbours of one kind as one.
+
+    In the pulse of a tiny disk a phase may take less time than t can resolve: the angle tells.
+    """
     kept: list[list[float]] = []
     for row, following in zip(starts, [*starts[1:], end], strict=True):
-        if row[0] != at.IMPACT and following[1] <= row[1] and len(starts) > 1:
+        if row[0] != at.IMPACT and following[1:5] == row[1:5] and len(starts) > 1:
             continue
         if kept and kept[-1][0] == row[0] and row[0] != at.IMPACT:
             continue
