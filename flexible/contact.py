@@ -42,7 +42,7 @@ UNDAMPED = np.array([0.0, 0.0, 1.0, 0.0, 0.0])
 X, Y = 0, 1
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _spread(vector: Any, kind: int, s: float, c: float) -> Any:
     """From a basis to the unknowns."""
     nodes = vector.shape[0] - 2
@@ -54,7 +54,7 @@ def _spread(vector: Any, kind: int, s: float, c: float) -> Any:
     return result
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _add_spread(tangent: Any, matrix: Any, row_kind: int, column_kind: int, s: float, c: float, factor: float) -> None:
     """Add ``factor`` times a matrix between two bases to the tangent of the unknowns."""
     r1, r2 = (s, c) if row_kind == X else (c, -s)
@@ -85,7 +85,7 @@ def _add_spread(tangent: Any, matrix: Any, row_kind: int, column_kind: int, s: f
                     tangent[row + 1, column + 1] += r2 * c2 * value
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _scatter(k_yy: Any, k_xy: Any, k_xx: Any, block: Any, first: int) -> None:
     """Add an element's products to the tangents, and clear them."""
     for q in range(5):
@@ -98,19 +98,19 @@ def _scatter(k_yy: Any, k_xy: Any, k_xx: Any, block: Any, first: int) -> None:
     block[:] = 0.0
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _add_outer(tangent: Any, left: Any, right: Any) -> None:
     for i in range(left.shape[0]):
         for j in range(right.shape[0]):
             tangent[i, j] += left[i] * right[j]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _row(q: int, first: int) -> int:
     return q if q < 2 else first + q
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _directions(points: Any) -> tuple[Any, Any]:
     """What moves each point's abscissa and gap: by V or h, by phi, by the three nodes of its element."""
     total = points.gap.shape[0]
@@ -122,7 +122,7 @@ def _directions(points: Any) -> tuple[Any, Any]:
     return along, up
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _tangents(points: Any, foundation: Any, tractions: Any, along: Any, up: Any, nodes: int) -> tuple[Any, Any, Any]:
     """Derivatives of elastic normal forces by gaps, of tangential ones by gaps and by abscissas, in those bases."""
     size = 2 + nodes
@@ -170,7 +170,7 @@ def _tangents(points: Any, foundation: Any, tractions: Any, along: Any, up: Any,
     return k_yy, k_xy, k_xx
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _gathered(points: Any, values: Any, directions: Any, nodes: int) -> Any:
     """Sum of each point's value times its direction, in the basis (V or h, phi, nodes)."""
     total = np.zeros(2 + nodes)
@@ -180,7 +180,7 @@ def _gathered(points: Any, values: Any, directions: Any, nodes: int) -> Any:
     return total
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _slip_by_gaps(points: Any, foundation: Any, slip: float, elastic: float, up: Any, nodes: int) -> Any:
     """Derivative of the mean slip by the gaps, through the normal forces that weigh it."""
     result = np.zeros(2 + nodes)
@@ -199,7 +199,7 @@ def _slip_by_gaps(points: Any, foundation: Any, slip: float, elastic: float, up:
     return result
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def contact_forces(
     pose: Any,
     u: Any,

@@ -22,7 +22,7 @@ from numba import njit
 OFFSET, DISK_INERTIA, RING_MASS, RING_INERTIA = range(4)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def inertia(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     """Inertial, gravitational and elastic forces, and their tangent.
 
@@ -152,7 +152,7 @@ def inertia(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta
     return force, tangent
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def energies(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any) -> tuple[float, float, float]:
     """Kinetic energy, gravity (0 with the hoop's centre at the floor) and strain energy of the modes."""
     n = modal.shape[0]

@@ -45,7 +45,7 @@ Tractions = namedtuple(
 )
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, float]:
     """Fraction of the step at which a point touched, and its derivatives by the new gap and by ``sweep``.
 
@@ -64,7 +64,7 @@ def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, floa
     return fraction, fraction / root, -fraction * (1 - fraction) / 2 / root
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def carry(points: Any, kept: Any, flags: Any, dphi: float, brush: bool) -> Any:
     """Bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered since."""
     total = points.gap.shape[0]
@@ -94,7 +94,7 @@ def carry(points: Any, kept: Any, flags: Any, dphi: float, brush: bool) -> Any:
     return Bristles(stretch, rate, by_gap, by_phi, touched, sliding)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def _weights(points: Any, bristles: Any, spacing: float, brush: bool) -> tuple[Any, Any]:
     """Length of patch that belongs to each point, and its derivatives by the gaps before, at and behind the point."""
     gap = points.gap
@@ -126,7 +126,7 @@ def _weights(points: Any, bristles: Any, spacing: float, brush: bool) -> tuple[A
     return weight, by
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def rub(
     points: Any, foundation: Any, bristles: Any, mode: int, eta: float, spacing: float, eps_n: float, eps_t: float,
     mu_s: float, mu: float,

@@ -23,7 +23,7 @@ _W = sqrt(2) / 4
 ERROR_WEIGHTS = (_W - (1 - _W) / 3, _W - (3 * _W + 1) / 3, BETA - BETA / 3)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def solve_stage(
     body: Any,
     modal: Any,
@@ -134,7 +134,7 @@ def solve_stage(
     return iterations, d, u, acc, matrix, nodal, res, new_bristles, new_flags
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def filtered_error(
     body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any
 ) -> Any:
