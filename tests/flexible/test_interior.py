@@ -1,0 +1,149 @@
+"""Stress and energy at the nodes against exact solutions, and against the model that marched."""
+
+import numpy as np
+import pytest
+from scipy.sparse.linalg import spsolve
+
+from flexible import simulate
+from flexible.interior import ExactInterior, Interior, interior_of
+from flexible.profile import profile
+from flexible.ring import Ring
+from meshes import hoop_stress, ring_mesh
+from rigid import load_scene
+
+POISSON = 0.3
+
+
+def rotating(around, through, inner=1 / 1.2):
+    """Hoop and radial stress at the nodes of a free ring rotating at omega = 1, with E = density = 1, b = 1.
+
+    K u = M Y, the rigid motions held by three dofs that do not move: u2 at theta = 0 and pi, u1 at pi/2.
+    """
+    mesh = ring_mesh(inner, 1.0, around, through, np.pi / 12)
+    ring = Ring(mesh, POISSON)
+    load = ring.area * (ring.mass @ ring.position_field)
+    nodes = [np.hypot(*(mesh.points - mesh.outer * np.array(at)).T).argmin() for at in ((1, 0), (-1, 0), (0, 1))]
+    held = [mesh.node_dofs[nodes[0], 1], mesh.node_dofs[nodes[1], 1], mesh.node_dofs[nodes[2], 0]]
+    free = np.setdiff1d(np.arange(ring.basis.N), held)
+    u = np.zeros(ring.basis.N)
+    u[free] = spsolve(ring.stiffness[free][:, free].tocsc(), load[free])
+    stress, density = Interior(ring, 1.0, 1.0).stress(u[mesh.node_dofs][..., None])
+    around_ = hoop_stress(mesh, stress[..., 0])
+    return mesh, around_, stress[:, 0, 0] + stress[:, 1, 0] - around_, density[:, 0]
+
+
+def test_stress_of_a_rotating_ring_converges_to_lames():
+    """PHYSICS, section 4, no. 5, a = 1/1.2 and b = 1; nodal recovery is second order.
+
+    sigma_theta = (3 + nu)/8 (a^2 + b^2 + a^2 b^2/x^2 - (1 + 3 nu)/(3 + nu) x^2),
+    sigma_r = (3 + nu)/8 (a^2 + b^2 - a^2 b^2/x^2 - x^2).
+    """
+    a, errors, radial_errors = 1 / 1.2, [], []
+    counts = [24, 48, 96]
+    for i, count in enumerate(counts):
+        mesh, hoop, radial, _ = rotating(count, 2**i)
+        x, front = mesh.radius, (3 + POISSON) / 8
+        exact = front * (a**2 + 1 + a**2 / x**2 - (1 + 3 * POISSON) / (3 + POISSON) * x**2)
+        exact_radial = front * (a**2 + 1 - a**2 / x**2 - x**2)
+        errors.append(np.abs(hoop - exact).max())
+        radial_errors.append(np.abs(radial - exact_radial).max())
+    for found in (errors, radial_errors):
+        order = -np.polyfit(np.log(counts), np.log(found), 1)[0]
+        assert order == pytest.approx(2, abs=0.12), found
+    assert errors[-1] < 1e-3  # of a stress of 0.86
+
+
+def test_energy_of_a_field_is_half_its_work():
+    """u K u / 2 from the elements, and its density at the nodes integrates to it within the recovery's error."""
+    mesh = ring_mesh(0.9, 1.0, 60, 2, 0.2)
+    ring = Ring(mesh, POISSON)
+    x, y = mesh.points.T
+    u = np.column_stack([x**2 - 0.3 * y, np.sin(2 * y) + x * y])
+    flat = np.zeros(ring.basis.N)
+    flat[mesh.node_dofs] = u
+    interior = Interior(ring, 7.0, 1.0)
+    exact = 3.5 * flat @ (ring.stiffness @ flat)
+    by_element = interior.element_energy(u[..., None])
+    assert by_element.shape == (len(mesh.quad9), 1)
+    assert by_element.sum() == pytest.approx(exact, rel=1e-12)
+    _, density = interior.stress(u[..., None])
+    weights = ring.mass @ np.ones(ring.basis.N) * ring.area
+    assert weights[mesh.node_dofs[:, 0]] @ density[:, 0] == pytest.approx(exact, rel=2e-3)
+
+
+def test_the_exact_ring_feels_no_rotation_and_stretches_as_it_should():
+    """A rigid rotation of 0.4 leaves it without stress; a pure stretch has Cauchy's stress lambda S_11."""
+    mesh = ring_mesh(0.9, 1.0, 40, 1, 0.2)
+    ring = Ring(mesh, POISSON)
+    exact, linear = (kind(ring, 5.0, 1.0) for kind in (ExactInterior, Interior))
+    cos, sin = np.cos(0.4), np.sin(0.4)
+    turned = mesh.points @ (np.array([[cos, sin], [-sin, cos]]) - np.eye(2))
+    assert np.abs(exact.stress(turned[..., None])[0]).max() < 1e-12
+    assert np.abs(linear.stress(turned[..., None])[0]).max() > 0.1
+    assert exact.element_energy(turned[..., None]).max() < 1e-20
+    # stretched by 1.1 along y1 while y2 contracts freely: E22 = -nu E11
+    e11 = (1.1**2 - 1) / 2
+    narrow = np.sqrt(1 - 2 * POISSON * e11)
+    stress, density = exact.stress((mesh.points * [0.1, narrow - 1])[..., None])
+    np.testing.assert_allclose(stress[:, 0, 0], 5 * e11 * 1.1 / narrow, rtol=1e-10)
+    np.testing.assert_allclose(stress[:, 1:, 0], 0, atol=1e-10)
+    np.testing.assert_allclose(density[:, 0], 5 * e11**2 / 2, rtol=1e-10)
+
+
+@pytest.fixture(scope="module", params=["paper-3.3-massless", "paper-3.3-light", "brush"])
+def kept(request):
+    brush = request.param == "brush"
+    scene = load_scene("paper-3.3-light" if brush else request.param)
+    scene = scene.replace(run={"until": "pulse"}, solve={"rtol": 1e-3}, contact={"law": "brush" if brush else "patch"})
+    return simulate(scene, history=True).kept[0]
+
+
+def test_the_rim_is_where_the_contact_saw_it(kept):
+    interior = interior_of(kept.hoop)
+    states = kept.states[::10]
+    u = interior.displacement(states)
+    rim = u[interior.mesh.rim_nodes]
+    largest = np.abs(rim).max()
+    for number, state in enumerate(states):
+        window = (2 * state.window[0] + np.arange(2 * state.window[1] + 1)) % len(rim)
+        np.testing.assert_allclose(rim[window, :, number], state.u, rtol=0, atol=1e-9 * largest)
+    assert (u[interior.mesh.weld_nodes] == 0).all()
+
+
+def test_the_energy_of_the_elements_is_the_ledgers(kept):
+    interior = interior_of(kept.hoop)
+    states = kept.states[::10]
+    energy = interior.element_energy(interior.displacement(states)).sum(axis=0)
+    known = [kept.hoop.energies(state)[2] for state in states]
+    np.testing.assert_allclose(energy, known, rtol=1e-7, atol=1e-9 * max(known))
+
+
+def test_pressure_and_traction_add_up_to_the_forces(kept):
+    """N to round-off; F too while the patch slides or is a brush, to the last spacing's parabola while it sticks."""
+    for state in kept.states[::7]:
+        along = profile(kept.hoop, state)
+        normal = np.trapezoid(along.pressure, along.theta)
+        friction = np.trapezoid(along.traction, along.theta)
+        size = 1e-9 + state.normal_force
+        assert normal == pytest.approx(state.normal_force, abs=1e-9 * size)
+        assert friction == pytest.approx(state.friction_force, abs=(1e-4 if state.mode == 0 else 1e-9) * size)
+        assert (along.pressure >= 0).all()
+        assert ((along.stick != 0) >= (along.pressure > 0)).all()
+
+
+def test_a_mode_that_comes_back_with_the_other_sign_changes_nothing(kept):
+    """The eigensolver's signs are its own: modes asked for again, of more of them, may be turned round."""
+    interior = interior_of(kept.hoop)
+    state = [kept.states[len(kept.states) // 2]]
+    before = interior.displacement(state)
+    if "_modes" not in interior.__dict__:
+        pytest.skip("a massless ring has no modes")
+    ring = interior.ring
+    values, shapes = ring.modes(interior.reduced.rim_shapes.shape[1])
+    again = interior_of(kept.hoop)
+    original = ring.__dict__["_modes"]
+    ring.__dict__["_modes"] = (values, shapes * np.where(np.arange(shapes.shape[1]) % 2, -1, 1))
+    try:
+        np.testing.assert_allclose(again.displacement(state), before, rtol=1e-12, atol=1e-20)
+    finally:
+        ring.__dict__["_modes"] = original
