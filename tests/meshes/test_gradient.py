@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from meshes import nodal_gradient, ring_mesh
+from meshes import gauss_gradient, nodal_gradient, ring_mesh
 
 
 def test_gradients_of_linear_fields_are_exact():
@@ -51,3 +51,19 @@ def test_bending_strain_through_one_element():
     exact = 3 * z * np.cos(2 * t) / (a * (a + z))
     # the elements see cos 2t with h = 0.026: errors of (2h)^3 or so of the displacement's own gradient, 1
     np.testing.assert_allclose(strain, exact, atol=3e-4)
+
+
+def test_gauss_points_weigh_the_area_and_see_quadratic_energies_exactly():
+    """The areas add up to the annulus, and gradients of linear fields are exact."""
+    inner, outer = 0.9, 1.0
+    ring = ring_mesh(inner, outer, 120, 2, 0.1, 2.0)
+    by_y1, by_y2, area = gauss_gradient(ring)
+    assert area.shape == (len(ring.quad9), 9)
+    assert area.sum() == pytest.approx(np.pi * (outer**2 - inner**2), rel=1e-7)
+    field = 2 * ring.points[:, 0] - 3 * ring.points[:, 1]
+    np.testing.assert_allclose(by_y1 @ field, 2, rtol=1e-10)
+    np.testing.assert_allclose(by_y2 @ field, -3, rtol=1e-10)
+    # Dirichlet energy of x^2 - y^2, |grad|^2 = 4 rho^2, over the annulus: 2 pi (b^4 - a^4)
+    x, y = ring.points.T
+    energy = ((by_y1 @ (x**2 - y**2)) ** 2 + (by_y2 @ (x**2 - y**2)) ** 2) @ area.ravel()
+    assert energy == pytest.approx(2 * np.pi * (outer**4 - inner**4), rel=1e-6)

@@ -1,0 +1,125 @@
+"""Fields and pictures from the command line."""
+
+import numpy as np
+import pytest
+from command_line import is_one_sentence
+
+from meshes import read
+from meshes.renderer import renderer_problem
+
+SCENE = """\
+[hoop]
+k = 0.1
+r = 1.02
+mass_ratio = 0.01
+[friction]
+mu_s = 0.35
+mu = 0.3
+[release]
+phi0_deg = 10
+[run]
+until = "pulse"
+[solve]
+rtol = 1e-3
+"""
+
+needs_renderer = pytest.mark.skipif(renderer_problem() is not None, reason=str(renderer_problem()))
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory):
+    """The folder that `hoop flexible SCENE --out DIR --fields --frames 12` leaves."""
+    from studies import cli
+
+    folder = tmp_path_factory.mktemp("view")
+    file = folder / "scene.toml"
+    file.write_text(SCENE)
+    assert cli.run(["flexible", str(file), "--out", str(folder / "out"), "--fields", "--frames", "12"]) == 0
+    return folder / "out"
+
+
+def test_flexible_writes_a_series(run):
+    series = read(run)
+    assert len(series) == 12
+    ring = series[6].blocks["ring"].point_data
+    assert {"displacement", "velocity", "stress", "von_mises", "hoop_stress", "energy_density"} <= set(ring)
+
+
+def test_frames_at_listed_times_with_listed_fields(hoop, run, tmp_path):
+    status, _, err = hoop(
+        "flexible", run.parent / "scene.toml", "--json", "--out", tmp_path, "--fields",
+        "--times", "5.8,1,5.85", "--only", "von_mises,displacement",
+    )  # fmt: skip
+    assert status == 0, err
+    series = read(tmp_path)
+    np.testing.assert_array_equal(series.times, [1, 5.8, 5.85])
+    assert set(series[1].blocks["ring"].point_data) == {"von_mises", "displacement"}
+
+
+@needs_renderer
+def test_view_draws_a_picture_and_an_animation(hoop, run, tmp_path):
+    from PIL import Image
+
+    png, gif = tmp_path / "a.png", tmp_path / "a.gif"
+    status, out, err = hoop("view", run, "--png", png, "--time", 5.85, "--field", "hoop_stress", "--zoom", 4)
+    assert (status, out, err) == (0, "", "")
+    with Image.open(png) as image:
+        assert len(image.convert("RGB").getcolors(maxcolors=10**7)) > 100
+    status, out, err = hoop("view", run, "--gif", gif, "--frames", 3, "--fps", 5, "--pace", "time", "--factor", 100)
+    assert (status, out, err) == (0, "", "")
+    with Image.open(gif) as image:
+        assert image.n_frames == 3
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--png", "a.jpg"), ".png"),
+        (("--time", 5.8), "--png"),
+        (("--pace", "time", "--png", "a.png"), "animation"),
+        (("--frames", 5), "animation"),
+        (("--gif", "a.gif", "--pace", "odd"), "odd"),
+        (("--png", "a.png", "--time", 99), "the run goes from"),
+        (("--png", "a.png", "--zoom", 0.1), "zoom"),
+        (("--png", "a.png", "--factor", -1), "factor"),
+        (("--png", "a.png", "--field", "colour"), "there is no field 'colour'"),
+        (("--gif", "a.gif", "--start", 3, "--stop", 2), "is not possible"),
+    ],
+)
+def test_bad_wishes_are_one_sentence(hoop, run, arguments, words):
+    status, out, err = hoop("view", run, *arguments)
+    assert (status, out) == (2, "")
+    assert words in err
+    assert is_one_sentence(err)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--fields",), "--out"),
+        (("--out", "o", "--frames", 5), "--fields"),
+        (("--out", "o", "--fields", "--times", "1,x"), "1,x"),
+        (("--out", "o", "--fields", "--times", "1", "--frames", 5), "cannot both be"),
+        (("--out", "o", "--fields", "--only", "colour"), "colour"),
+        (("--out", "o", "--fields", "--frames", 1), "1"),
+    ],
+)
+def test_bad_wishes_about_fields_are_one_sentence(hoop, tmp_path, monkeypatch, arguments, words):
+    monkeypatch.chdir(tmp_path)
+    status, out, err = hoop("flexible", "paper-3.3-massless", *arguments)
+    assert (status, out) == (2, "")
+    assert words in err
+    assert is_one_sentence(err)
+    assert not (tmp_path / "o" / "motion.json").exists()  # it was seen before anything ran
+
+
+def test_folders_and_files_that_are_no_series(hoop, tmp_path):
+    for path in (tmp_path, tmp_path / "nothing.pvd"):
+        status, _, err = hoop("view", path, "--png", tmp_path / "a.png")
+        assert status == 2
+        assert is_one_sentence(err)
+    foreign = tmp_path / "other.vtu"
+    foreign.write_text("<VTKFile/>")
+    status, _, err = hoop("view", foreign, "--png", tmp_path / "a.png")
+    assert status == 2
+    assert is_one_sentence(err)
