@@ -34,6 +34,7 @@ from .slide import carry
 from .slipping import JAM, ORDER, S_D, S_P, S_T, normal_force, series
 from .swing import roll_on
 
+MOST_STEPS = 400_000  # in one phase: beyond the work bound of the motion itself
 COLUMNS = 8  # phi, omega, x_C, height of the contact point, slip velocity, N, F, energy
 
 
@@ -65,6 +66,7 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
         if kind in (SKID, SPIN):
             mu_hat = par[MU] if kind == SKID else -par[MU]
             p_known = inf
+            steps = 0
             while i < len(times) and times[i] < until:
                 length = series(
                     par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], state[SLIP], p_known, work
@@ -72,7 +74,8 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
                 tt = work[S_T]
                 duration = value(tt, ORDER, length)
                 before = state[T]
-                if work[S_D][0] <= JAM * par[GYR]:
+                steps += 1
+                if work[S_D][0] <= JAM * par[GYR] or steps > MOST_STEPS:
                     duration = inf  # jammed: nothing moves in what is left of the phase
                 keep = (state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C])
                 while i < len(times) and times[i] < until and times[i] <= before + duration:

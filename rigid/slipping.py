@@ -91,7 +91,11 @@ def series(par, mu_hat, a, top, omega, slip, p_known, work):
         hh[m] = y_d / (e * m)
         yd[m] = n1[n] / m
         tt[m] = dd[n] / m
-    return min(step_length(om, 0), step_length(sn, 0), 1e3 / (abs(dd[0]) + 1e-6))
+    length = min(step_length(om, 0), step_length(sn, 0), 1e3 / (abs(dd[0]) + 1e-6))
+    if dd[0] < 1e-3 * (gyr + e * e * s * s):
+        # towards a jam D decays alone, while the angle stands still
+        length = min(length, step_length(dd, 0))
+    return length
 
 
 @kernel
