@@ -90,11 +90,19 @@ def test_the_exact_ring_feels_no_rotation_and_stretches_as_it_should():
     np.testing.assert_allclose(density[:, 0], 5 * e11**2 / 2, rtol=1e-10)
 
 
-@pytest.fixture(scope="module", params=["paper-3.3-massless", "paper-3.3-light", "brush"])
+CASES = {
+    "massless": ("paper-3.3-massless", {}),
+    "light": ("paper-3.3-light", {}),
+    "brush": ("paper-3.3-light", {"law": "brush"}),
+    "damped": ("paper-3.3-light", {"damping": 1.0}),
+}
+
+
+@pytest.fixture(scope="module", params=CASES)
 def kept(request):
-    brush = request.param == "brush"
-    scene = load_scene("paper-3.3-light" if brush else request.param)
-    scene = scene.replace(run={"until": "pulse"}, solve={"rtol": 1e-3}, contact={"law": "brush" if brush else "patch"})
+    """The states of a first pulse."""
+    name, contact = CASES[request.param]
+    scene = load_scene(name).replace(run={"until": "pulse"}, solve={"rtol": 1e-3}, contact=contact)
     return simulate(scene, history=True).kept[0]
 
 
