@@ -30,19 +30,18 @@ def strike(par, state, restitution):
     arm = par[ONE_MINUS_E] + e * h
     v, un = state[SLIP], min(state[UN], 0.0)
     jammed = un == 0.0 and v != 0.0
-    impulse_n = 0.0
-    impulse_t = 0.0
+    omega = state[OMEGA]
     work = 0.0  # of the normal force: negative in compression
     needed = inf  # what restitution has to give back
     for _ in range(12):
+        stick = v == 0.0 and abs(es * arm) <= par[MU_S] * (gyr + arm * arm)
         if v != 0.0:
             friction = -mu if v > 0 else mu
-        elif abs(es * arm) <= par[MU_S] * (gyr + arm * arm):
-            friction = es * arm / (gyr + arm * arm)
         else:
             friction = mu if s > 0 else -mu
-        stick = v == 0.0 and abs(es * arm) <= par[MU_S] * (gyr + arm * arm)
-        un_rate = (gyr + es * (es - friction * arm)) / gyr
+        # while it sticks, es - friction arm = es K/(K + arm^2), written so that a small K keeps its digits
+        spin_rate = es / (gyr + arm * arm) if stick else (es - friction * arm) / gyr
+        un_rate = 1.0 + es * spin_rate
         if jammed and v != 0.0 and un_rate > -1e-30:
             un_rate = -1e-30  # D is zero to round-off, whatever its sign
         v_rate = 0.0 if stick else (friction * (gyr + arm * arm) - es * arm) / gyr
@@ -72,8 +71,7 @@ def strike(par, state, restitution):
         if step == inf:
             break
         gain = step * (un + 0.5 * un_rate * step)
-        impulse_n += step
-        impulse_t += friction * step
+        omega += spin_rate * step
         un_before = un
         un += un_rate * step
         v += v_rate * step
@@ -90,7 +88,6 @@ def strike(par, state, restitution):
                 un = 0.0
         if un_before == un and step == 0.0 and to_stop > to_end and over:
             break
-    omega = state[OMEGA] + (es * impulse_n - arm * impulse_t) / gyr
     reverses = omega * state[OMEGA] < 0
     state[OMEGA], state[SLIP], state[UN] = omega, v, un
     return reverses
