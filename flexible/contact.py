@@ -34,7 +34,7 @@ SPACING, EPS_N, EPS_T, MU_S, MU = range(5)
 NORMAL, FRICTION, NORMAL_ENERGY, BRISTLE_ENERGY, LENGTH, STUCK, SLIP, LOW, HIGH, OUTSIDE, ELASTIC, ETA, DRAG = range(13)
 RESULTANTS = 13
 
-UNDAMPED = np.array([0.0, 0.0, 1.0, 0.0, 0.0])
+UNDAMPED = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 1.0])
 
 
 # Directions are counted in two bases: what moves abscissas, (V, phi, u_X of the nodes), and what moves gaps,
@@ -229,10 +229,11 @@ def contact_forces(
         STICK, SLIDE_RIGHT or SLIDE_LEFT for the patch law, BRUSH for the brush.
     bristles, flags : (m, 2), (m,) arrays
         Number and stretch of each point in contact at the beginning of the step, ascending; sliding or not.
-    damper : (5,) array
-        (rho, N_0, eta_0, c, x_0): pressures are eta times the elastic ones, eta = eta_0 + rho (N_el - N_0)/N_el, at
+    damper : (6,) array
+        (rho, N_0, eta_0, c, x_0, r): pressures are eta times the elastic ones, eta = eta_0 + rho (N_el - N_0)/N_el, at
         least 0; a sticking patch drags with -c (x - x_0), shared like the pressure, x its mean move in the step.
         rho is the damper's relaxation time over the step's beta; N_0, x_0 are what N_el, x were without a rate.
+        A point's slip velocity at the end of the stage is r (move - x_0) over the stage's length.
 
     Returns
     -------
@@ -266,7 +267,7 @@ def contact_forces(
         eta_rate = damper[0] * damper[1] / elastic**2
         if eta < 0:
             eta, eta_rate = 0.0, 0.0
-    carried = carry(points, bristles, flags, phi - old_pose[2], mode == BRUSH)
+    carried = carry(points, bristles, flags, phi - old_pose[2], damper[5], damper[4], mode == BRUSH)
     tractions = rub(points, foundation, carried, mode, eta, spacing, eps_n, eps_t, law[MU_S], law[MU])
 
     along, up = _directions(points)

@@ -65,8 +65,13 @@ def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, floa
 
 
 @njit(cache=True, error_model="numpy")
-def carry(points: Any, kept: Any, flags: Any, dphi: float, brush: bool) -> Any:
-    """Bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered since."""
+def carry(points: Any, kept: Any, flags: Any, dphi: float, ratio: float, start: float, brush: bool) -> Any:
+    """Bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered since.
+
+    The way of a point that entered is a parabola in time that ends with the velocity of the stage,
+    ``ratio (move - start)`` over the stage's length: a long step then sees the slip at its end and not its mean, which
+    would leave the friction of a short patch undamped.
+    """
     total = points.gap.shape[0]
     stretch, rate = np.zeros(total), np.zeros(total)
     by_gap, by_phi = np.zeros(total), np.zeros(total)
@@ -85,10 +90,13 @@ def carry(points: Any, kept: Any, flags: Any, dphi: float, brush: bool) -> Any:
         fraction, d_gap, d_sweep = _entry(max(points.gap_old[i], 0.0), points.gap[i], dphi * dphi)
         if fraction >= 0:
             touched[i] = True
-            stretch[i] = (1 - fraction) * move
-            rate[i] = 1 - fraction
-            by_gap[i] = -move * d_gap
-            by_phi[i] = -move * d_sweep * 2 * dphi
+            rest = 1 - fraction
+            ending = ratio * (move - start)
+            stretch[i] = rest * (ending - (ending - move) * rest)
+            rate[i] = rest * (ratio - (ratio - 1) * rest)
+            by_fraction = -(ending - 2 * (ending - move) * rest)
+            by_gap[i] = by_fraction * d_gap
+            by_phi[i] = by_fraction * d_sweep * 2 * dphi
             if brush and flags.shape[0] > 0:  # a point that enters behind a sliding edge goes on sliding
                 sliding[i] = flags[0] if j < kept[0, 0] else flags[-1]
     return Bristles(stretch, rate, by_gap, by_phi, touched, sliding)

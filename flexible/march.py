@@ -155,7 +155,7 @@ def _attempt(model: Model, old: State, h: float) -> _Trial | None:
     elastic0 = old.res[ELASTIC]
     elastic_pred = elastic0 + beta * old.elastic_rate
     pos_pred, vel_pred = pos0 + 2 * beta * vel0 + beta**2 * acc0, vel0 + beta * acc0
-    damper = np.array([rho, elastic_pred, 1.0, drag, beta * old.slip_velocity])
+    damper = np.array([rho, elastic_pred, 1.0, drag, beta * old.slip_velocity, TAU / BETA])
     first = model.stage(old, old.mode, damper, pos_pred, vel_pred, beta, beta**2 * acc0)
     if not first[0]:
         return None
@@ -165,7 +165,7 @@ def _attempt(model: Model, old: State, h: float) -> _Trial | None:
     vel_pred = c_mid * vel_mid + c_old * vel0
     pos_pred = c_mid * pos_mid + c_old * pos0 + beta * vel_pred
     elastic_pred = c_mid * res_mid[ELASTIC] + c_old * elastic0
-    damper = np.array([rho, elastic_pred, 1.0, drag, c_mid * res_mid[SLIP]])
+    damper = np.array([rho, elastic_pred, 1.0, drag, c_mid * res_mid[SLIP], 1 / BETA])
     guess = beta**2 * (acc_mid + (acc_mid - acc0) * (1 - TAU) / TAU)
     second = model.stage(old, old.mode, damper, pos_pred, vel_pred, beta, guess, (first[4], first[5]))
     if not second[0]:
@@ -198,7 +198,7 @@ def _attempt(model: Model, old: State, h: float) -> _Trial | None:
 def restart(model: Model, state: State, mode: int) -> State:
     """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
     beta = 1e-7
-    damper = np.array([0.0, 0.0, state.res[ETA] if state.res[ELASTIC] > 0 else 1.0, 0.0, 0.0])
+    damper = np.array([0.0, 0.0, state.res[ETA] if state.res[ELASTIC] > 0 else 1.0, 0.0, 0.0, 1.0])
     ok, d, acc, _, window, u, nodal, res, bristles, flags = model.stage(
         state, mode, damper, state.pos, state.vel, beta, beta**2 * state.acc
     )
