@@ -26,6 +26,11 @@ In the order in which they build on each other:
 ``stretch``    records read as phases, turns and pulse measures
 ``solve``      simulate(scene)
 ``motion``     what is added to the common vocabulary
+``interior``   displacement, stress and energy inside the ring
+``profile``    pressure and friction along the patch
+``rim``        the rim of a frame
+``curves``     forces and phases beside the frames
+``fields``     write_fields(motion, directory): all of it as a series on disk
 """
 
 from .motion import FlexibleMotion, FlexiblePulse, History, Ledger
