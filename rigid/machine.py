@@ -186,7 +186,7 @@ def entry_run(par, state, work, tape):
         state[STEPS] -= 1.0
         mode = state[MODE]
         code = PHASE_OVER
-        before = state[T]
+        before, angle, omega = state[T], state[ANGLE], state[OMEGA]
         if mode == CHOOSE:
             choose(par, state, tape)
             continue
@@ -214,7 +214,9 @@ def entry_run(par, state, work, tape):
             code = skim(par, state, tape)
         if code != PHASE_OVER:
             return code
-        state[STALLS] = state[STALLS] + 1.0 if state[T] == before else 0.0
+        # a phase of a tiny disk may be shorter than t resolves: one that moved counts less than one that did not
+        moved = state[ANGLE] != angle or state[OMEGA] != omega
+        state[STALLS] = 0.0 if state[T] != before else state[STALLS] + (0.02 if moved else 1.0)
         if state[STALLS] > MOST_STALLS:
             return WORK_BOUND
         if state[MODE] == mode:
