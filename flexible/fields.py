@@ -123,7 +123,8 @@ def write_fields(
     when = _times(motion, frames, times, pulse)
     scene = motion.scene
     si = not scene.hoop.R == scene.hoop.m == scene.hoop.g == 1
-    instants = [_instant(motion, float(t) / scene.time_unit, float(t)) for t in when]
+    clocks = [np.array([state.t for state in kept.states]) for kept in motion.kept]
+    instants = [_instant(motion, clocks, float(t) / scene.time_unit, float(t)) for t in when]
     painter = _Painter(scene, asked, instants)
     with SeriesWriter(directory, SI_UNITS if si else UNITS, _title(scene)) as writer:
         writer.history(**curves(motion, float(when[0]), float(when[-1])))
@@ -184,13 +185,15 @@ def _around(motion: FlexibleMotion, pulse: Pulse) -> tuple[float, float]:
     return start, end
 
 
-def _instant(motion: FlexibleMotion, t: float, told: float) -> _Instant:
-    """The state at ``t``, in the solver's units; ``told`` is the same time in the scene's."""
-    for kept in motion.kept:
-        first, last = kept.states[0].t, kept.states[-1].t
+def _instant(motion: FlexibleMotion, clocks: list[Array], t: float, told: float) -> _Instant:
+    """The state at ``t``, in the solver's units; ``told`` is the same time in the scene's.
+
+    ``clocks`` are the times of the kept states.
+    """
+    for kept, steps in zip(motion.kept, clocks, strict=True):
+        first, last = steps[0], steps[-1]
         if not first - 1e-12 * last <= t <= last * (1 + 1e-12):
             continue
-        steps = [state.t for state in kept.states]
         i = min(max(int(np.searchsorted(steps, t, side="right")) - 1, 0), len(steps) - 2)
         before, after = kept.states[i], kept.states[i + 1]
         state: State | None = before
