@@ -17,7 +17,7 @@ own gap rate, which under rolling would be a rolling resistance.
 
 from __future__ import annotations
 
-from math import cos, pi, sin
+from math import cos, sin
 from typing import Any
 
 import numpy as np
@@ -297,6 +297,8 @@ def contact_forces(
         _add_outer(tangent, pushes, share_by)
         if dragging:
             slip_by = _spread(_gathered(points, foundation.force / elastic, along, nodes), X, s, c)
+            for i in range(total):  # the mean slip leaves out what rolling alone moves
+                slip_by[2] -= foundation.force[i] / elastic * 2 * sin(points.psi[i] / 2) ** 2
             slip_by += _spread(_slip_by_gaps(points, foundation, slip, elastic, up, nodes), Y, s, c)
             share_by = -damper[3] * slip_by - drag / elastic * elastic_by
         _add_outer(tangent, _spread(_gathered(points, tractions.share, along, nodes), X, s, c), share_by)
@@ -304,7 +306,7 @@ def contact_forces(
     # the directions themselves turn with phi
     turning = 0.0
     for i in range(total):
-        psi = phi - pi + points.number[i] * spacing
+        psi = points.psi[i]
         u_x, u_y = sin(psi) - points.arm_x[i], points.arm_y[i] - 2 * sin(psi / 2) ** 2
         turning += eta * foundation.force[i] * (cos(psi) - u_y) + tractions.force[i] * (sin(psi) - u_x)
     tangent[2, 2] += turning
@@ -323,10 +325,9 @@ def contact_forces(
     active = 0
     for i in range(total):
         if points.gap[i] < 0:
-            psi = phi - pi + points.number[i] * spacing
             if active == 0:
-                res[LOW] = psi
-            res[HIGH] = psi
+                res[LOW] = points.psi[i]
+            res[HIGH] = points.psi[i]
             active += 1
     kept, kept_flags = np.empty((active, 2)), np.empty(active, np.int8)
     n = 0

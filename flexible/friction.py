@@ -9,7 +9,7 @@ mu p.
 from __future__ import annotations
 
 from collections import namedtuple
-from math import sqrt
+from math import cos, sin, sqrt
 from typing import Any
 
 import numpy as np
@@ -68,9 +68,9 @@ def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, floa
 def carry(points: Any, kept: Any, flags: Any, dphi: float, ratio: float, start: float, brush: bool) -> Any:
     """Bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered since.
 
-    The way of a point that entered is a parabola in time that ends with the velocity of the stage,
-    ``ratio (move - start)`` over the stage's length: a long step then sees the slip at its end and not its mean, which
-    would leave the friction of a short patch undamped.
+    The way of a point that entered is that of rolling, plus a parabola in time that ends with the velocity of the
+    stage, ``ratio (move - start)`` over the stage's length: a long step then sees the slip at its end and not its mean,
+    which would leave the friction of a short patch undamped.
     """
     total = points.gap.shape[0]
     stretch, rate = np.zeros(total), np.zeros(total)
@@ -83,7 +83,7 @@ def carry(points: Any, kept: Any, flags: Any, dphi: float, ratio: float, start: 
             p += 1
         if p < kept.shape[0] and kept[p, 0] == j:
             touched[i] = True
-            stretch[i] = kept[p, 1] + move
+            stretch[i] = kept[p, 1] + move + points.rolled[i]
             rate[i] = 1.0
             sliding[i] = flags[p]
             continue
@@ -92,11 +92,15 @@ def carry(points: Any, kept: Any, flags: Any, dphi: float, ratio: float, start: 
             touched[i] = True
             rest = 1 - fraction
             ending = ratio * (move - start)
-            stretch[i] = rest * (ending - (ending - move) * rest)
+            psi = points.psi[i]
+            psi_in = psi - rest * dphi
+            lift, lift_in = 2 * sin(psi / 2) ** 2, 2 * sin(psi_in / 2) ** 2
+            rolled = rest * dphi - 2 * cos((psi + psi_in) / 2) * sin(rest * dphi / 2)
+            stretch[i] = rolled + rest * (ending - (ending - move) * rest)
             rate[i] = rest * (ratio - (ratio - 1) * rest)
-            by_fraction = -(ending - 2 * (ending - move) * rest)
+            by_fraction = -(ending - 2 * (ending - move) * rest) - lift_in * dphi
             by_gap[i] = by_fraction * d_gap
-            by_phi[i] = by_fraction * d_sweep * 2 * dphi
+            by_phi[i] = by_fraction * d_sweep * 2 * dphi + (1 - rate[i]) * lift - (1 - rest) * lift_in
             if brush and flags.shape[0] > 0:  # a point that enters behind a sliding edge goes on sliding
                 sliding[i] = flags[0] if j < kept[0, 0] else flags[-1]
     return Bristles(stretch, rate, by_gap, by_phi, touched, sliding)

@@ -114,7 +114,9 @@ Points = namedtuple(
         "arm_y",  # derivative of the abscissa by phi
         "gap",  # over the floor, negative in contact
         "gap_old",  # at the beginning of the step
-        "move",  # along the floor since then
+        "move",  # along the floor since then, but for
+        "rolled",  # what the rigid circle's rolling alone would move it, psi - sin(psi) now less then
+        "psi",  # angle from the bottom
     ],
 )
 Points.__doc__ = "Points that touch, and their neighbours on both sides, as arrays of one length; ascending."
@@ -146,6 +148,7 @@ def gather(pose: Any, u: Any, first: int, vertex: Any, spacing: float, old_pose:
     shape = np.empty((total, 3))
     arm_x, arm_y, gap = np.empty(total), np.empty(total), np.empty(total)
     gap_old, move = np.empty(total), np.empty(total)
+    rolled, angle = np.empty(total), np.empty(total)
     outside = False
     m = 0
     for r in range(ranges.shape[0]):
@@ -169,8 +172,9 @@ def gather(pose: Any, u: Any, first: int, vertex: Any, spacing: float, old_pose:
             gap[m] = height + raised + uy
             gap_old[m] = old_pose[1] + 2 * sin(psi_old / 2) ** 2 + v1 * c_old - v2 * s_old
             arm_x[m], arm_y[m] = sin(psi) - ux, raised + uy
-            # dphi - (sin psi - sin psi_old) is small for small psi, and is computed so
-            move[m] = dv + dphi - 2 * cos((psi + psi_old) / 2) * sin(dphi / 2) + ux - (v1 * s_old + v2 * c_old)
+            angle[m] = psi
+            rolled[m] = dphi - 2 * cos((psi + psi_old) / 2) * sin(dphi / 2)
+            move[m] = dv + ux - (v1 * s_old + v2 * c_old)
             m += 1
         last[m - 1] = True
-    return Points(number, last, local, shape, arm_x, arm_y, gap, gap_old, move), outside
+    return Points(number, last, local, shape, arm_x, arm_y, gap, gap_old, move, rolled, angle), outside
