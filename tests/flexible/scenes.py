@@ -1,0 +1,45 @@
+"""Scenes and marches that several tests share."""
+
+from math import pi
+
+import numpy as np
+
+from flexible.contact import RESULTANTS, STICK
+from flexible.march import State, march
+from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
+
+#: the hoop of the paper's sec. 3.3, on a floor soft enough to be quick
+HOOP = Scene(
+    Hoop(k=0.1, r=1.02, mass_ratio=0.1),
+    Friction(0.35, 0.3),
+    Release(10 * pi / 180),
+    Run(until="pulse"),
+    ring=Ring(bending_stiffness=1e3),
+    contact=Contact(stiffness=1e8),
+    solve=Solve(rtol=1e-3, level="reduced"),
+)
+
+
+def flying(hoop, pos, vel):
+    """A hoop off the floor."""
+    window = hoop.window(pos[2], 0.0, 0.0, 0.1 * hoop.element)
+    u = np.zeros((2 * window[1] + 1, 2))
+    nothing = (u, np.zeros_like(u), np.zeros(RESULTANTS), np.empty((0, 2)), np.empty(0, np.int8))
+    return State(0.0, 0.0, pos, vel, np.zeros_like(pos), STICK, window, *nothing, 0.0)
+
+
+def steps_of(hoop, state, t_end, step):
+    """March in equal steps; the last state, the records and the states."""
+    states = [state]
+    count = round((t_end - state.t) / step)
+    last, records, _, ended = march(
+        hoop, state, lambda s: s.t - t_end, 0.5, h=(t_end - state.t) / count * (1 + 1e-12),
+        largest_step=(t_end - state.t) / count * (1 + 1e-12), progress=states.append,
+    )  # fmt: skip
+    assert not ended
+    return last, records, states
+
+
+def energy(record):
+    """Energy held at a record."""
+    return record.kinetic + record.gravity + record.ring_strain + record.contact_spring
