@@ -168,6 +168,8 @@ def _times(motion: FlexibleMotion, frames: int, times: ArrayLike | None, pulse: 
         if not 0 <= pulse < len(motion.pulses):
             raise SeriesError(f"pulse = {pulse!r} is not possible: the motion has {len(motion.pulses)}.")
         start, end = _around(motion, motion.pulses[pulse])
+    if not start < end:
+        raise SeriesError(f"there is no stretch of time to show from t = {start:g} on: {motion.ended}.")
     history = motion.history
     if history is None or not len(history.t):
         return frame_times(start, end, frames)

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -271,6 +272,15 @@ def test_bad_wishes_are_one_sentence(motion, tmp_path, wishes, words):
 def test_a_motion_without_states_is_one_sentence(tmp_path):
     with pytest.raises(SeriesError, match="history=True"):
         write_fields(simulate(scene("paper-3.3-massless")), tmp_path)
+
+
+def test_a_pulse_that_never_came_about_is_one_sentence(motion, tmp_path):
+    """Where the solver gave up at once, its own words say why."""
+    stuck = replace(motion.pulses[0], t_end=motion.pulses[0].t_start)
+    kept = replace(motion.kept[0], states=motion.kept[0].states[:1])
+    gone = replace(motion, pulses=(stuck,), kept=(kept,), ended="stopped for a reason")
+    with pytest.raises(SeriesError, match="stopped for a reason"):
+        write_fields(gone, tmp_path)
 
 
 def test_a_motion_without_a_pulse_is_drawn_rigid(tmp_path):
