@@ -181,7 +181,7 @@ def _attempt(model: Model, old: State, h: float) -> _Trial | None:
     for a, b, moved in ((old.res, res_mid, slip_mid), (res_mid, res, slip - slip_mid)):
         work += (a[FRICTION] - a[DRAG] + b[FRICTION] - b[DRAG]) / 2 * moved
         damped -= (a[DRAG] + b[DRAG]) / 2 * moved
-        damped += ((a[ETA] + b[ETA]) / 2 - 1) * (b[NORMAL_ENERGY] - a[NORMAL_ENERGY])
+        damped += (_eta(a, b) - 1) * (b[NORMAL_ENERGY] - a[NORMAL_ENERGY])
     off = h * sum(w for w, r in zip(_QUADRATURE, forces, strict=True) if r[NORMAL] == 0)
     x_C = old.x_C + pos[0] + (pos[2] - pos0[2])
     pos = pos.copy()
@@ -193,6 +193,12 @@ def _attempt(model: Model, old: State, h: float) -> _Trial | None:
     )  # fmt: skip
     size = model.momentum_error(state, beta, matrix, error)
     return _Trial(state, size, (impulses[0], impulses[1]), work, damped, off)
+
+
+def _eta(first: Array, second: Array) -> float:
+    """Mean damping factor between two instants, of those in contact."""
+    factors = [float(res[ETA]) for res in (first, second) if res[ELASTIC] > 0]
+    return sum(factors) / len(factors) if factors else 1.0
 
 
 def restart(model: Model, state: State, mode: int) -> State:

@@ -6,7 +6,17 @@ import numpy as np
 import pytest
 from kinematic import VERTEX, Rim
 
-from flexible.contact import BRUSH, FRICTION, NORMAL, NORMAL_ENERGY, SLIDE_LEFT, SLIDE_RIGHT, STICK, contact_forces
+from flexible.contact import (
+    BRUSH,
+    FRICTION,
+    NORMAL,
+    NORMAL_ENERGY,
+    SLIDE_LEFT,
+    SLIDE_RIGHT,
+    STICK,
+    UNDAMPED,
+    contact_forces,
+)
 from flexible.points import element_at
 
 EPS = 1e6
@@ -48,7 +58,7 @@ def test_steady_rolling_of_the_brush(xi, way):
 
 
 @pytest.mark.parametrize("mode", [STICK, SLIDE_RIGHT, SLIDE_LEFT, BRUSH])
-@pytest.mark.parametrize("damper", [(0.0, 0.0, 1.0, 0.0, 0.0), (2.0, 0.95, 1.0, 1e5, 1e-6)])
+@pytest.mark.parametrize("damper", [UNDAMPED, (2.0, 0.95, 1.0, 1e5, 1e-6, *UNDAMPED[5:])])
 def test_tangent_of_the_contact(mode, damper):
     """Against central differences of the forces, 1e-6 of the largest entry; and normal forces from their energy."""
     rng = np.random.default_rng(0)

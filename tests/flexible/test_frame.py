@@ -108,7 +108,7 @@ def test_all_nodes_have_the_same_inertia_as_modes(reduced, full):
 
 
 def drift(step, hoop):
-    """Free flight with the ring vibrating in its lowest mode: drift of the momenta (about the origin) and of the energy."""
+    """Free flight with the ring vibrating in its lowest mode: drift of momenta (about the origin) and energy."""
     n = 3 + hoop.coordinates
     pos, vel = np.zeros(n), np.zeros(n)
     pos[:3], vel[:3] = (0.0, 5.0, 2.9), (0.3, 0.2, 4.0)

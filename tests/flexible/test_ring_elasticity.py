@@ -1,7 +1,7 @@
 """The ring's stiffness and mass against exact solutions in plane stress and of thin rings.
 
 Exact values: Love, A Treatise on the Mathematical Theory of Elasticity; Timoshenko, Strength of Materials II (pinched
-ring); Lame's rotating ring (Timoshenko and Goodier, Theory of Elasticity, sec. 32). Those of the annulus come from its Airy
+ring); rotating ring (Timoshenko and Goodier, Theory of Elasticity, sec. 32). Those of the annulus come from its Airy
 functions, evaluated in many digits.
 """
 

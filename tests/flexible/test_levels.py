@@ -1,0 +1,207 @@
+"""The levels of the hoop against each other: modes, all nodes, geometrically exact."""
+
+import numpy as np
+import pytest
+from scenes import HOOP
+
+import flexible
+from flexible.contact import BRUSH, NORMAL, SLIDE_RIGHT, UNDAMPED, contact_forces
+from flexible.exact import ExactElasticity, ExactHoop
+from flexible.full import FullHoop, NewtonMatrix, _Factored
+from flexible.levels import FAR, Range, hoop_of
+from flexible.march import march
+from flexible.nodal import inertia
+from flexible.reduced import ReducedHoop
+from flexible.ring import ring_of
+from flexible.solve import dimensionless
+from flexible.start import Pose, equilibrium, undeformed
+from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
+
+WALL = 1 - 1 / 1.02
+
+
+def scene_b(stiffness=1e8, **solve):
+    """An undeformed hoop that touches at phi = 2.9 and rolls at phidot = 4, units R0 = g = m = 1, E b R/(m g) given."""
+    return Scene(
+        Hoop(k=0.1, r=1.02, mass_ratio=0.1, R=1.02),
+        Friction(0.35, 0.3),
+        Release(2.9, 4.0),
+        Run(t_end=0.1426),
+        ring=Ring(bending_stiffness=stiffness * WALL**3 / 12),
+        contact=Contact(law="brush", stiffness=1.0404e7, tangential_ratio=1.0),
+        solve=Solve(resolve="all", start="undeformed", **solve),
+    )
+
+
+def measures(hoop, rtol):
+    """J_N, J_F and friction loss of scene B, in R0 = g = m = 1."""
+    scene = scene_b()
+    inner = dimensionless(scene)
+    start = undeformed(hoop, Pose(2.9, 4.0 * scene.time_unit, 0.0, 0.0, 0.0, True), BRUSH)
+    _, records, _, ended = march(hoop, start, lambda s: s.t - inner.run.t_end, rtol)
+    assert not ended
+    last = records[-1]
+    return np.array([
+        last.normal_impulse * scene.impulse_unit,
+        last.friction_impulse * scene.impulse_unit,
+        last.friction_loss * scene.energy_unit,
+    ])  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def soft_ring():
+    """The ring of scene B, and two smooth displacements of it of a third of the wall."""
+    ring = ring_of(dimensionless(scene_b()))
+    rng = np.random.default_rng(0)
+    fields = []
+    for _ in range(2):
+        load = np.zeros(len(ring.free))
+        load[ring.rim_dofs] = rng.standard_normal(len(ring.rim_dofs))
+        field = ring.solve(load)
+        fields.append(field * WALL / 3 / np.abs(field).max())
+    return ring, *fields
+
+
+def test_exact_ring_is_the_linear_one_at_rest(soft_ring):
+    """The same integration points and elements as the linear form: its stiffness to round-off."""
+    ring = soft_ring[0]
+    exact = ExactElasticity(ring)
+    at_rest = exact.tangent(np.zeros(len(ring.free)))
+    assert abs(at_rest - ring.free_stiffness).max() < 1e-14 * abs(ring.free_stiffness).max()
+    assert not exact.forces(np.zeros(len(ring.free))).any()
+
+
+def test_tangents_of_the_exact_ring(soft_ring):
+    """Forces from the energy and tangent from the forces, by central differences, to 1e-6."""
+    ring, u, v = soft_ring
+    exact = ExactElasticity(ring)
+    e = 1e-4
+    work = (exact.strain_energy(u + e * v) - exact.strain_energy(u - e * v)) / (2 * e)
+    assert work == pytest.approx(exact.forces(u) @ v, rel=1e-6)
+    found = (exact.forces(u + e * v) - exact.forces(u - e * v)) / (2 * e)
+    expected = exact.tangent(u) @ v
+    assert np.abs(found - expected).max() < 1e-6 * np.abs(expected).max()
+
+
+def test_exact_ring_has_no_strain_when_turned(soft_ring):
+    """A turned ring is not strained: the energy of a finite rotation is round-off of what the linear ring finds."""
+    ring = soft_ring[0]
+    exact = ExactElasticity(ring)
+    # on all dofs, the welded ones too
+    exact.free = np.arange(ring.basis.N)
+    turn = 0.5
+    y = ring.position_field
+    u = (np.cos(turn) - 1) * y + np.sin(turn) * ring.turned(y)
+    linear = u @ ring.stiffness @ u / 2
+    assert abs(exact.strain_energy(u)) < 1e-20 * linear + 1e-28
+
+
+def test_equilibria_of_the_levels():
+    """Sag under N, F and inertia: modes against nodes to what 24 modes leave out, nodes against exact to O(strain)."""
+    pose = Pose(2.2, 1.0, 0.0, 1.3, -0.2, True)
+    for mass in (0.1, 0.0):
+        scene = HOOP.replace(hoop={"mass_ratio": mass})
+        states = [equilibrium(kind(scene), pose) for kind in (ReducedHoop, FullHoop, ExactHoop)]
+        for state in states:
+            assert state.res[:2] == pytest.approx([1.3, -0.2], abs=1e-9)
+        heights = np.array([state.pos[1] for state in states])
+        assert heights[1] == pytest.approx(heights[0], rel=1e-5)
+        assert heights[2] == pytest.approx(heights[1], rel=0.01)
+
+
+def test_equilibrium_of_a_soft_ring_in_load_steps():
+    """E b R/(m g) = 3e6: the sag is 2 walls, and forces balance."""
+    state = equilibrium(ExactHoop(dimensionless(scene_b(3e6))), Pose(2.2, 1.0, 0.0, 1.3, -0.2, True))
+    assert state.pos[1] < -1.5 * WALL
+    assert state.res[:2] == pytest.approx([1.3, -0.2], abs=1e-9)
+
+
+def test_reduced_against_all_nodes_in_a_pulse():
+    """A massless and a massive hoop through a whole pulse, within the tolerance of the march (1e-2 of the impulse)."""
+    for mass in (0.0, 0.1):
+        scene = HOOP.replace(hoop={"mass_ratio": mass}, release={"phi0": 2.4, "omega0": 1.5}, solve={"rtol": 3e-3})
+        pulses = [flexible.simulate(scene.replace(solve={"level": level})).pulses[0] for level in ("reduced", "full")]
+        a, b = (np.array([p.normal_impulse, p.friction_impulse, p.friction_loss]) for p in pulses)
+        assert np.abs(a - b).max() < 3e-3 * a[0]
+
+
+@pytest.mark.slow
+def test_scene_b_reduced_against_all_nodes():
+    """J_N, J_F and loss within 1e-3 of J_N, R0 = g = m = 1; three codes give J_N = 2.149 +- 0.003."""
+    scene = dimensionless(scene_b())
+    reduced, full = (measures(kind(scene), 2e-4) for kind in (ReducedHoop, FullHoop))
+    assert np.abs(full - reduced).max() < 1e-3 * full[0]
+    assert reduced[0] == pytest.approx(2.149, abs=3e-3)
+    assert reduced[2] == pytest.approx(0.0113, abs=4e-4)
+
+
+@pytest.mark.slow
+def test_linear_against_exact():
+    """The linear ring's error is of the order of its rotations, N R^2/(E I): a tenth for ten times the stiffness."""
+    apart = []
+    for stiffness in (2e7, 2e8):
+        inner = dimensionless(scene_b(stiffness))
+        poses = Pose(2.6, 4.0, 0.0, 5.0, -0.5, True)
+        linear, exact = (equilibrium(kind(inner), poses).pos[1] for kind in (FullHoop, ExactHoop))
+        apart.append(abs(linear / exact - 1))
+    assert apart[1] == pytest.approx(apart[0] / 10, rel=0.3)
+
+
+def test_level_of_a_scene():
+    """By name, or the exact ring where the linear one would be too soft."""
+    assert isinstance(hoop_of(HOOP.replace(solve={"level": "auto"})), ReducedHoop)
+    assert type(hoop_of(HOOP.replace(solve={"level": "full"}))) is FullHoop
+    assert isinstance(hoop_of(HOOP.replace(solve={"level": "auto"}, ring={"bending_stiffness": 1.0})), ExactHoop)
+
+
+def test_a_linear_ring_that_goes_too_far_says_so():
+    """A rim that turns by more than FAR is named with its angle; the exact ring has no such limit."""
+    scene = dimensionless(scene_b(1e7, rtol=1e-2, level="reduced"))
+    motion = flexible.simulate(scene)
+    assert "too far for a linear ring" in motion.ended
+    assert "too far" not in flexible.simulate(HOOP.replace(release={"phi0": 2.4, "omega0": 1.5})).ended
+    assert FAR < 0.01  # a percent, as it goes with the rotation
+    far = equilibrium(ExactHoop(scene), Pose(2.2, 1.0, 0.0, 1.3, -0.2, True))
+    limits = Range(ExactHoop(scene))
+    limits(far)
+    assert not limits.complaint()
+
+
+def newton_errors(hoop, old, beta, dphi):
+    """Residuals of full Newton steps with the exact matrix on one smooth step, largest force each."""
+    ring, window = hoop.ring, old.window
+    dofs = ring.dofs(*window)
+    pos_pred, vel_pred = old.pos.copy(), old.vel.copy()
+    pos_pred[2] += dphi
+    d = np.zeros_like(pos_pred)
+    law = hoop.law.copy()
+    sizes = []
+    for _ in range(7):
+        pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
+        force, nodal, tangent, res, *_ = contact_forces(
+            pos[:3], pos[3:][dofs].reshape(-1, 2), window[0], hoop.vertex, law, SLIDE_RIGHT, old.pos[:3], old.u,
+            old.bristles, old.flags, UNDAMPED,
+        )  # fmt: skip
+        assert res[NORMAL] > 0
+        own = inertia(ring, pos, vel, acc, beta)
+        frame, rest = own.frame - force, own.ring.copy()
+        rest[dofs] -= nodal.ravel()
+        sizes.append(max(np.abs(frame).max(), np.abs(rest).max()))
+        matrix = NewtonMatrix(_Factored(ring, pos[3:], vel[2], acc[2], beta), own, tangent, window)
+        step = matrix.solve(frame, rest)
+        d[:3] -= step[0]
+        d[3:] -= step[1]
+    return np.array(sizes)
+
+
+@pytest.mark.parametrize("kind", [FullHoop, ExactHoop])
+def test_newton_converges_quadratically(kind):
+    """On a smooth step: the error's exponent doubles with each iteration until round-off."""
+    hoop = kind(HOOP.replace(solve={"elements": 96}))
+    old = equilibrium(hoop, Pose(2.2, 1.0, 0.0, 1.3, -0.2, True))
+    sizes = newton_errors(hoop, old, 2e-3, 2e-4)
+    floor = 1e-7  # round-off of the elastic forces of a ring this stiff
+    falling = [i for i in range(len(sizes) - 1) if sizes[i] < 0.1 and sizes[i + 1] > floor]
+    assert sizes.min() < floor
+    for i in falling:
+        assert sizes[i + 1] < 10 * sizes[i] ** 2
