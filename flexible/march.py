@@ -366,7 +366,7 @@ def _locate(model: Model, old: State, trial: _Trial, watch: Callable[[State], fl
         if middle is None:
             break
         value = watch(middle.state)
-        if value > 0:
+        if value >= 0:
             high, f_high, best = h, value, middle
             if side == 1:
                 f_low /= 2
