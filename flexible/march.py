@@ -221,7 +221,7 @@ def _excess(model: Model, state: State) -> float:
     """Positive when the patch can no longer go on as it does."""
     if state.mode == STICK:
         return abs(state.res[FRICTION]) - model.mu_s * state.res[NORMAL] if state.res[NORMAL] > 0 else -1.0
-    if state.mode == BRUSH or state.res[NORMAL] == 0:
+    if state.mode == BRUSH or state.res[NORMAL] == 0 or model.mu_s == 0:
         return -1.0
     return state.mode * state.slip_velocity
 

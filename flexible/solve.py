@@ -320,7 +320,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: _Builder, progres
         builder.pulses.append(stretch.pulse(stretch.t_start if first is None else first, stretch.t_end))
         done += 1
         if trouble:
-            return trouble
+            return trouble + _too_soft(scene)
         if scene.run.until == "pulse":
             return "the first pulse is over"
         rest = _rest_of(scene.run, builder)
@@ -329,6 +329,14 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: _Builder, progres
         slip = 0.0 if state.mode == STICK else state.slip_velocity
         release = Release(float(state.pos[2]), float(state.vel[2]), float(slip))
         current = dataclasses.replace(scene, release=release, run=rest)
+
+
+def _too_soft(scene: Scene) -> str:
+    """What to say of a run that failed with a ring too soft for its disk."""
+    needed = 1.3 / scene.hoop.k if scene.hoop.k > 0 else inf
+    if scene.ring.bending_stiffness >= 10 * needed:
+        return ""
+    return f"; the pulse of so small a disk wants ring.bending_stiffness well above 1.3/k = {needed:.3g}"
 
 
 def _last_turn(number: int) -> str:
@@ -389,4 +397,4 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: _Builder, progress: _
             break
         builder.pulses.append(stretch.pulse(first, last))
         after = last
-    return trouble or reference.ended
+    return trouble + _too_soft(scene) if trouble else reference.ended

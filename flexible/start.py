@@ -21,6 +21,7 @@ from .contact import (
     HIGH,
     LOW,
     RESULTANTS,
+    SLIDE_RIGHT,
     SPACING,
     STICK,
 )
@@ -126,6 +127,8 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, law: str) -> State:
     now = motion.at(t)
     if scene.solve.start == "undeformed" and t == 0:
         slides = BRUSH if law == "brush" else STICK if pose.slip_velocity == 0 else -int(np.sign(pose.slip_velocity))
+        if law == "patch" and hoop.mu_s == 0:
+            slides = SLIDE_RIGHT
         return undeformed(hoop, pose, slides)
     state = equilibrium(hoop, pose, t / scene.time_unit, float(now.x_C) / scene.hoop.R)
     vel = np.zeros_like(state.pos)
@@ -144,7 +147,8 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, law: str) -> State:
     friction = res[FRICTION]
     bristles = state.bristles
     creep = 0.0
-    mode = BRUSH if law == "brush" else (STICK if rolls else int(np.sign(friction)) or STICK)
+    slides = int(np.sign(friction)) or (STICK if hoop.mu_s > 0 else SLIDE_RIGHT)  # a smooth floor never holds
+    mode = BRUSH if law == "brush" else STICK if rolls else slides
     if rolls and len(bristles):
         length = res[HIGH] - res[LOW] + hoop.law[SPACING]
         psi = pose.phi - pi + bristles[:, 0] * hoop.law[SPACING]

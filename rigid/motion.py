@@ -11,6 +11,7 @@ from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import StrEnum
+from math import nan
 from typing import Any
 
 import numpy as np
@@ -77,8 +78,8 @@ class Pulse:
 
     @property
     def impulse_ratio(self) -> float:
-        """J_F/J_N; mu or -mu would be the ratio of Whittaker and of Kane and Levinson."""
-        return self.friction_impulse / self.normal_impulse
+        """J_F/J_N; mu or -mu would be the ratio of Whittaker and of Kane and Levinson. NaN without a normal impulse."""
+        return self.friction_impulse / self.normal_impulse if self.normal_impulse else nan
 
     def to_dict(self) -> dict[str, Any]:
         """All measures by name, the ratio among them."""
