@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
+
 @njit(cache=True, error_model="numpy")
 def vertex_angle(vertex: Any, element: int) -> float:
     """Angle at which rim element ``element`` begins; elements are counted on round and round."""
