@@ -8,7 +8,7 @@
 ``vtu``      a block to a VTU file and back
 ``series``   frames in time to PVD + VTU and back
 ``view``     pictures, animations and a window: ``picture``, ``animate``, ``window`` (not loaded here);
-             behind it ``subject`` (what is shown), ``scales``, ``looks``, ``stage`` (VTK),
+             behind it ``setting``, ``subject`` (what is shown), ``scales``, ``looks``, ``stage`` (VTK),
              ``lens``, ``sheet`` (type and curves), ``film`` (files), ``window``, ``renderer``
 """
 

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from . import looks
 from .scales import field_names, limits, sampled
+from .setting import Setting
 from .sheet import Sheet
 from .stage import ABOVE_FLOOR, Colours, Stage
-
-if TYPE_CHECKING:
-    from .view import Setting
 
 _HELP = "space plays, left and right step, + and - change the deformation, c the colours, q quits"
 _STEPS = 200
@@ -26,7 +24,7 @@ class Window:
     Parameters
     ----------
     chosen : Setting
-        As :func:`meshes.view.setting` makes it.
+        As :func:`meshes.setting.setting` makes it.
     off_screen : bool
         True to try it out where there is no screen.
     size : (width, height)

@@ -9,7 +9,8 @@ from meshes import Block, SeriesWriter, read
 from meshes.patch import patch_of
 from meshes.renderer import renderer_problem
 from meshes.subject import SeriesSubject
-from meshes.view import Camera, setting
+from meshes.setting import setting
+from meshes.view import Camera
 
 SIZE = (640, 480)
 TIMES = np.linspace(0, 1.2, 5)

@@ -15,7 +15,8 @@ from meshes.lens import enlargement
 from meshes.renderer import probe, renderer_problem
 from meshes.stage import ABOVE_FLOOR, deformed
 from meshes.subject import Curves, MotionSubject, SeriesSubject
-from meshes.view import Camera, ViewError, animate, picture, render, setting, window
+from meshes.setting import setting
+from meshes.view import Camera, ViewError, animate, picture, render, window
 from rigid import Friction, Hoop, Motion, Phase, Release, Scene, States, load_scene, simulate
 
 SIZE = (640, 480)
