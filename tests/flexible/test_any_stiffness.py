@@ -1,0 +1,71 @@
+"""Finite, sane and near its neighbours at any stiffness: foundation 1e6...1e14, bending stiffness 1e1...1e8."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from scenes import HOOP
+
+import flexible
+
+SCENE = HOOP.replace(solve={"rtol": 3e-3})
+
+
+def sound(motion):
+    """Finite everywhere; nothing gained but the integrator's error; energies that cannot be negative are not."""
+    pulse, ledger = motion.pulses[0], motion.ledger
+    numbers = [v for v in dataclasses.asdict(pulse).values() if isinstance(v, float)]
+    assert np.isfinite(numbers).all()
+    assert np.isfinite(dataclasses.astuple(ledger)).all()
+    assert "could not" not in motion.ended
+    assert "no step" not in motion.ended
+    assert ledger.ring_strain >= 0
+    assert ledger.contact_spring >= 0
+    assert ledger.friction_loss > -1e-6 * ledger.initial
+    assert abs(ledger.numerical_loss) < 0.02 * ledger.initial  # rtol is 3e-3
+    held = ledger.kinetic + ledger.gravity + ledger.ring_strain + ledger.contact_spring
+    lost = ledger.friction_loss + ledger.damping_loss + ledger.numerical_loss
+    assert abs(held + lost - ledger.initial - ledger.hand_over) < 1e-6 * ledger.initial
+    return pulse
+
+
+@pytest.mark.parametrize("mass", [0.0, 0.1])
+@pytest.mark.parametrize("foundation", [1e6, 1e10, 1e14])
+def test_any_foundation(foundation, mass):
+    """On a ring near rigid the normal impulse is that of the rigid pulse within the way of the patch, and 1 %."""
+    scene = SCENE.replace(contact={"stiffness": foundation}, hoop={"mass_ratio": mass}, ring={"bending_stiffness": 1e6})
+    pulse = sound(flexible.simulate(scene))
+    rigid = {0.0: 2.9420, 0.1: 3.13169}[mass]  # PHYSICS of the rigid pulse, from 10 degrees at k = 0.1 (r = 1; r = 1.02)
+    assert pulse.normal_impulse == pytest.approx(rigid, rel=0.1)
+
+
+@pytest.mark.parametrize("damping", [0.0, 1.0])
+@pytest.mark.parametrize("bending", [1e2, 1e5, 1e8])
+def test_any_bending_stiffness(bending, damping):
+    """The linear ring, whatever it is worth when soft."""
+    scene = SCENE.replace(ring={"bending_stiffness": bending}, contact={"stiffness": 1e9, "damping": damping})
+    pulse = sound(flexible.simulate(scene))
+    assert pulse.normal_impulse > 1
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("mass", [0.0, 0.1])
+def test_smooth_in_the_foundation(mass):
+    """J_N at decades from 1e6 to 1e14: steps from one to the next that do not grow toward the stiff end."""
+    impulses = []
+    for foundation in 10.0 ** np.arange(6, 15):
+        scene = SCENE.replace(
+            contact={"stiffness": foundation}, hoop={"mass_ratio": mass}, ring={"bending_stiffness": 1e5}, solve={"rtol": 1e-3}
+        )
+        impulses.append(sound(flexible.simulate(scene)).normal_impulse)
+    steps = np.abs(np.diff(impulses))
+    assert steps[3:].max() < 0.02 * impulses[-1]
+    assert steps[-3:].max() < 0.005 * impulses[-1]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("law", ["patch", "brush"])
+def test_any_bending_stiffness_in_decades(law):
+    """1e1 to 1e8 for both laws of friction."""
+    for bending in 10.0 ** np.arange(1, 9):
+        sound(flexible.simulate(SCENE.replace(ring={"bending_stiffness": bending}, contact={"law": law, "stiffness": 1e9})))
