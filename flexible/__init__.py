@@ -24,6 +24,7 @@ In the order in which they build on each other:
 ``rest``       ring and patch in equilibrium
 ``start``      equilibrium under a rigid motion
 ``stretch``    records read as phases, turns and pulse measures
+``limit``      the rigid hoop that a flexible one tends to
 ``solve``      simulate(scene)
 ``motion``     what is added to the common vocabulary
 ``interior``   displacement, stress and energy inside the ring

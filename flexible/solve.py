@@ -1,7 +1,8 @@
 """A scene through the flexible hoop: simulate(scene) -> FlexibleMotion.
 
 ``resolve = "pulses"`` runs the rigid closed form between pulses and the flexible hoop only inside them: each
-flexible stretch begins a little before the rigid hoop's pulse, in quasi-static equilibrium, and ends with it.
+flexible stretch begins a little before the rigid hoop's pulse, in quasi-static equilibrium, and ends with it. The
+rigid hoop is always the one that the contact law tends to (:mod:`flexible.limit`).
 ``resolve = "all"`` is flexible from the release on.
 """
 
@@ -22,6 +23,7 @@ from rigid import Hoop, Kind, Motion, Phase, Release, Run, Scene, States, Turn
 from .contact import STICK
 from .levels import Hoop as FlexibleHoop
 from .levels import Range, hoop_of
+from .limit import rigid_limit
 from .march import Record, State, march
 from .motion import FlexibleMotion, FlexiblePulse, History, Kept, Ledger
 from .start import hand_over
@@ -144,6 +146,7 @@ class _Builder:
         self.steps = 0
         self.range: Range
         self.kept: list[Kept] | None = None
+        self.completed = True
         self.t = 0.0
         self.x_C = 0.0
         self.initial: float | None = None
@@ -237,6 +240,7 @@ class _Builder:
             turns=tuple(_with_units(turn, scene) for turn in self.turns),
             pulses=tuple(_with_units(pulse, scene) for pulse in self.pulses),
             ended=ended,
+            completed=self.completed,
             sample=_Sampler(tuple(self.pieces), scene),
             ledger=_with_units(ledger, scene),
             steps=self.steps,
@@ -295,10 +299,11 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: _Builder, progres
     current = scene
     done = 0
     while True:
-        motion = rigid.simulate(current)
+        motion = rigid.simulate(rigid_limit(current))
         pulse = next((p for p in motion.pulses if p.t_start > 0 or not builder.pulses), None)
         if pulse is None:
             builder.add_rigid(motion, motion.t_end)
+            builder.completed = motion.completed
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
             return _last_turn(scene.run.turns or 0) if over else motion.ended
         start = max(0.0, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
@@ -316,11 +321,14 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: _Builder, progres
         watch = progress.watch(low, high, _swept(span))
         state, records, attempts, trouble = builder.march(hoop, state, finished, scene.solve.rtol, progress=watch)
         stretch = builder.add_flexible(records, attempts)
+        if not trouble and sign * (float(state.pos[2]) - pulse.phi_end) < 0:
+            trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get through the pulse"
+        if trouble:
+            builder.completed = False
+            return trouble + _too_soft(scene)
         first = stretch.crossing(pulse.phi_start, stretch.t_start)
         builder.pulses.append(stretch.pulse(stretch.t_start if first is None else first, stretch.t_end))
         done += 1
-        if trouble:
-            return trouble + _too_soft(scene)
         if scene.run.until == "pulse":
             return "the first pulse is over"
         rest = _rest_of(scene.run, builder)
@@ -360,7 +368,7 @@ def _rest_of(run: Run, builder: _Builder) -> Run | None:
 
 def _throughout(scene: Scene, hoop: FlexibleHoop, builder: _Builder, progress: _Progress) -> str:
     """Flexible from the release on; pulses are measured over the rigid hoop's intervals."""
-    reference = rigid.simulate(scene)
+    reference = rigid.simulate(rigid_limit(scene))
     state = hand_over(hoop, reference, 0.0, scene.contact.law)
     windows = [(p.phi_start, p.phi_end) for p in reference.pulses]
     run = scene.run
@@ -397,4 +405,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: _Builder, progress: _
             break
         builder.pulses.append(stretch.pulse(first, last))
         after = last
+    if not trouble and run.turns is not None and counted["turns"] < run.turns == len(reference.turns):
+        trouble = f"stopped at t = {state.t:.6g}: the rigid hoop turned that often in a quarter of this time"
+    builder.completed = reference.completed and not trouble
     return trouble + _too_soft(scene) if trouble else reference.ended

@@ -110,6 +110,7 @@ class Motion:
     """What a solver returns: phases, turns and pulses as plain values, and any instant between on demand.
 
     ``ended`` says in words why the motion stops; ``period`` is that of a motion that will roll for ever.
+    ``completed`` is False when the solver gave up before what was asked.
     """
 
     scene: Scene
@@ -119,6 +120,7 @@ class Motion:
     ended: str
     sample: Callable[[Array], States] = field(repr=False, compare=False)
     period: float | None = None
+    completed: bool = True
 
     @property
     def t_end(self) -> float:
@@ -154,4 +156,5 @@ class Motion:
             "turns": [dataclasses.asdict(turn) for turn in self.turns],
             "pulses": [pulse.to_dict() for pulse in self.pulses],
             "ended": self.ended,
+            "completed": self.completed,
         }

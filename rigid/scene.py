@@ -12,8 +12,9 @@ Equation numbers are those of V. A. Lubarda, J. Mech. Mater. Struct. 4(6), 2009.
 from __future__ import annotations
 
 import dataclasses
+import sys
 from dataclasses import dataclass, field
-from math import inf, isfinite, pi, sqrt
+from math import inf, log10, pi, radians, sqrt
 from typing import Any
 
 
@@ -32,12 +33,21 @@ def _require(
     open_high: bool = False,
 ) -> None:
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if number and isfinite(value):
+    if number and abs(value) <= sys.float_info.max:
         above = value > low if open_low else value >= low
         below = value < high if open_high else value <= high
         if above and below:
             return
-    raise SceneError(f"{key} = {value!r} is not possible: {allowed}.")
+    elif number:
+        allowed = "it must be a finite number"
+    raise SceneError(f"{key} = {shown(value)} is not possible: {allowed}.")
+
+
+def shown(value: Any) -> str:
+    """A value as a sentence can show it: a whole number that no float holds by its power of ten."""
+    if isinstance(value, int) and abs(value) > sys.float_info.max:
+        return f"{'-' if value < 0 else ''}10^{round(value.bit_length() * log10(2))} or so"
+    return repr(value)
 
 
 def _require_choice(key: str, value: Any, choices: tuple[str, ...]) -> None:
@@ -50,7 +60,7 @@ def _require_choice(key: str, value: Any, choices: tuple[str, ...]) -> None:
 def _require_whole(key: str, value: Any, low: int, high: int) -> None:
     if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
         raise SceneError(
-            f"{key} = {value!r} is not possible: it must be a whole number from {low} to {high}."
+            f"{key} = {shown(value)} is not possible: it must be a whole number from {low} to {high}."
         )
 
 
@@ -222,7 +232,7 @@ class Ring:
     bending_stiffness: float = 1e4
     poisson: float = 0.3
     thickness: float | None = None
-    weld_half_angle: float = 3 * pi / 180
+    weld_half_angle: float = radians(3)
 
     def __post_init__(self) -> None:
         _require(

@@ -1,6 +1,8 @@
 """Scenes as TOML: files, the paper's cases by name, and one sentence for every mistake.
 
-Keys are those of :mod:`rigid.scene`; angles are in degrees there (``phi0_deg``, ``weld_half_angle_deg``).
+Keys are those of :mod:`rigid.scene`; angles are in degrees there (``phi0_deg``, ``weld_half_angle_deg``). Not every
+angle is that of a float in degrees: one that is not is written in radians too (``phi0``), so that a scene survives
+its file to the last bit.
 """
 
 from __future__ import annotations
@@ -10,11 +12,11 @@ import tomllib
 from collections.abc import Mapping
 from difflib import get_close_matches
 from importlib.resources import files
-from math import degrees, inf, nextafter, radians
+from math import degrees, inf, isclose, nextafter, radians
 from pathlib import Path
 from typing import Any
 
-from .scene import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, SceneError, Solve
+from .scene import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, SceneError, Solve, shown
 
 _PARTS: dict[str, type] = {
     "hoop": Hoop,
@@ -36,7 +38,7 @@ def _file_keys(part: str) -> dict[str, str]:
 
 
 def _exact_degrees(angle: float) -> float:
-    """Degrees that ``radians`` turns back into ``angle`` to the last bit, so that a scene survives its file."""
+    """Degrees that ``radians`` turns back into ``angle`` to the last bit if there are any."""
     value = degrees(angle)
     for candidate in (round(value, 12), value, nextafter(value, inf), nextafter(value, -inf)):
         if radians(candidate) == angle:
@@ -67,7 +69,7 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
         keys = _file_keys(part)
         values = {}
         for key, value in table.items():
-            if key == "point_mass" and part == "hoop":
+            if (key == "point_mass" and part == "hoop") or _IN_DEGREES.get(key) in table:
                 continue
             if key not in keys:
                 raise _unknown(f"key of [{part}]", f"{part}.{key}", list(keys))
@@ -79,8 +81,12 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
                     raise SceneError(
                         f"{part}.{key} = {value!r} is not possible: it must be a number, in degrees."
                     )
-                value = radians(value)
+                try:
+                    value = radians(value)
+                except OverflowError:
+                    raise SceneError(f"{part}.{key} = {shown(value)} is not possible: it must be finite.") from None
             values[name] = value
+        values |= _to_the_last_bit(part, table, values)
         parts[part] = values
     _point_mass(data.get("hoop", {}), parts)
     for part, needed in _NEEDED.items():
@@ -88,6 +94,18 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
             if _file_keys(part)[key] not in parts.get(part, {}):
                 raise SceneError(f"{part}.{key} is missing: a scene needs it.")
     return Scene(**{part: _PARTS[part](**values) for part, values in parts.items()})
+
+
+def _to_the_last_bit(part: str, table: Mapping[str, Any], values: Mapping[str, float]) -> dict[str, float]:
+    """Angles that stand in radians beside their degrees."""
+    exact = {}
+    for name, key in _IN_DEGREES.items():
+        if name in table and key in table:
+            angle = table[name]
+            if not isinstance(angle, (int, float)) or not isclose(angle, values[name], rel_tol=1e-14):
+                raise SceneError(f"{part}.{name} = {angle!r} is not possible: it must be {key} in radians.")
+            exact[name] = float(angle)
+    return exact
 
 
 def _point_mass(hoop: Mapping[str, Any], parts: dict[str, Any]) -> None:
@@ -113,6 +131,8 @@ def scene_to_dict(scene: Scene) -> dict[str, dict[str, Any]]:
             value = getattr(getattr(scene, part), name)
             if value is not None:
                 table[key] = _exact_degrees(value) if name in _IN_DEGREES else value
+                if name in _IN_DEGREES and radians(table[key]) != value:
+                    table[name] = value
         data[part] = table
     return data
 
@@ -147,6 +167,6 @@ def load_scene(source: str | Path) -> Scene:
         raise SceneError(f"{source} is neither a file nor the name of a scene: try {', '.join(near)}.")
     try:
         data = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # a number of thousands of digits is a ValueError
         raise SceneError(f"{source} is not TOML: {error}.") from None
     return scene_from_dict(data)

@@ -200,8 +200,9 @@ def simulate(scene: Scene) -> Motion:
     period = final[at.PERIOD] * time if 0 < final[at.PERIOD] < inf else None
     sample = Sampler(tuple(par), tuple(map(tuple, starts)), scene)
     return Motion(
-        scene, phases, tuple(turns), tuple(pulses), _ended(code, scene, period, final), sample, period
-    )
+        scene, phases, tuple(turns), tuple(pulses), _ended(code, scene, period, final), sample, period,
+        code != at.WORK_BOUND,
+    )  # fmt: skip
 
 
 def _pulse(t0: float, t1: float, start: list[float], stop: list[float], measures: tuple[float, ...]) -> Pulse:
