@@ -143,7 +143,10 @@ class FullHoop(RimContact):
         if self.ring.massless:  # no inertia to go by: from where the ring was
             guess = guess.copy()
             guess[3:] = old.pos[3:] - pos_pred[3:]
-        low, high = old.res[LOW], old.res[HIGH]
+        expected = pos_pred + guess
+        low, high = self.reach(expected[2], expected[1], expected[3:][self.ring.ring.rim_dofs])
+        if old.res[NORMAL] > 0:
+            low, high = min(low, old.res[LOW]), max(high, old.res[HIGH])
         margin = 0.3 * (high - low) + 0.1 * self.element
         for _ in range(4):
             window = self.window(pos_pred[2] + guess[2], low, high, margin)

@@ -71,6 +71,9 @@ class ReducedHoop(RimContact):
         """See :class:`flexible.march.Model`."""
         phi = pos_pred[2] + guess[2]
         low, high = old.res[LOW], old.res[HIGH]
+        if old.res[NORMAL] == 0:  # a bent rim comes down anywhere
+            expected = pos_pred + guess
+            low, high = self.reach(expected[2], expected[1], self.ring.rim_shapes @ expected[3:])
         margin = 0.3 * (high - low) + 0.1 * self.element
         for _ in range(4):
             window = self.window(phi, low, high, margin)

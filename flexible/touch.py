@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rigid import Scene
 
-from .contact import EPS_T, LENGTH, element_at, vertex_angle
+from .contact import EPS_T, LENGTH, element_at
 from .march import State
 
 Array = NDArray[np.float64]
@@ -49,6 +49,8 @@ class RimContact:
     def __init__(self, scene: Scene, vertex: Array, points: int, tolerance: float) -> None:
         self.scene = scene
         self.vertex = vertex
+        middle = (vertex + np.append(vertex[1:], vertex[0] + 2 * pi)) / 2
+        self._rim_theta = np.column_stack([vertex, middle]).ravel()
         self.law = contact_law(scene, points)
         self.mu_s = scene.friction.mu_s
         self.tolerance = tolerance
@@ -66,7 +68,18 @@ class RimContact:
         last = element_at(self.vertex, theta + high + margin)
         return first, last - first + 1
 
+    def reach(self, phi: float, height: float, moved: Array) -> tuple[float, float]:
+        """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is.
+
+        ``moved`` is the displacement of all rim nodes, (2 n_rim,), node by node.
+        """
+        u = moved.reshape(-1, 2)
+        psi = phi - pi + self.rim_angle(np.arange(len(u)))
+        psi -= 2 * pi * np.round(psi / (2 * pi))
+        gap = height + 2 * np.sin(psi / 2) ** 2 + u[:, 0] * np.cos(phi) - u[:, 1] * np.sin(phi)
+        below = psi[gap <= max(0.0, gap.min())]
+        return float(below.min()), float(below.max())
+
     def rim_angle(self, nodes: NDArray[np.int64]) -> Array:
         """Angles of rim nodes, counted round and round from the first element's first."""
-        before = np.array([vertex_angle(self.vertex, n // 2) for n in nodes])
-        return (before + np.array([vertex_angle(self.vertex, (n + 1) // 2) for n in nodes])) / 2
+        return self._rim_theta[nodes % len(self._rim_theta)] + 2 * pi * (nodes // len(self._rim_theta))
