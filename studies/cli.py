@@ -18,6 +18,7 @@ import click
 
 from rigid import Motion, Scene, SceneError, load_scene
 
+from .cli_bench import bench, stress
 from .cli_study import study
 from .cli_view import view
 from .files import StudyError, folder, to_json, trouble
@@ -161,16 +162,8 @@ def paper(out: Path | None) -> None:
     click.echo(f"The paper's figures and numbers are in {target}.", err=True)
 
 
-@hoop.command()
-def bench() -> None:
-    """Run time against error."""
-    raise StudyError("hoop bench is not there yet.")
-
-
-@hoop.command()
-def stress() -> None:
-    """Numerical stability over everything a user can type."""
-    raise StudyError("hoop stress is not there yet.")
+hoop.add_command(bench)
+hoop.add_command(stress)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

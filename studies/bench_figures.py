@@ -1,0 +1,81 @@
+"""Work-precision diagrams: run time against error, both logarithmic, one panel for each scene."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import isfinite
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from .benchmark import Result, Row
+from .figures import OKABE_ITO, STYLE, save
+
+_MARKERS = "osv^DPX*<>h"
+_COLOURS = [colour for name, colour in OKABE_ITO.items() if name != "contact_spring"]
+_FLOOR = 1e-17  # where an error of nothing at all is drawn
+
+
+def work_precision(rows: Sequence[Row], title: str) -> Figure:
+    """Error against seconds, medians with the spread of the repeats; what is ours is black."""
+    shown = [row for row in rows if row.seconds and isfinite(row.error)]
+    scenes = list(dict.fromkeys(row.scene for row in shown))
+    solvers = list(dict.fromkeys(row.solver for row in shown))
+    others = [name for name in solvers if not name.startswith("hoop-pulse")]
+    with matplotlib.rc_context(STYLE):
+        figure = Figure(figsize=(4.2 * max(len(scenes), 1) + 1.6, 4.2), layout="constrained")
+        FigureCanvasAgg(figure)
+        panels = np.atleast_1d(figure.subplots(1, max(len(scenes), 1), sharey=True))
+        for axes, scene in zip(panels, scenes, strict=False):
+            for number, name in enumerate(solvers):
+                mine = sorted((row for row in shown if (row.scene, row.solver) == (scene, name)), key=lambda r: r.error)
+                if not mine:
+                    continue
+                x = [max(row.error, _FLOOR) for row in mine]
+                y = np.array([row.median for row in mine])
+                spread = [y - [row.least for row in mine], np.array([max(row.seconds) for row in mine]) - y]
+                colour = _COLOURS[others.index(name) % len(_COLOURS)] if name in others else str(0.25 * (number % 3))
+                line = "none" if name == "hoop-pulse" else "-"
+                axes.errorbar(
+                    x, y, yerr=spread, marker=_MARKERS[number % len(_MARKERS)], linestyle=line, color=colour,
+                    label=name, capsize=2, markersize=5,
+                )  # fmt: skip
+            axes.set(xscale="log", yscale="log", xlabel="error", title=scene)
+        panels[0].set_ylabel("seconds")
+        handles: dict[str, object] = {}
+        for axes in panels:
+            for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+                handles.setdefault(label, handle)
+        figure.legend(list(handles.values()), list(handles), loc="outside right upper")
+        figure.suptitle(title)
+        return figure
+
+
+def cost(rows: Sequence[Row], exponents: dict[str, float]) -> Figure:
+    """Cost against size, one panel for each thing that grows, with the fitted exponent."""
+    scenes = list(dict.fromkeys(row.scene for row in rows if "size" in row.more))
+    with matplotlib.rc_context(STYLE):
+        figure = Figure(figsize=(3.2 * len(scenes) + 0.4, 3.6), layout="constrained")
+        FigureCanvasAgg(figure)
+        for axes, scene in zip(np.atleast_1d(figure.subplots(1, len(scenes))), scenes, strict=True):
+            mine = [row for row in rows if row.scene == scene and "size" in row.more and row.seconds]
+            x, y = [row.more["size"] for row in mine], np.array([row.median for row in mine])
+            spread = [y - [row.least for row in mine], np.array([max(row.seconds) for row in mine]) - y]
+            axes.errorbar(x, y, yerr=spread, marker="o", color="black", capsize=2)
+            power = exponents.get(scene)
+            axes.set(xscale="log", yscale="log", xlabel=scene)
+            axes.set_ylim(y.min() / 3, y.max() * 3)
+            if power is not None:
+                axes.set_title(f"exponent {power:.2f}", fontsize=10)
+        figure.axes[0].set_ylabel("seconds")
+        return figure
+
+
+def draw(what: str, result: Result, out: Path) -> list[Path]:
+    """All figures of a benchmark into a folder."""
+    if what == "scaling":
+        return [save(cost(result.rows, result.exponents), out / "bench-scaling.png")]
+    return [save(work_precision(result.rows, f"{what}: run time against error"), out / f"bench-{what}.png")]
