@@ -22,7 +22,7 @@ Hoop = ReducedHoop | FullHoop
 #: E I/(m g R^2) below which "auto" takes the exact ring. In a pulse that begins undeformed at phi = 2.9 with
 #: phidot = 4 (k = 0.1, r = 1.02, m_h/m = 0.1; E I/(m g R^2) = 0.63 for E b R/(m g) = 1e6) linear and exact part in
 #: the normal impulse by 0.14 % at 63, 0.3 % at 31, 1 % at 13, 2.4 % at 6; in the friction impulse by 1e-4 of the
-#: normal one at 63, 6e-3 at 13; in the friction loss, which is small itself, by 0.6 % at 630, 1.4 % at 126, 2.6 % at 31.
+#: normal one at 63, 6e-3 at 13; in the friction loss, small itself, by 0.6 % at 630, 1.4 % at 126, 2.6 % at 31.
 SOFT = 40.0
 #: rotation of the rim at the floor up to which the linear ring's normal impulse is good to about 1 %, there
 FAR = 0.0075

@@ -205,3 +205,18 @@ def test_newton_converges_quadratically(kind):
     assert sizes.min() < floor
     for i in falling:
         assert sizes[i + 1] < 10 * sizes[i] ** 2
+
+
+@pytest.mark.slow
+def test_the_softest_ring():
+    """E b R/(m g) = 1e5: the ring folds to half its height, and still every element is in order and energy is kept."""
+    motion = flexible.simulate(scene_b(1e5, rtol=1e-2, level="exact"), history=True)
+    assert motion.ended == "the time to run is over"
+    scale = motion.ledger.initial
+    assert abs(motion.ledger.numerical_loss) < 1e-2 * scale
+    kept = motion.kept[-1]
+    exact = kept.hoop.ring.exact
+    furthest = max(kept.states, key=lambda state: np.abs(state.pos[3:]).max())
+    assert np.abs(furthest.pos[3:]).max() > 0.3
+    deformation = exact._strain(furthest.pos[3:])[0]
+    assert np.linalg.det(deformation).min() > 0.5
