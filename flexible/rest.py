@@ -141,9 +141,10 @@ class Patch:
                 continue
             flat = self.nodal.ravel()
             misfit = self.u.ravel() - offset - compliance @ flat
-            scale = 1 + abs(tangent[1, 1])
+            # what a misfit of the rim makes of the force: patch and ring in series
+            scale = 1 + abs(tangent[1, 1]) / (1 + abs(tangent[1, 1]) * np.abs(compliance).max())
             error = max(abs(force[1] - wanted), scale * np.abs(misfit).max())
-            floor = 1e-15 * scale * (abs(self.height) + np.abs(self.u).max())
+            floor = 1e-15 * (1 + abs(tangent[1, 1])) * (abs(self.height) + np.abs(self.u).max())
             if error < 1e-10 * (1 + wanted) + floor:
                 self.low, self.high = self.res[LOW] - self.law[SPACING], self.res[HIGH] + self.law[SPACING]
                 return True

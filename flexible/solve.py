@@ -24,7 +24,7 @@ from .contact import STICK
 from .levels import Hoop as FlexibleHoop
 from .levels import Range, hoop_of
 from .limit import rigid_limit
-from .march import Record, State, march
+from .march import MarchError, Record, State, march
 from .motion import FlexibleMotion, FlexiblePulse, History, Kept, Ledger
 from .start import hand_over
 from .stretch import Stretch
@@ -307,7 +307,11 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: _Builder, progres
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
             return _last_turn(scene.run.turns or 0) if over else motion.ended
         start = max(0.0, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
-        state = hand_over(hoop, motion, start, scene.contact.law)
+        try:
+            state = hand_over(hoop, motion, start, scene.contact.law)
+        except MarchError as error:
+            builder.add_rigid(motion, start)
+            return str(error) + _too_soft(scene)
         builder.add_rigid(motion, start)
         state = replace(state, t=builder.t, x_C=builder.x_C)
         sign = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
