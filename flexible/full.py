@@ -27,6 +27,7 @@ from .touch import POINTS, RimContact
 Array = NDArray[np.float64]
 Window = tuple[int, int]
 
+SLOW = 24  # modes of the ring by whose error steps are chosen, as many as the reduced ring has
 _LARGEST_LAG = 1e-3  # of beta times the change of omega since the ring's matrix was factored
 
 
@@ -105,6 +106,11 @@ class FullHoop(RimContact):
         self.ring = self._make_ring(scene, ring_of(scene, through))
         super().__init__(scene, self.ring.vertex, points, tolerance)
         self._factored: _Factored | None = None
+        #: momenta of the slow vibrations, by which steps are chosen, of a rate of the free dofs
+        self._slow = np.zeros((0, self.ring.size))
+        if not self.ring.massless:
+            shapes = self.ring.ring.modes(SLOW)[1]
+            self._slow = (self.ring.mass @ shapes).T / np.sqrt(scene.hoop.mass_ratio)
 
     def _make_ring(self, scene: Scene, ring: Ring) -> NodalRing:
         return NodalRing(scene, ring)
@@ -233,11 +239,11 @@ class FullHoop(RimContact):
         return float(kinetic), float(gravity), ring.strain_energy(u)
 
     def momentum_error(self, state: State, beta: float, matrix: NewtonMatrix, error: Array) -> float:
-        """See :class:`flexible.march.Model`; the ring's part in the norm of its mass."""
+        """See :class:`flexible.march.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
         ring, still = self.ring, np.zeros_like(state.vel)
         with_error = inertia(ring, state.pos, still, error, beta)
         without = inertia(ring, state.pos, still, still, beta)
         load = (with_error.frame - without.frame) / beta**2, (with_error.ring - without.ring) / beta**2
         frame, u = matrix.solve(*load)
-        deformed = np.sqrt(max(u @ (ring.mass @ u), 0.0))
-        return float(max(abs(frame[0] + frame[2]), abs(frame[1]), abs(frame[2]), deformed))
+        slow = np.abs(self._slow @ u).max(initial=0.0)
+        return float(max(abs(frame[0] + frame[2]), abs(frame[1]), abs(frame[2]), slow))
