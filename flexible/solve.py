@@ -301,7 +301,9 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: _Builder, progres
     while True:
         motion = rigid.simulate(rigid_limit(current))
         pulse = next((p for p in motion.pulses if p.t_start > 0 or not builder.pulses), None)
-        if pulse is None:
+        # a run to rest is over when the rigid hoop would slip no more; what it rolls through is no pulse with a loss
+        at_rest = scene.run.until == "rest" and all(phase.kind == Kind.ROLL for phase in motion.phases)
+        if pulse is None or at_rest:
             builder.add_rigid(motion, motion.t_end)
             builder.completed = motion.completed
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
