@@ -10,28 +10,18 @@ A :class:`rigid.Scene` goes in, a :class:`FlexibleMotion` comes out::
 
 In the order in which they build on each other:
 
-``ring``       elasticity of the ring on its mesh
-``reduction``  modes and static compliance of the rim
-``frame``      inertia in a frame that floats on the disk
-``contact``    pressure and friction on dense points of the rim
-``step``       one implicit step
-``march``      adaptive steps, stick and slip, the energy's books
-``reduced``    the reduced hoop as a model for the march
-``nodal``      inertia and elasticity of all nodes
-``full``       the hoop with all nodes, as a model for the march
-``exact``      the same with a geometrically exact ring
-``levels``     which of them a scene gets, and where the linear ones end
-``rest``       ring and patch in equilibrium
-``start``      equilibrium under a rigid motion
-``stretch``    records read as phases, turns and pulse measures
-``limit``      the rigid hoop that a flexible one tends to
-``solve``      simulate(scene)
-``motion``     what is added to the common vocabulary
-``interior``   displacement, stress and energy inside the ring
-``profile``    pressure and friction along the patch
-``rim``        the rim of a frame
-``curves``     forces and phases beside the frames
-``fields``     write_fields(motion, directory): all of it as a series on disk
+the ring       ``ring`` its elasticity, ``reduction`` to modes and static compliance, ``nodal`` all nodes
+the frame      ``frame`` inertia in axes that float on the disk
+the contact    ``points`` of the rim near the floor, ``foundation`` under them, ``friction`` along it,
+               ``contact`` the three together, ``touch`` the law and the window of a scene
+the levels     ``reduced``, ``full``, ``exact`` hoops behind one interface, ``levels`` which a scene gets
+time           ``step`` one implicit stage, ``state`` an instant and what is kept of it, ``trial`` one step,
+               ``march`` adaptive steps and located events
+a run          ``rest`` equilibrium, ``start`` hand-over from a rigid motion, ``limit`` the rigid hoop a law tends
+               to, ``solve`` simulate(scene), ``pieces`` what it is put together from, ``stretch`` records read as
+               phases and pulses, ``units``, ``motion`` what comes back
+fields         ``interior`` displacement and stress, ``profile`` of the patch, ``rim``, ``curves``,
+               ``fields`` all of it as a series on disk
 """
 
 from .motion import FlexibleMotion, FlexiblePulse, History, Ledger

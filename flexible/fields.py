@@ -43,10 +43,11 @@ from rigid import Pulse, Scene
 
 from .curves import curves
 from .interior import Interior, interior_of
-from .march import State, advanced
 from .motion import FlexibleMotion, Kept
 from .rim import RIM_FIELDS, rim_of
 from .ring import ring_of
+from .state import State
+from .trial import advanced
 
 Array = NDArray[np.float64]
 

@@ -18,10 +18,10 @@ from rigid import Scene
 
 from .contact import ELASTIC, EPS_N, EPS_T, HIGH, LENGTH, LOW, NORMAL, OUTSIDE, SLIP, contact_forces
 from .frame import DISK_INERTIA, OFFSET, RING_INERTIA, RING_MASS
-from .march import State
 from .nodal import Inertia, NodalRing, inertia, turned
 from .rest import RestingNodes
 from .ring import Ring, ring_of
+from .state import State
 from .touch import POINTS, RimContact
 
 Array = NDArray[np.float64]

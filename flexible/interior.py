@@ -24,10 +24,10 @@ from meshes.gradient import gauss_gradient, nodal_gradient
 
 from .exact import ExactHoop
 from .full import FullHoop
-from .march import State
 from .reduced import ReducedHoop
 from .reduction import ReducedRing
 from .ring import Ring
+from .state import State
 
 Array = NDArray[np.float64]
 

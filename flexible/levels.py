@@ -13,8 +13,8 @@ from rigid import Scene
 
 from .exact import ExactHoop
 from .full import FullHoop
-from .march import State
 from .reduced import ReducedHoop
+from .state import State
 
 Array = NDArray[np.float64]
 Hoop = ReducedHoop | FullHoop

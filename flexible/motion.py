@@ -13,8 +13,8 @@ from rigid import Motion, Phase, Pulse
 
 if TYPE_CHECKING:
     from .full import FullHoop
-    from .march import State
     from .reduced import ReducedHoop
+    from .state import State
 
 Array = NDArray[np.float64]
 

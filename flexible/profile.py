@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .contact import BRUSH, DRAG, ELASTIC, EPS_N, EPS_T, ETA, SPACING, STICK
-from .march import State
+from .state import State
 from .touch import RimContact
 
 Array = NDArray[np.float64]

@@ -11,9 +11,9 @@ from rigid import Scene
 
 from .contact import HIGH, LOW, NORMAL
 from .frame import energies
-from .march import State
 from .reduction import ReducedRing, reduce
 from .rest import RestingModes
+from .state import State
 from .step import filtered_error, solve_stage
 from .touch import POINTS, RimContact
 

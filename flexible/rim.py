@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from meshes import Block, Placement, RingMesh
 from meshes.fields import LINE
 
-from .march import State
 from .profile import FREE, Profile, profile
+from .state import State
 from .touch import RimContact
 
 Array = NDArray[np.float64]

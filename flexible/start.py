@@ -27,9 +27,10 @@ from .contact import (
 )
 from .frame import OFFSET
 from .full import FullHoop
-from .march import MarchError, State, restart
 from .reduced import ReducedHoop
 from .rest import Patch, settle
+from .state import State
+from .trial import MarchError, restart
 
 Array = NDArray[np.float64]
 Hoop = ReducedHoop | FullHoop

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from rigid import Hoop, Kind, Phase, Pulse, States, Turn
 
 from .contact import BRUSH, STICK
-from .march import Record
 from .motion import FlexiblePulse
+from .state import Record
 
 Array = NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from .contact import EPS_T, LENGTH, element_at
-from .march import State
+from .state import State
 
 Array = NDArray[np.float64]
 

@@ -6,9 +6,9 @@ from scenes import HOOP, energy, flying, steps_of
 
 from flexible.frame import RING_MASS, energies, inertia
 from flexible.full import FullHoop
-from flexible.march import restart
 from flexible.nodal import inertia as nodal_inertia
 from flexible.reduced import ReducedHoop
+from flexible.trial import restart
 
 COARSE = HOOP.replace(solve={"elements": 48})
 

@@ -9,12 +9,13 @@ from flexible.contact import BRUSH, NORMAL, SLIDE_RIGHT, UNDAMPED, contact_force
 from flexible.exact import ExactElasticity, ExactHoop
 from flexible.full import FullHoop, NewtonMatrix, _Factored
 from flexible.levels import FAR, Range, hoop_of
-from flexible.march import MarchError, march
+from flexible.march import march
 from flexible.nodal import inertia
 from flexible.reduced import ReducedHoop
 from flexible.ring import ring_of
-from flexible.solve import dimensionless
 from flexible.start import Pose, equilibrium, undeformed
+from flexible.trial import MarchError
+from flexible.units import dimensionless
 from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
 
 WALL = 1 - 1 / 1.02

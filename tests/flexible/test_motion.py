@@ -9,9 +9,10 @@ from scenes import HOOP, energy, flying, steps_of
 import flexible
 import rigid
 from flexible.contact import NORMAL, STICK
-from flexible.march import march, restart
+from flexible.march import march
 from flexible.reduced import ReducedHoop
 from flexible.start import Pose, equilibrium, hand_over
+from flexible.trial import restart
 
 #: just before its pulse, fast
 PULSE = HOOP.replace(release={"phi0": 2.4, "omega0": 1.5})
