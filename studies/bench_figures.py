@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import isfinite
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -45,7 +46,7 @@ def work_precision(rows: Sequence[Row], title: str) -> Figure:
                 )  # fmt: skip
             axes.set(xscale="log", yscale="log", xlabel="error", title=scene)
         panels[0].set_ylabel("seconds")
-        handles: dict[str, object] = {}
+        handles: dict[str, Any] = {}
         for axes in panels:
             for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
                 handles.setdefault(label, handle)

@@ -27,7 +27,7 @@ def scene_of(k: float) -> Scene:
     return Scene(Hoop(k), Friction(MU_S, MU), Release(PHI0), Run(turns=TURNS_ASKED))
 
 
-def worst(k: float, turns: Sequence[tuple[float, float, float, float]]) -> float:
+def worst(k: float, turns: Sequence[Sequence[float]]) -> float:
     """Largest relative error in time, angle and energy of the turns."""
     if len(turns) < TURNS_ASKED:
         return inf

@@ -54,7 +54,7 @@ def bench(
 
 @click.command()
 @click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
-@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Write the map of margins into this folder.")
+@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Write the map of margins here.")
 @click.option("--seed", type=click.IntRange(0, 2**31), default=0, metavar="N", help="Another sequence of scenes.")
 @click.option("--scenes", type=click.IntRange(1, 1_000_000), metavar="N", help="How many scenes; 3000 by default.")
 @click.option("--quick", is_flag=True, help="At most a minute.")

@@ -1,0 +1,218 @@
+"""What must hold for any scene. Every check gives a margin: the violation over what round-off or rtol allows, so that
+1 is the edge and less is fine.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+from collections.abc import Iterator
+from itertools import pairwise
+from math import isfinite, isnan
+from typing import Any
+
+import numpy as np
+
+from rigid import Kind, Motion, Release, Run, Scene, scene_to_dict, simulate
+
+Margins = dict[str, float]
+METRE, KILOGRAM, GRAVITY = 0.3, 0.7, 9.81  # any units that are no powers of two
+MOST_FLIGHTS = 2  # each bounce multiplies round-off: after more of them a motion does not repeat
+NO = 1e9  # the margin of what is plainly wrong
+
+
+def toml(scene: Scene) -> str:
+    """The scene's file."""
+    lines = []
+    for part, table in scene_to_dict(scene).items():
+        lines.append(f"[{part}]")
+        lines += [f"{key} = {json.dumps(value)}" for key, value in table.items()]
+    return "\n".join(lines) + "\n"
+
+
+def mirrored(scene: Scene) -> Scene:
+    """phi -> -phi."""
+    release = scene.release
+    return scene.replace(release=Release(-release.phi0, -release.omega0, -release.slip0))
+
+
+def in_si(scene: Scene) -> Scene:
+    """The same scene in metres, kilograms, seconds."""
+    si = scene.replace(hoop={"R": METRE, "m": KILOGRAM, "g": GRAVITY})
+    release, run = scene.release, scene.run
+    return si.replace(
+        release={"omega0": release.omega0 / si.time_unit, "slip0": release.slip0 * si.velocity_unit},
+        run=run if run.t_end is None else Run(t_end=run.t_end * si.time_unit),
+    )
+
+
+def flights(motion: Motion) -> int:
+    """How often the hoop is off the floor."""
+    return sum(phase.kind == Kind.FLIGHT for phase in motion.phases)
+
+
+def numbers(motion: Motion) -> Iterator[float]:
+    """Every number a motion lists."""
+    for phase in motion.phases:
+        yield from (phase.t_start, phase.t_end, phase.phi_start, phase.phi_end)
+    for turn in motion.turns:
+        yield from (turn.t, turn.phi, turn.slip_velocity, turn.energy)
+    for pulse in motion.pulses:
+        yield from (value for value in pulse.to_dict().values() if isinstance(value, float))
+
+
+def listed(motion: Motion) -> Margins:
+    """Finite, in order, joined without gaps, nothing gained in a pulse."""
+    fine = all(map(isfinite, numbers(motion))) and bool(motion.ended) and bool(motion.phases)
+    jumps = [abs(b.phi_start - a.phi_end) / max(1.0, abs(a.phi_end)) for a, b in pairwise(motion.phases)]
+    ordered = all(a.t_start <= a.t_end == b.t_start for a, b in pairwise(motion.phases))
+    return {
+        "finite": 0.0 if fine else NO,
+        "in order": 0.0 if ordered else NO,
+        "angle joined": max(jumps, default=0.0) / 1e-9,
+    }
+
+
+def round_off(scene: Scene, motion: Motion) -> float:
+    """Of the energy: a flight at phidot ~ 1/k leaves 1e-16/k in the angle, and so in the energy at its landing."""
+    return 1e-10 + (1e-13 / scene.hoop.k if flights(motion) else 0.0)
+
+
+def sampled(motion: Motion, instants: int = 60) -> Margins:
+    """Energy, N >= 0, |F| <= mu_s N, above the floor, at many instants."""
+    scene = motion.scene
+    # a motion that rests at once has one instant
+    times = np.unique(
+        np.concatenate(
+            [
+                np.linspace(0, motion.t_end, instants),
+                *[np.linspace(p.t_start, p.t_end, 5)[1:-1] for p in motion.phases[:40]],
+            ]
+        )
+    )
+    states = motion.at(times)
+    table = np.array([getattr(states, field.name) for field in dataclasses.fields(states)])
+    if not np.isfinite(table).all():
+        return {"finite": NO}
+    energy, normal, friction = states.energy, states.normal_force, states.friction_force
+    scale = max(1.0, float(np.abs(energy).max()))
+    most = max(1.0, float(normal.max()))
+    excess = np.abs(friction) - scene.friction.mu_s * normal * (1 + 1e-9)
+    return {
+        "energy": float(np.diff(energy, prepend=energy[0]).max()) / scale / round_off(scene, motion),
+        "N >= 0": float(-normal.min()) / most / 1e-10,
+        "|F| <= mu_s N": float(excess.max()) / (1e-10 * most),
+        "above the floor": float(1 - states.y_C.min()) / 1e-9,
+    }
+
+
+def _turns(motion: Motion) -> np.ndarray:
+    return np.array([(t.t, t.phi, t.energy) for t in motion.turns[:2]]).reshape(-1, 3)
+
+
+def _impulses(motion: Motion) -> np.ndarray:
+    return np.array([(p.normal_impulse, p.friction_impulse) for p in motion.pulses[:2]]).reshape(-1, 2)
+
+
+def _apart(a: np.ndarray, b: np.ndarray) -> float:
+    if a.shape != b.shape:
+        return NO
+    return float(np.abs(a - b).max(initial=0.0) / max(1.0, np.abs(a).max(initial=0.0)))
+
+
+def conditioning(scene: Scene) -> float:
+    """By how much round-off may have grown: by 1/k in a pulse."""
+    return 1e-8 + 1e-13 / scene.hoop.k
+
+
+def repeated(motion: Motion) -> Margins:
+    """The same answer mirrored, in SI units, and restarted from the middle of a phase."""
+    scene = motion.scene
+    if flights(motion) > MOST_FLIGHTS:
+        return {}
+    allowed = conditioning(scene)
+    turns, impulses = _turns(motion), _impulses(motion)
+    other = simulate(mirrored(scene))
+    apart = max(_apart(turns, _turns(other) * (1, -1, 1)), _apart(impulses, _impulses(other) * (1, -1)))
+    margins = {"mirrored": apart / allowed}
+    si = in_si(scene)
+    other = simulate(si)
+    units = np.array([si.time_unit, 1.0, si.energy_unit])
+    margins["in SI units"] = (
+        max(_apart(turns, _turns(other) / units), _apart(impulses, _impulses(other) / si.impulse_unit)) / allowed
+    )
+    again = restarted(motion)
+    return margins if again is None else {**margins, "restarted": again / (10 * allowed)}
+
+
+def restarted(motion: Motion) -> float | None:
+    """How far the turns after a restart from the middle of the middle phase are from those that should come."""
+    if motion.scene.run.turns is None or len(motion.phases) < 2 or len(motion.turns) < motion.scene.run.turns:
+        return None
+    phase = motion.phases[len(motion.phases) // 2]
+    t = (phase.t_start + phase.t_end) / 2
+    later = [turn for turn in motion.turns if turn.t > t + 1e-9]
+    on_floor = phase.kind in (Kind.ROLL, Kind.SKID, Kind.SPIN)
+    if not on_floor or not later or not phase.t_start < t < phase.t_end:
+        return None
+    state = motion.at(t)
+    release = Release(float(state.phi), float(state.omega), float(state.slip_velocity))
+    again = simulate(motion.scene.replace(release=release, run={"turns": len(later)}))
+    return _apart(np.array([turn.phi for turn in later]), np.array([turn.phi for turn in again.turns]))
+
+
+def right_hand_side(scene: Scene, mu_hat: float | None) -> Any:
+    """d(phi, phidot, slip velocity)/dt, R = g = M = 1; ``mu_hat`` None is rolling, otherwise F = -mu_hat N."""
+    e, gyr = scene.hoop.e, scene.hoop.K
+
+    def slope(_: float, y: np.ndarray) -> list[float]:
+        omega, s, c = y[1], np.sin(y[0]), np.cos(y[0])
+        if mu_hat is None:
+            return [omega, e * s * (1 + omega**2) / (1 + e * e + gyr + 2 * e * c), 0.0]
+        arm = e * s + mu_hat * (1 + e * c)
+        normal = gyr * (1 - e * c * omega**2) / (gyr + e * s * arm)
+        alpha = arm * normal / gyr
+        return [omega, alpha, -mu_hat * normal + e * s * omega**2 - (1 + e * c) * alpha]
+
+    return slope
+
+
+def integrated(motion: Motion) -> Margins:
+    """Each phase on the floor by DOP853 from its start: it arrives where the closed form does.
+
+    Only where a time integration has digits to tell: k >= 1e-3, and no phase that ends in a jam (peak N < 1e4).
+    """
+    from scipy.integrate import solve_ivp
+
+    scene = motion.scene
+    worst = 0.0
+    hats = {Kind.ROLL: None, Kind.SKID: scene.friction.mu, Kind.SPIN: -scene.friction.mu}
+    if scene.hoop.k < 1e-3 or any(p.peak_normal_force > 1e4 for p in motion.pulses):
+        return {}
+    for phase in motion.phases[:12]:
+        span = phase.t_end - phase.t_start
+        if phase.kind not in hats or not 1e-6 < span < 20:
+            continue
+        end = phase.t_end - 1e-9 * span
+        first, last = motion.at(phase.t_start), motion.at(end)
+        if float(last.normal_force) > 1e4 or float(first.normal_force) > 1e4:
+            continue
+        start = [float(first.phi), float(first.omega), float(first.slip_velocity)]
+        run = solve_ivp(
+            right_hand_side(scene, hats[phase.kind]), (phase.t_start, end), start, "DOP853", rtol=1e-12, atol=1e-13
+        )
+        ours = np.array([last.phi, last.omega, last.slip_velocity], dtype=float)
+        worst = max(worst, float((np.abs(run.y[:, -1] - ours) / np.maximum(1, np.abs(ours))).max()))
+    return {"integrated in time": worst / (1e-8 + 1e-11 / scene.hoop.k)}
+
+
+def rigid_margins(scene: Scene, thorough: bool) -> tuple[Margins, str]:
+    """All checks of a rigid scene, and how it ended."""
+    motion = simulate(scene)
+    margins = listed(motion)
+    if not any(margins.values()):
+        margins |= sampled(motion)
+        margins |= repeated(motion)
+        if thorough:
+            margins |= integrated(motion)
+    return {name: NO if isnan(value) else max(value, 0.0) for name, value in margins.items()}, motion.ended

@@ -1,0 +1,66 @@
+"""The map of margins: where in the space of scenes the checks come near their bounds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from rigid import Scene
+
+from .figures import STYLE, save
+from .stress import FLEXIBLE, RIGID, Finding, Report
+
+_FLOOR = 1e-8  # margins below this are drawn as this
+Axis = tuple[str, Callable[[Scene], float]]
+_RIGID: tuple[Axis, Axis] = (
+    ("radius of the disk $k$", lambda scene: scene.hoop.k),
+    ("$m_h/m$", lambda scene: max(scene.hoop.mass_ratio, 3e-5)),
+)
+_FLEXIBLE: tuple[Axis, Axis] = (
+    ("foundation $\\epsilon_n R^2/(mg)$", lambda scene: scene.contact.stiffness),
+    ("bending $EI/(mgR^2)$", lambda scene: scene.ring.bending_stiffness),
+)
+
+
+def _panel(figure: Figure, axes: matplotlib.axes.Axes, findings: Sequence[Finding], plane: tuple[Axis, Axis]) -> None:
+    whole = [f for f in findings if f.margins and not f.cut]
+    x, y = ([quantity(f.scene) for f in whole] for _, quantity in plane)
+    margin = np.clip([max(f.margins.values()) for f in whole], _FLOOR, 1e2)
+    order = np.argsort(margin)
+    dots = axes.scatter(
+        np.array(x)[order], np.array(y)[order], c=np.log10(margin[order]), cmap="viridis_r", s=9, vmin=-8, vmax=0
+    )
+    cut = [f for f in findings if f.cut]
+    if cut:
+        x, y = ([quantity(f.scene) for f in cut] for _, quantity in plane)
+        axes.scatter(x, y, marker="|", c="0.7", s=14, label="cut at the work bound", zorder=1)
+    bad = [f for f in findings if f.failed]
+    if bad:
+        x, y = ([quantity(f.scene) for f in bad] for _, quantity in plane)
+        axes.scatter(x, y, marker="o", facecolors="none", edgecolors="#D55E00", s=60, label="failed")
+    axes.set(xscale="log", yscale="log", xlabel=plane[0][0], ylabel=plane[1][0])
+    if cut or bad:
+        axes.legend(loc="upper left", fontsize=8)
+    figure.colorbar(dots, ax=axes, label="largest margin of any check, log10 (0 is the bound)")
+
+
+def margins(report: Report) -> Figure:
+    """Every scene as a dot in the plane that matters most to its solver, coloured by its largest margin."""
+    with matplotlib.rc_context(STYLE):
+        figure = Figure(figsize=(12.5, 5.0), layout="constrained")
+        FigureCanvasAgg(figure)
+        for axes, name, plane in zip(figure.subplots(1, 2), (RIGID, FLEXIBLE), (_RIGID, _FLEXIBLE), strict=True):
+            mine = [f for f in report.findings if f.solver == name]
+            _panel(figure, axes, mine, plane)
+            axes.set_title(f"{name}: {len(mine)} scenes")
+        return figure
+
+
+def draw(report: Report, out: Path) -> Path:
+    """The map into a folder."""
+    return save(margins(report), out / "stress.png")
