@@ -137,14 +137,15 @@ def stiffness(
 
 
 def _write_study(found: StiffnessStudy, target: Path, line: str, progress: Callable[[float], None]) -> None:
-    from . import figures
     from .report import stiffness_report
+    from .study_figures import of_study
+    from .style import save
 
     write_text(target / "study.json", to_json(found.to_dict()))
-    drawn = figures.of_study(found)
+    drawn = of_study(found)
     images = {}
     for number, (name, figure) in enumerate(drawn.items()):
-        images[name] = figures.save(figure, target / f"{name}.png")
+        images[name] = save(figure, target / f"{name}.png")
         progress((number + 1) / (len(drawn) + 1))
     stiffness_report(found, images, line, target / "report.html")
 

@@ -36,8 +36,8 @@ class Rate:
     interval: tuple[float, float]
     """Its t-interval at the level CONFIDENCE, widened by the change of p when a point more or fewer is used;
     infinite when fewer than four points can be used."""
-    points: int
-    """How many of the stiffest points were used."""
+    cases: tuple[int, ...]
+    """Which points were used, by their place in the sequence."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +57,8 @@ class Limit:
     """Observed rate at which the distance to the rigid value goes to zero."""
     rate_interval: tuple[float, float]
     """Confidence interval of that rate."""
+    rate_cases: tuple[int, ...]
+    """Which cases that rate was fitted to, by their place among those given."""
     distance: float
     """Distance to the rigid value at the stiffest case: what is left without any extrapolation."""
 
@@ -83,11 +85,11 @@ def observed_rate(s: ArrayLike, distance: ArrayLike, error: ArrayLike | None = N
     x, y, off = np.log(s[use]), np.log(d[use]), e[use] / d[use]
     if x.size < 4:
         slope = float(np.polyfit(x, y, 1)[0]) if x.size > 1 else nan
-        return Rate(-slope, (-inf, inf), int(x.size))
+        return Rate(-slope, (-inf, inf), tuple(np.flatnonzero(use).tolist()))
     fits = {n: _slope(x[-n:], y[-n:], off[-n:]) for n in range(4, x.size + 1)}
     points, half = _narrowest(fits)
     rate = fits[points][0]
-    return Rate(rate, (rate - half, rate + half), points)
+    return Rate(rate, (rate - half, rate + half), tuple(np.flatnonzero(use)[-points:].tolist()))
 
 
 def _slope(x: Array, y: Array, error: Array) -> tuple[float, float]:
@@ -221,5 +223,6 @@ def limit_of(
         rigid,
         rate.value,
         rate.interval,
+        rate.cases,
         float(abs(values[-1] - rigid)) if values.size else nan,
     )

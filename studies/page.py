@@ -71,7 +71,8 @@ caption }}</figcaption></figure>
 {% endfor %}<tr class="rigid">{% for cell in rigid %}<td>{{ cell }}</td>{% endfor %}</tr>
 </tbody></table></div>
 <p>± is the numerical error of a case, known from a second run at half the tolerance; the tolerance was
-tightened until that error was a tenth of the distance to the rigid value, or below 1e-5.{{ unresolved }}</p>
+tightened until that error was a tenth of the distance to the rigid value, as far as the solver's own noise and a
+bound on its work let it.{{ unresolved }}</p>
 
 <h2>All measures of the first pulse, side by side</h2>
 <div class="wide"><table><thead><tr>{% for cell in side_heading %}<th>{{ cell }}</th>{% endfor

@@ -23,11 +23,8 @@ from .files import StudyError
 from .history import Columns
 from .ladder import Ladder
 from .limits import Limit, limit_of
-from .reference import limit_mu_s
 from .runs import run_cases
 from .workers import Here, Pool
-
-TENDED = "studies.reference:tended"
 
 LIMITS = ("impulse_ratio", "friction_loss", "normal_impulse")
 """Measures whose limit is sought."""
@@ -93,7 +90,7 @@ class StiffnessStudy:
     """The rigid hoop that the contact law is expected to tend to; another than ``rigid`` for a brush with
     mu_s > mu."""
     reference_mu_s: float
-    """Its static coefficient."""
+    """That hoop's static coefficient."""
     rungs: tuple[Rung, ...]
     """The flexible hoop, softest first."""
     limits: dict[str, Limit]
@@ -183,6 +180,8 @@ def stiffness_study(
     StudyError
         The rigid hoop has no pulse to study, or too few rungs came through to speak of a limit.
     """
+    from flexible.limit import rigid_limit
+
     ladder = ladder or Ladder.around(scene)
     scene = scene.replace(contact={"damping": scene.contact.damping or 1.0 if damping is None else damping})
     pool = pool or Here()
@@ -190,7 +189,8 @@ def stiffness_study(
         scene = scene.replace(run=Run(until="pulse"))
 
     # 1. the rigid hoop, and the one that the contact law should tend to
-    rigid, reference = run_cases([Case(name, scene, histories=True) for name in ("rigid", TENDED)], Here())
+    tended = rigid_limit(scene)
+    rigid, reference = run_cases([Case("rigid", hoop, histories=True) for hoop in (scene, tended)], Here())
     for outcome in (rigid, reference):
         if outcome.failure or not outcome.pulses:
             raise StudyError(f"The rigid hoop has no pulse to study here: {outcome.failure or outcome.ended}.")
@@ -212,7 +212,7 @@ def stiffness_study(
     for name in LIMITS:
         values, errors = [r.measure(name) for r in through], [r.error(name) for r in through]
         limits[name] = limit_of([r.stiffness for r in through], values, reference.pulses[0][name], errors, exponent)
-    return StiffnessStudy(scene, ladder, solver, rigid, reference, limit_mu_s(scene), rungs, limits)
+    return StiffnessStudy(scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits)
 
 
 def first_pulse(outcome: Outcome) -> Columns | None:

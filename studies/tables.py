@@ -110,7 +110,7 @@ def study_tables(study: StiffnessStudy) -> list[Any]:
         limits.add_row(*row)
     failed = [f"Foundation {number(r.contact_stiffness, 3)} failed: {r.outcome.failure}" for r in study.failures]
     loose = any(not r.outcome.resolved for r in study.rungs if not r.outcome.failure)
-    star = ["* numerical error neither below a tenth of the distance nor below 1e-5"] if loose else []
+    star = ["* The numerical error is more than a tenth of the distance to the rigid hoop."] if loose else []
     return [ladder, *star, *failed, limits, law_sentence(study), damping_sentence(study), verdict(study)]
 
 

@@ -40,7 +40,8 @@ def test_json_has_the_keys_of_the_contract_and_nothing_beside(hoop):
     status, out, err = hoop("rigid", "paper-3.1", "--json")
     assert (status, err) == (0, "")
     found = json.loads(out, parse_constant=lambda word: pytest.fail(f"{word} is not JSON"))
-    assert set(found) == {"scene", "phases", "turns", "pulses", "ended"}
+    assert set(found) == {"scene", "phases", "turns", "pulses", "ended", "completed"}
+    assert found["completed"] is True
     assert set(found["phases"][0]) == {"kind", "t_start", "t_end", "phi_start", "phi_end"}
     assert set(found["turns"][0]) == {"t", "phi", "slip_velocity", "energy"}
     asked = "t_start t_end phi_start phi_end normal_impulse friction_impulse impulse_ratio friction_loss"

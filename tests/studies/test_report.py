@@ -13,6 +13,7 @@ import pytest
 from rigid import load_scene
 from studies import figures, history
 from studies.solvers import solver
+from studies.style import power_of_ten
 
 SCENE = load_scene("paper-3.3-massless")
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -152,5 +153,5 @@ def test_the_energy_ledger_is_drawn_where_there_is_one():
 
 
 def test_stiffness_is_written_as_people_write_it():
-    assert figures.power_of_ten(1e7) == "$10^{7}$"
-    assert figures.power_of_ten(3.16e8) == r"$3.2\cdot 10^{8}$"
+    assert power_of_ten(1e7) == "$10^{7}$"
+    assert power_of_ten(3.16e8) == r"$3.2\cdot 10^{8}$"

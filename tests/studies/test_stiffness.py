@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import json
 
+import numpy as np
 import pytest
 from third_solver import OFF, RATE
 
+from flexible.limit import effective_mu_s, rigid_limit
 from rigid import Friction as Coefficients
-from rigid import Hoop, Release, Scene, SceneError, load_scene, simulate
+from rigid import Hoop, Release, Scene, SceneError, load_scene
 from studies.case import SHARE
 from studies.files import StudyError
 from studies.ladder import Ladder
-from studies.reference import effective_mu_s, limit_mu_s, over, tended
 from studies.stiffness import stiffness_study
 
 THIRD = "third_solver:softened"
@@ -75,43 +76,32 @@ def test_an_unreachable_tolerance_is_told_and_not_hidden(monkeypatch):
 def test_effective_coefficient_of_the_brush():
     assert effective_mu_s(0.35, 0.3) == pytest.approx(0.30247, abs=5e-6)  # PHYSICS, section 2.5
     assert effective_mu_s(0.3, 0.3) == 0.3
-    # the largest F/N over all shares b, found by trying them
-    shares = [i / 10_000 for i in range(10_001)]
-    best = max(3 * 0.6 * (b**2 - b**3) + 0.2 * (1 - 3 * b**2 + 2 * b**3) for b in shares)
-    assert effective_mu_s(0.6, 0.2) == pytest.approx(best, abs=1e-7)
+    assert effective_mu_s(0.3, 0.0) == pytest.approx(0.3 * 4 / 9)
+    for mu in (0.3, 0.299999999999, 1e-300):
+        assert mu <= effective_mu_s(0.3, mu) <= 0.3
+
+
+@pytest.mark.parametrize(("mu_s", "mu"), [(0.35, 0.3), (0.6, 0.2)])
+def test_effective_coefficient_against_a_rolling_row_of_bristles(mu_s, mu):
+    """N and F of a parabolic patch summed over 4000 bristles, the largest F/N over the creep."""
+    u = (np.arange(4000) + 0.5) / 4000
+    pressure = 4 * u * (1 - u)
+    shares = []
+    for stretch in np.geomspace(0.05, 20, 2000):  # at the trailing edge, had none broken
+        sticks = np.logical_and.accumulate(stretch * u <= mu_s * pressure)
+        shares.append(np.where(sticks, stretch * u, mu * pressure).sum() / pressure.sum())
+    assert effective_mu_s(mu_s, mu) == pytest.approx(max(shares), abs=1e-4)  # the creep is tried, not solved for
 
 
 def test_each_law_is_compared_with_the_rigid_hoop_it_should_become():
     patch = load_scene("paper-3.3-massless")
     brush = patch.replace(contact={"law": "brush"})
-    assert limit_mu_s(patch) == 0.35
-    assert limit_mu_s(brush) == effective_mu_s(0.35, 0.3)
+    assert rigid_limit(patch) is patch
+    assert rigid_limit(brush) == brush.replace(friction={"mu_s": effective_mu_s(0.35, 0.3)})
     study = stiffness_study(brush, Ladder("contact", 1e8, 1e13, 6), solver=THIRD)
     assert study.limits["impulse_ratio"].rigid == study.reference.pulses[0]["impulse_ratio"]
     assert study.reference.pulses[0]["impulse_ratio"] != study.rigid.pulses[0]["impulse_ratio"]
     assert study.limits["impulse_ratio"].rigid_inside
-
-
-def test_the_brush_is_handed_over_at_the_pulse_and_measured_over_its_interval():
-    """Until the pulse the rigid hoop moves with mu_s; from there on with mu_eff."""
-    brush = load_scene("paper-3.3-massless").replace(contact={"law": "brush"}, run={"until": "pulse"})
-    paper, limit = simulate(brush), tended(brush)
-    state = paper.at(paper.pulses[0].t_start)
-    assert limit.at(0.0).phi == pytest.approx(float(state.phi), abs=1e-14)
-    assert limit.at(0.0).slip_velocity == pytest.approx(float(state.slip_velocity), abs=1e-13)
-    assert (limit.pulses[0].phi_start, limit.pulses[0].phi_end) == (
-        paper.pulses[0].phi_start,
-        paper.pulses[0].phi_end,
-    )
-
-
-def test_a_pulse_measured_over_its_own_interval_is_itself():
-    """Momentum and energy at the ends against the solver's own measures."""
-    motion = simulate(load_scene("paper-3.3-heavier"))
-    pulse = motion.pulses[0]
-    again = over(motion, pulse.phi_start, pulse.phi_end)
-    for name in ("normal_impulse", "friction_impulse", "friction_loss", "t_start", "t_end"):
-        assert getattr(again, name) == pytest.approx(getattr(pulse, name), abs=1e-11)
 
 
 def test_json_is_the_contract(hoop):
@@ -149,20 +139,14 @@ def test_the_table_names_every_rung_and_the_limit(hoop):
         assert word in out
 
 
-def test_failing_rungs_are_told_and_the_rest_is_used(hoop):
-    status, out, _ = hoop(
-        "study",
-        "stiffness",
-        "paper-3.3-massless",
-        "--solver",
-        "third_solver:failing",
-        "--workers",
-        1,
-        "--json",
-    )
+@pytest.mark.parametrize("how", ["failing", "unfinished"])
+def test_failing_rungs_are_told_and_the_rest_is_used(hoop, how):
+    line = ["study", "stiffness", "paper-3.3-massless", "--solver", f"third_solver:{how}", "--workers", 1, "--json"]
+    status, out, _ = hoop(*line)
     assert status == 1
     found = json.loads(out)
     assert ["failure" in case for case in found["cases"]] == [False] * 5 + [True] * 4
+    assert "no step could be found" in found["cases"][-1]["failure"]
     assert found["limit"]["impulse_ratio"]["value"] is not None
 
 
