@@ -101,8 +101,6 @@ def test_a_bad_scene_is_one_sentence(hoop, tmp_path, mistake, verb):
         (("rigid", "paper-9.9"), "paper-9.9"),
         (("rigid", "paper-3.1", "--jsn"), "--json"),
         (("flexible", "paper-3.3-massless", "--fields"), "--out"),
-        (("bench",), "not there yet"),
-        (("stress",), "not there yet"),
         (("study", "sweep", "nowhere.toml"), "nowhere.toml"),
         (("study", "stiffness", "paper-3.1", "--count", "1"), "count = 1"),
         (("study", "stiffness", "paper-3.1", "--count", "many"), "many"),

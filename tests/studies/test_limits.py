@@ -41,6 +41,28 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
     assert rates >= 88
 
 
+FAMILIES = {
+    "next terms 2/3 and 1": lambda x, a, b: x ** (-1 / 3) + 2 * a * x ** (-2 / 3) + 3 * b / x,
+    "bending at rate 1 over contact at 1/3": lambda x, a, b: 0.1 * x ** (-1 / 3) + a / x,
+    "crosses the limit": lambda x, a, b: x ** (-1 / 3) - (3.5 + 2.5 * a) * x ** (-2 / 3),
+    "rate 1": lambda x, a, b: 1 / x,
+}
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize(("noise", "floor"), [(0.0, 0.0), (0.01, 0.0), (0.1, 0.0), (0.03, 3e-6)])
+def test_the_limit_is_inside_for_other_sequences_too(family, noise, floor):
+    """Terms of random size, noise relative to the distance and of a fixed size, both known as the cases' errors."""
+    random = np.random.default_rng(22)
+    inside = 0
+    for _ in range(40):
+        a, b = random.uniform(-1, 1, 2)
+        distance = 0.02 * FAMILIES[family](S / S[0], a, b)
+        error = noise * np.abs(distance) + floor
+        inside += limit_of(S, 0.17 + distance + error * random.uniform(-1, 1, S.size), 0.17, error).rigid_inside
+    assert inside >= 36  # 38 of 40 is the level
+
+
 def test_a_wrong_rigid_value_is_found_to_be_wrong():
     found = limit_of(S, 0.17 + 1e-2 * (S / S[0]) ** (-1 / 3), 0.175)
     assert not found.rigid_inside

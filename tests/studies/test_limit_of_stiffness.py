@@ -1,0 +1,64 @@
+"""The flexible hoop becomes the rigid one of its contact law: limits and rates of the first pulse."""
+
+from __future__ import annotations
+
+from math import radians
+
+import pytest
+
+from flexible.limit import rigid_limit
+from rigid import Contact, Friction, Hoop, Release, Scene, simulate
+from studies.ladder import Ladder
+from studies.stiffness import stiffness_study
+from studies.workers import cores, pool
+
+LAWS = [("patch", 0.35), ("brush", 0.35), ("brush", 0.3)]
+ENOUGH = 1e-3  # of the impulse ratio, and of m g R
+
+
+def scene_of(k: float, mass_ratio: float, law: str, mu_s: float) -> Scene:
+    return Scene(Hoop(k, 1.02, mass_ratio), Friction(mu_s, 0.3), Release(radians(10)), contact=Contact(law=law))
+
+
+def limits_hold(study) -> None:
+    scene = study.scene
+    rigid = simulate(rigid_limit(scene)).pulses[0]
+    for name in ("impulse_ratio", "friction_loss"):
+        limit = study.limits[name]
+        assert limit.rigid == getattr(rigid, name)
+        assert abs(limit.error) <= limit.uncertainty <= ENOUGH
+        if scene.friction.mu_s == scene.friction.mu:  # the half-width of the patch, eps^(-1/3)
+            low, high = limit.rate_interval
+            assert low <= 1 / 3 <= high
+    for rung in study.rungs:
+        if rung.outcome.resolved:
+            for name in ("impulse_ratio", "friction_loss"):
+                assert rung.error(name) <= 0.1 * abs(rung.measure(name) - study.limits[name].rigid)
+
+
+@pytest.mark.parametrize(("law", "mu_s"), LAWS)
+def test_the_limit_of_a_light_hoop(law, mu_s):
+    """k = 0.25, m_h = 0, six rungs over five decades."""
+    scene = scene_of(0.25, 0.0, law, mu_s)
+    study = stiffness_study(scene, Ladder("both", 1e8, 1e13, 6))
+    limits_hold(study)
+    assert study.limits["impulse_ratio"].uncertainty < 2e-4
+    if mu_s == 0.3:
+        assert study.limits["friction_loss"].rate == pytest.approx(1 / 3, abs=0.03)
+
+
+def test_the_two_laws_differ_by_more_than_their_uncertainty():
+    """mu_s = 0.35: the patch tends to the paper's law, the brush to mu_eff."""
+    scene = scene_of(0.25, 0.0, "brush", 0.35)
+    paper, brush = simulate(scene).pulses[0], simulate(rigid_limit(scene)).pulses[0]
+    assert abs(paper.impulse_ratio - brush.impulse_ratio) > 1e-2
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("k", [0.1, 0.25])
+@pytest.mark.parametrize("mass_ratio", [0.0, 0.01, 0.1])
+@pytest.mark.parametrize(("law", "mu_s"), LAWS)
+def test_the_limit_of_every_hoop(k, mass_ratio, law, mu_s):
+    """The default ladder, nine rungs over six decades; all eighteen hoops take two to four minutes on two cores."""
+    with pool(cores()) as place:
+        limits_hold(stiffness_study(scene_of(k, mass_ratio, law, mu_s), pool=place))
