@@ -173,7 +173,7 @@ def _resolved(case: Case) -> dict[str, Any]:
     least, stuck = excess, 0
     steps = spent = best["motion"].get("steps", 0)  # of the finer run; 0 where the solver does not count any
     while least > 1 and stuck < 2:
-        factor = min(max(1.5 * min(excess, 3 * least), 2.0), 8.0)
+        factor = min(max(1.5 * min(excess, 3 * least), 2.0), 3.0)
         if steps:  # second order with its error per step at the tolerance: steps like rtol^(-1/2)
             factor = min(factor, (max(MOST_STEPS - spent, 0) / steps) ** 2)
         if factor < 2 or rtol / factor < 2 * TIGHTEST:
