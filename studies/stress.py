@@ -177,7 +177,7 @@ def run_chunk(kind: str, seed: int, count: int, low: int, high: int, seconds: fl
         _warm(RIGID)
         scenes = islice(enumerate(stress_draws.rigid_scenes(count, seed)), low, high)
 
-        def check(scene: Scene, _: Watch, number: int) -> tuple[Margins, str]:
+        def check(scene: Scene, watch: Watch, number: int) -> tuple[Margins, str]:
             return stress_checks.rigid_margins(scene, number % THOROUGH == 0)
     else:
         _warm(FLEXIBLE)

@@ -8,7 +8,7 @@ import dataclasses
 import json
 from collections.abc import Iterator
 from itertools import pairwise
-from math import isfinite, isnan
+from math import inf, isfinite, isnan
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from rigid import Kind, Motion, Release, Run, Scene, scene_to_dict, simulate
 Margins = dict[str, float]
 METRE, KILOGRAM, GRAVITY = 0.3, 0.7, 9.81  # any units that are no powers of two
 MOST_FLIGHTS = 2  # each bounce multiplies round-off: after more of them a motion does not repeat
+RESOLVED = 1e-9
 NO = 1e9  # the margin of what is plainly wrong
 
 
@@ -78,28 +79,33 @@ def round_off(scene: Scene, motion: Motion) -> float:
     return 1e-10 + (1e-13 / scene.hoop.k if flights(motion) else 0.0)
 
 
-def sampled(motion: Motion, instants: int = 60) -> Margins:
-    """Energy, N >= 0, |F| <= mu_s N, above the floor, at many instants."""
+def instants(motion: Motion, spread: int = 60) -> np.ndarray:
+    """Times evenly over the motion and within its first phases.
+
+    None within a phase of less than a billionth of the time that has passed: phidot ~ 1/k makes phases of a few last
+    digits of t, and no instant within them can be told.
+    """
+    lasting = [p for p in motion.phases if p.t_end - p.t_start > RESOLVED * max(1.0, p.t_end)]
+    even = np.linspace(0, motion.t_end, spread)
+    inside = [even[(even > p.t_start) & (even < p.t_end)] for p in lasting]
+    return np.unique(np.concatenate([[0.0], *inside, *[np.linspace(p.t_start, p.t_end, 5)[1:-1] for p in lasting[:40]]]))
+
+
+def sampled(motion: Motion) -> Margins:
+    """Energy, N >= 0, |F| <= mu_s N, above the floor, at many instants; energy at the turns, which are exact."""
     scene = motion.scene
-    # a motion that rests at once has one instant
-    times = np.unique(
-        np.concatenate(
-            [
-                np.linspace(0, motion.t_end, instants),
-                *[np.linspace(p.t_start, p.t_end, 5)[1:-1] for p in motion.phases[:40]],
-            ]
-        )
-    )
-    states = motion.at(times)
+    states = motion.at(instants(motion))
     table = np.array([getattr(states, field.name) for field in dataclasses.fields(states)])
     if not np.isfinite(table).all():
         return {"finite": NO}
     energy, normal, friction = states.energy, states.normal_force, states.friction_force
+    turns = np.array([turn.energy for turn in motion.turns])
     scale = max(1.0, float(np.abs(energy).max()))
     most = max(1.0, float(normal.max()))
     excess = np.abs(friction) - scene.friction.mu_s * normal * (1 + 1e-9)
+    growth = max(float(np.diff(values).max(initial=0.0)) for values in (energy, turns))
     return {
-        "energy": float(np.diff(energy, prepend=energy[0]).max()) / scale / round_off(scene, motion),
+        "energy": growth / scale / round_off(scene, motion),
         "N >= 0": float(-normal.min()) / most / 1e-10,
         "|F| <= mu_s N": float(excess.max()) / (1e-10 * most),
         "above the floor": float(1 - states.y_C.min()) / 1e-9,
@@ -120,9 +126,32 @@ def _apart(a: np.ndarray, b: np.ndarray) -> float:
     return float(np.abs(a - b).max(initial=0.0) / max(1.0, np.abs(a).max(initial=0.0)))
 
 
-def conditioning(scene: Scene) -> float:
-    """By how much round-off may have grown: by 1/k in a pulse."""
-    return 1e-8 + 1e-13 / scene.hoop.k
+def _results(motion: Motion) -> np.ndarray:
+    """Turns and impulses in one row."""
+    return np.concatenate([_turns(motion).ravel(), _impulses(motion).ravel()])
+
+
+def sensitivity(motion: Motion) -> float:
+    """Change of the results per change of the release; infinite where another course is taken."""
+    scene, nudge = motion.scene, 1e-11
+    worst = 0.0
+    for sign in (1, -1):
+        release = Release(*(value + sign * nudge for value in dataclasses.astuple(scene.release)))
+        apart = _apart(_results(motion), _results(simulate(scene.replace(release=release))))
+        worst = max(worst, inf if apart == NO else apart / nudge)
+    return worst
+
+
+def _margin(motion: Motion, apart: float) -> float | None:
+    """``apart`` over what round-off may grow to: by 1/k in a pulse, otherwise by the motion's own sensitivity.
+
+    None where a motion depends on its last digits, so that there is nothing to compare.
+    """
+    allowed = 1e-8 + 1e-13 / motion.scene.hoop.k
+    if apart <= allowed:
+        return apart / allowed
+    grown = sensitivity(motion)
+    return None if grown == inf else apart / (allowed + 1e-13 * grown)
 
 
 def repeated(motion: Motion) -> Margins:
@@ -130,19 +159,21 @@ def repeated(motion: Motion) -> Margins:
     scene = motion.scene
     if flights(motion) > MOST_FLIGHTS:
         return {}
-    allowed = conditioning(scene)
     turns, impulses = _turns(motion), _impulses(motion)
     other = simulate(mirrored(scene))
-    apart = max(_apart(turns, _turns(other) * (1, -1, 1)), _apart(impulses, _impulses(other) * (1, -1)))
-    margins = {"mirrored": apart / allowed}
+    margins = {
+        "mirrored": _margin(
+            motion, max(_apart(turns, _turns(other) * (1, -1, 1)), _apart(impulses, _impulses(other) * (1, -1)))
+        )
+    }
     si = in_si(scene)
     other = simulate(si)
     units = np.array([si.time_unit, 1.0, si.energy_unit])
-    margins["in SI units"] = (
-        max(_apart(turns, _turns(other) / units), _apart(impulses, _impulses(other) / si.impulse_unit)) / allowed
+    margins["in SI units"] = _margin(
+        motion, max(_apart(turns, _turns(other) / units), _apart(impulses, _impulses(other) / si.impulse_unit))
     )
-    again = restarted(motion)
-    return margins if again is None else {**margins, "restarted": again / (10 * allowed)}
+    margins["restarted"] = restarted(motion)
+    return {name: value for name, value in margins.items() if value is not None}
 
 
 def restarted(motion: Motion) -> float | None:
@@ -151,14 +182,14 @@ def restarted(motion: Motion) -> float | None:
         return None
     phase = motion.phases[len(motion.phases) // 2]
     t = (phase.t_start + phase.t_end) / 2
-    later = [turn for turn in motion.turns if turn.t > t + 1e-9]
+    later = [turn for turn in motion.turns if turn.t > t + 1e-9][:2]
     on_floor = phase.kind in (Kind.ROLL, Kind.SKID, Kind.SPIN)
     if not on_floor or not later or not phase.t_start < t < phase.t_end:
         return None
     state = motion.at(t)
     release = Release(float(state.phi), float(state.omega), float(state.slip_velocity))
     again = simulate(motion.scene.replace(release=release, run={"turns": len(later)}))
-    return _apart(np.array([turn.phi for turn in later]), np.array([turn.phi for turn in again.turns]))
+    return _margin(again, _apart(np.array([turn.phi for turn in later]), np.array([turn.phi for turn in again.turns])))
 
 
 def right_hand_side(scene: Scene, mu_hat: float | None) -> Any:
