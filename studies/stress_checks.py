@@ -88,7 +88,8 @@ def instants(motion: Motion, spread: int = 60) -> np.ndarray:
     lasting = [p for p in motion.phases if p.t_end - p.t_start > RESOLVED * max(1.0, p.t_end)]
     even = np.linspace(0, motion.t_end, spread)
     inside = [even[(even > p.t_start) & (even < p.t_end)] for p in lasting]
-    return np.unique(np.concatenate([[0.0], *inside, *[np.linspace(p.t_start, p.t_end, 5)[1:-1] for p in lasting[:40]]]))
+    inside += [np.linspace(p.t_start, p.t_end, 5)[1:-1] for p in lasting[:40]]
+    return np.unique(np.concatenate([[0.0], *inside]))
 
 
 def sampled(motion: Motion) -> Margins:

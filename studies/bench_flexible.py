@@ -1,0 +1,167 @@
+"""`hoop bench flexible`: which knob buys what, against all nodes in the limit; and what each thing skipped saves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any
+
+import flexible
+from rigid import Motion, Scene
+
+from . import bench_reference as reference
+from .bench_skipped import skipped
+from .benchmark import Claim, Contestant, Result, Row, race
+from .peers import installed
+
+SCENE_A, SCENE_B, MASSLESS = "scene A, full roll", "scene B, pulse", "massless pulse"
+BEST = "rtol 1e-03"
+
+
+def _judge(true: reference.Measured) -> Callable[[reference.Measured], tuple[float, dict[str, float]]]:
+    def judge(found: reference.Measured) -> tuple[float, dict[str, float]]:
+        error, peak = reference.errors(found, true)
+        return error, {"error_peak": peak}
+
+    return judge
+
+
+def _motion(scene: Scene) -> Callable[[], reference.Measured]:
+    """All of ``simulate``, the ring taken from the cache."""
+
+    def run() -> reference.Measured:
+        steps = flexible.simulate(scene, history=True).history
+        assert steps is not None
+        return reference.Measured(
+            float(steps.normal_impulse[-1]),
+            float(steps.friction_impulse[-1]),
+            float(steps.friction_loss[-1]),
+            float(steps.normal_force.max()),
+        )
+
+    return run
+
+
+def _hoop(scene: Scene, **options: int) -> Callable[[], reference.Measured]:
+    """Scene B with another number of modes or contact points."""
+    from flexible.reduced import ReducedHoop
+
+    return lambda: reference.run_hoop(scene, ReducedHoop(scene, **options))
+
+
+def contestants_b(quick: bool) -> list[Contestant]:
+    """Scene B over every knob."""
+    judge = _judge(reference.limit())
+    entries = []
+
+    def add(solver: str, setting: str, run: Callable[[], Any], repeats: int | None = None) -> None:
+        entries.append(Contestant(solver, setting, SCENE_B, run, judge, repeats=repeats, memory=repeats is None))
+
+    for rtol in (1e-2, 3e-3, 1e-3) if quick else (1e-2, 3e-3, 1e-3, 1e-4, 1e-5):
+        add("hoop-pulse reduced", f"rtol {rtol:.0e}", _motion(reference.scene_b(rtol)))
+    for elements in (120,) if quick else (60, 120, 480):
+        add("hoop-pulse elements", f"{elements} elements", _motion(reference.scene_b(1e-3, elements)))
+    for modes in (12,) if quick else (0, 4, 12, 48, 96):
+        add("hoop-pulse modes", f"{modes} modes", _hoop(reference.scene_b(), modes=modes))
+    for points in (12,) if quick else (6, 12, 48, 96):
+        add("hoop-pulse points", f"{points} points", _hoop(reference.scene_b(), points=points))
+    add("hoop-pulse all nodes", BEST, _motion(reference.scene_b(level="full")), 1)
+    if not quick:
+        add("hoop-pulse all nodes", "rtol 1e-02", _motion(reference.scene_b(1e-2, level="full")), 1)
+        add("hoop-pulse exact", BEST, _motion(reference.scene_b(level="exact")), 1)
+    return entries
+
+
+def _ratio_error(true: float) -> Callable[[Motion], float]:
+    return lambda motion: abs(motion.pulses[0].impulse_ratio - true)
+
+
+def contestants_rest(quick: bool) -> list[Contestant]:
+    """Scene A, and the massless pulse against itself at rtol 1e-6, which all nodes confirm (its ring is static)."""
+    fine = flexible.simulate(reference.massless_pulse(1e-5 if quick else 1e-6)).pulses[0].impulse_ratio
+    entries = [
+        Contestant(
+            "hoop-pulse reduced", f"rtol {rtol:.0e}", MASSLESS,
+            partial(flexible.simulate, reference.massless_pulse(rtol)), _ratio_error(fine),
+        )
+        for rtol in (1e-2, 1e-3, 1e-4)
+    ]  # fmt: skip
+    if not quick:
+        entries.append(Contestant("hoop-pulse reduced", BEST, SCENE_A, _motion(reference.scene_a()), repeats=3))
+    return entries
+
+
+def _exudyn(quick: bool) -> list[Contestant]:
+    """Exudyn's beam ring, where it is installed."""
+    from .peers_exudyn import turn
+
+    true = reference.limit()
+
+    def measured(peer: dict[str, float]) -> tuple[float, dict[str, float]]:
+        # of J_N alone: its J_F does not converge, and it has no losses
+        peak = abs(peer["peak_normal_force"] / true.peak_normal_force - 1)
+        return abs(peer["normal_impulse"] / true.normal_impulse - 1), {"error_peak": peak}
+
+    entries = [
+        Contestant(
+            "exudyn", f"{elements} elements, h = {step:g}", SCENE_B,
+            partial(turn, "B", elements, step), measured, repeats=1, memory=False,
+        )
+        for elements, step in (((120, 2e-4),) if quick else ((120, 2e-4), (240, 1e-4)))
+    ]  # fmt: skip
+    if not quick:
+        setting = "120 elements, h = 0.001"
+        entries.append(Contestant("exudyn", setting, SCENE_A, lambda: turn("A", 120, 1e-3), repeats=1, memory=False))
+    return entries
+
+
+def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[float], None] | None = None) -> Result:
+    """Time everyone, then what is skipped, and check what is stated."""
+    flexible.simulate(reference.scene_b(1e-2))
+    entries = contestants_b(quick) + contestants_rest(quick)
+    if peers_too and installed("exudyn"):
+        entries += _exudyn(quick)
+    rows = race(entries, 2 if quick else 5, None if progress is None else lambda x: progress(0.8 * x))
+    if peers_too and not installed("exudyn"):
+        rows.append(Row("exudyn", "-", "-", [], note="not installed"))
+    return Result(rows + skipped(quick), _claims(rows))
+
+
+def _one(rows: list[Row], solver: str, setting: str, scene: str) -> Row | None:
+    return next((r for r in rows if (r.solver, r.setting, r.scene) == (solver, setting, scene) and r.seconds), None)
+
+
+def _claims(rows: list[Row]) -> list[Claim]:
+    ours = _one(rows, "hoop-pulse reduced", BEST, SCENE_B)
+    full = _one(rows, "hoop-pulse all nodes", BEST, SCENE_B)
+    assert ours is not None
+    assert full is not None
+    claims = [
+        Claim("flexible: reduced faster than all nodes, scene B, rtol 1e-3", full.least / ours.least, 20),
+        Claim("flexible: error of impulses, scene B, rtol 1e-3", ours.error, 2e-3, at_most=True),
+        Claim("flexible: error of the peak there", ours.more["error_peak"], 0.01, at_most=True),
+    ]
+    cheap = min(
+        (r for r in rows if r.scene == SCENE_B and r.solver == "hoop-pulse reduced" and _good(r)),
+        key=lambda row: row.least,
+        default=ours,
+    )
+    for scene, setting, mine in (
+        (SCENE_B, "240 elements, h = 0.0001", cheap),
+        (SCENE_A, "120 elements, h = 0.001", _one(rows, "hoop-pulse reduced", BEST, SCENE_A)),
+    ):
+        peer = _one(rows, "exudyn", setting, scene)
+        name = f"flexible: faster than Exudyn, {scene}"
+        if peer is None or mine is None:
+            claims.append(Claim(name, float("nan"), 100, why_not="Exudyn was not run"))
+        else:
+            claims.append(Claim(name, peer.least / mine.least, 100))
+    massless = _one(rows, "hoop-pulse reduced", BEST, MASSLESS)
+    if massless is not None:
+        claims.append(Claim("flexible: massless pulse at 1e-3 in J_F/J_N, seconds", massless.least, 0.09, at_most=True))
+    return claims
+
+
+def _good(row: Row) -> bool:
+    """At least as exact as is asked of scene B."""
+    return row.error <= 2e-3 and row.more.get("error_peak", 1.0) <= 0.01
