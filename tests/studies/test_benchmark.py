@@ -1,0 +1,108 @@
+"""The benchmark: its references are independent and regenerable, its rows say what the README quotes."""
+
+from __future__ import annotations
+
+import json
+from math import isfinite
+
+import pytest
+from command_line import is_one_sentence
+
+from studies import bench_reference, peers, precision, precision_values
+from studies.bench_rigid import scene_of, worst
+from studies.benchmark import Claim, Contestant, exponent, race
+
+
+@pytest.mark.parametrize("k", precision.DISKS)
+def test_the_closed_form_has_the_digits_of_the_reference(k):
+    """Turns within 1e-13, and the pulses' impulses and losses within 1e-12: three decades below what is asked."""
+    from rigid import simulate
+
+    motion = simulate(scene_of(k))
+    assert worst(k, [(t.t, t.phi, t.slip_velocity, t.energy) for t in motion.turns]) < 1e-13
+    for pulse, exact in zip(motion.pulses, precision_values.PULSES[k], strict=True):
+        found = (pulse.normal_impulse, pulse.friction_impulse, pulse.friction_loss)
+        assert found == pytest.approx([float(number) for number in exact], rel=1e-12)
+
+
+def test_the_reference_holds_twenty_digits_and_more():
+    for table in (precision_values.TURNS, precision_values.PULSES):
+        for rows in table.values():
+            assert all(len(number.strip("-0.").replace(".", "")) >= 20 for row in rows for number in row)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("k", precision.DISKS)
+def test_the_reference_is_found_again(k, monkeypatch):
+    """With ten digits and twelve terms more, the stored ones come out the same."""
+    mpmath = pytest.importorskip("mpmath")
+    monkeypatch.setattr(precision, "DIGITS", 50)
+    monkeypatch.setattr(precision, "ORDER", 60)
+    trace = precision.integrate(k)
+    for rows, exact in ((trace.turns, precision_values.TURNS[k]), (trace.pulses, precision_values.PULSES[k])):
+        assert [[mpmath.nstr(number, 25) for number in row] for row in rows] == [list(row) for row in exact]
+
+
+def test_the_peer_converges_to_the_reference():
+    """scipy at rtol 1e-12 is right to 1e-11 at k = 0.1: the comparison is of the same problem."""
+    turns = peers.scipy_turns(0.1, precision.MU_S, precision.MU, precision.PHI0, 2, "DOP853", 1e-12)
+    assert worst(0.1, turns) < 1e-11
+
+
+@pytest.mark.slow
+def test_all_nodes_are_found_again():
+    """One entry of the flexible reference, to the digits that another processor leaves."""
+    key = (120, 1e-3, 24)
+    again = bench_reference.run_all_nodes(*key)
+    error, peak = bench_reference.errors(again, bench_reference.ALL_NODES[key])
+    assert error < 1e-4
+    assert peak < 1e-3
+
+
+def test_the_limit_lies_beyond_the_finest_run_and_near_the_peers():
+    """J_N 2.149 ± .003, J_F/J_N -.0029 ± .0003, loss .0113 ± .0004 of three other codes (R0 = 1)."""
+    true, R = bench_reference.limit(), bench_reference.R
+    assert true.normal_impulse * R**0.5 == pytest.approx(2.149, abs=0.003)
+    assert true.friction_loss * R == pytest.approx(0.0113, abs=0.0004)
+
+
+def test_a_race_times_everyone_and_tells_who_failed():
+    def stumble() -> None:
+        raise ValueError("no such thing")
+
+    fine, fell = race(
+        [Contestant("a", "", "", lambda: 1.0, lambda x: x), Contestant("b", "", "", stumble)], repeats=3
+    )
+    assert (len(fine.seconds), fine.error, fell.seconds) == (3, 1.0, [])
+    assert fell.note == "no such thing"
+    assert fine.peak_memory > 1 or not isfinite(fine.peak_memory)
+    assert exponent([1, 10, 100], [2, 200, 20000]) == pytest.approx(2)
+
+
+def test_a_claim_holds_or_does_not():
+    assert Claim("", 120, 100).holds
+    assert not Claim("", 80, 100).holds
+    assert not Claim("", 3, 2, at_most=True).holds
+    assert Claim("", float("nan"), 100, why_not="not installed").holds
+
+
+def test_bench_rigid_as_json_with_its_figure(hoop, tmp_path):
+    status, out, err = hoop("bench", "rigid", "--quick", "--json", "--out", tmp_path)
+    assert (status, err) == (0, "")
+    found = json.loads(out)
+    assert {"solver", "setting", "seconds_median", "seconds_min", "error", "peak_memory"} <= set(found["rows"][0])
+    assert all({"measured", "stated", "holds"} <= set(claim) for claim in found["ratios"].values())
+    memory = next(claim for name, claim in found["ratios"].items() if "memory" in name)
+    assert memory["holds"]
+    assert (tmp_path / "bench-rigid.png").stat().st_size > 10_000
+
+
+def test_check_ends_with_one_when_a_ratio_does_not_hold(hoop, monkeypatch):
+    from studies import bench_rigid
+    from studies.benchmark import Result
+
+    monkeypatch.setattr(bench_rigid, "bench", lambda *_: Result(claims=[Claim("faster", 80, 100)]))
+    status, _, err = hoop("bench", "rigid", "--check")
+    assert status == 1
+    assert is_one_sentence(err)
+    assert hoop("bench", "rigid")[0] == 0

@@ -1,0 +1,88 @@
+"""Stability over everything a user can type."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+
+import pytest
+
+from rigid import scene_from_dict
+from studies import stress, stress_checks, stress_draws
+from studies.stress import Finding, Report
+
+
+def test_scenes_are_seeded_and_spread():
+    first, again = (list(stress_draws.flexible_scenes(256, 3)) for _ in range(2))
+    assert first == again
+    assert first != list(stress_draws.flexible_scenes(256, 4))
+    for quantity, low, high in (
+        (lambda s: s.hoop.k, 1e-7, 0.9),
+        (lambda s: s.hoop.mass_ratio, 0, 30),
+        (lambda s: s.friction.mu, 0.01, 2.5),
+        (lambda s: s.contact.stiffness, 1e2, 1e13),
+        (lambda s: s.solve.elements, 30, 800),
+        (lambda s: s.contact.damping, 0, 1.8),
+    ):
+        assert min(map(quantity, first)) <= low
+        assert max(map(quantity, first)) >= high
+
+
+def test_a_failure_prints_a_scene_that_can_be_run_again():
+    scene = next(stress_draws.flexible_scenes(1, 0))
+    text = Finding("flexible", 0, scene, "ended", 0.1, {"energy": 3.0}).text()
+    assert scene_from_dict(tomllib.loads(text)) == scene
+    assert "energy by 3" in text
+
+
+def test_what_is_wrong_is_found(monkeypatch):
+    """A motion that gained energy, lost its order or is not finite does not pass."""
+    import dataclasses
+
+    from rigid import load_scene, simulate
+
+    motion = simulate(load_scene("paper-3.1"))
+    assert max(stress_checks.sampled(motion).values()) < 1
+    turn = dataclasses.replace(motion.turns[1], energy=motion.turns[0].energy + 1e-6)
+    wrong = dataclasses.replace(motion, turns=(motion.turns[0], turn))
+    assert stress_checks.sampled(wrong)["energy"] > 1
+    assert stress_checks.listed(dataclasses.replace(motion, phases=motion.phases[::-1]))["in order"] > 1
+    lost = dataclasses.replace(motion.turns[0], t=float("nan"))
+    assert stress_checks.listed(dataclasses.replace(motion, turns=(lost,)))["finite"] > 1
+
+
+def test_a_crash_and_a_run_without_end_are_told():
+    scene = next(stress_draws.rigid_scenes(1, 0))
+
+    def crash(*_: object) -> tuple[dict[str, float], str]:
+        raise ZeroDivisionError("by zero")
+
+    def endless(_: object, watch: stress.Watch, __: int) -> tuple[dict[str, float], str]:
+        while True:
+            watch(0.0)
+
+    crashed = stress._find(stress.FLEXIBLE, 0, scene, 1.0, crash)
+    assert crashed.failed
+    assert "ZeroDivisionError" in crashed.text()
+    cut = stress._find(stress.FLEXIBLE, 0, scene, 0.01, endless)
+    assert cut.cut
+    assert not cut.failed
+    assert len(Report(0, [crashed, cut]).failures) == 1
+
+
+def test_quick_stress(hoop, tmp_path):
+    """Rigid and flexible scenes and a thousand cycles: none crashes, none hangs, none breaks an invariant."""
+    status, out, err = hoop("stress", "--quick", "--json", "--out", tmp_path)
+    found = json.loads(out)
+    assert found["failures"] == []
+    assert (status, err) == (0, "")
+    assert found["margins"]["rigid"]["energy"]["scenes"] >= 500
+    assert found["margins"]["cycles"]["angle drifts"]["scenes"] >= 3
+    assert (tmp_path / "stress.png").stat().st_size > 10_000
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2])
+def test_other_sequences(seed):
+    report = stress.run_stress(scenes=600, seed=seed)
+    assert not report.failures, report.text()
