@@ -36,10 +36,10 @@ MOST_STEPS = 20_000
 """No case is tightened beyond this many steps in all of its finer runs, some 10 s of the flexible solver. Steps and
 not seconds: a case must come out the same on a busy machine."""
 
-SHAKES = 2.0
-"""Steps of a tighter run over those to expect from which on it is not taken. With short enough steps the flexible
-solver follows the patch's own vibration, which longer ones damp: many more steps, and an error that no longer
-falls with them."""
+NOISY = 2.0
+"""Steps of a tighter run over those to expect from which on it is noise: with steps shorter than a single point of
+the rim takes into the patch, the solver follows the jitter that each of them gives a sticking patch, in many more
+steps and to a result that jitters too. Longer steps average over the points."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,8 +144,17 @@ class Unfinished(RuntimeError):
     """A motion that stopped before what was asked; the sentence says where and why."""
 
 
-def _once(case: Case, scene: Scene) -> dict[str, Any]:
-    motion = solver(case.solver)(scene, history=case.histories)
+def _once(case: Case, scene: Scene, most: float = inf) -> dict[str, Any]:
+    """One run; a solver that tells its progress at every step is stopped when it has taken ``most`` of them."""
+    steps = 0
+
+    def count(fraction: float) -> None:
+        nonlocal steps
+        steps += 1
+        if steps > most:
+            raise Unfinished(f"more than {most:.0f} steps at a tolerance of {scene.solve.rtol:g}")
+
+    motion = solver(case.solver)(scene, history=case.histories, progress=count if most < inf else None)
     if not motion.completed:
         raise Unfinished(motion.ended)
     return _described(motion, case.histories) | {"rtol": scene.solve.rtol}
@@ -165,8 +174,8 @@ def _resolved(case: Case) -> dict[str, Any]:
     """Run at a tolerance and at half of it, and tighten until the error is a ``SHARE`` of the distance
     reported.
 
-    Where that is out of reach (the solver stops, twice in a row its error does not fall with the tolerance, or it
-    would take too many steps) the best pair of runs is given, and said not to be resolved.
+    Where that is out of reach (the solver stops or follows its own noise, twice in a row its error does not fall
+    with the tolerance, or it would take too many steps) the best pair of runs is given, and said not to be resolved.
     """
     rtol = case.scene.solve.rtol
     best, excess = _pair(case, rtol)
@@ -180,11 +189,8 @@ def _resolved(case: Case) -> dict[str, Any]:
             break
         rtol /= factor
         try:
-            pair, excess = _pair(case, rtol, SHAKES * factor**0.5 * steps or inf)
+            pair, excess = _pair(case, rtol, NOISY * factor**0.5 * steps or inf)
         except Unfinished:
-            break
-        except Shaking as shaking:
-            best = _no_better_than(best, shaking.found)
             break
         steps = pair["motion"].get("steps", 0)
         spent += steps
@@ -194,39 +200,16 @@ def _resolved(case: Case) -> dict[str, Any]:
     return best | {"resolved": _is_resolved(case, best)}
 
 
-class Shaking(RuntimeError):
-    """A run of far more steps than its tolerance explains."""
-
-    def __init__(self, found: dict[str, Any]) -> None:
-        super().__init__(f"{found['motion'].get('steps')} steps")
-        self.found = found
-
-
 def _is_resolved(case: Case, found: dict[str, Any]) -> bool:
     """Whether the numerical error is at most its share of every distance."""
     pulse, error = found["pulses"][0], found["numerical_error"][0]
     return all(error[name] <= SHARE * abs(pulse[name] - rigid) for name, rigid in case.against)
 
 
-def _no_better_than(found: dict[str, Any], other: dict[str, Any]) -> dict[str, Any]:
-    """The same result, its errors at least its distance from another."""
-    errors = tuple(
-        {name: max(error[name], abs(pulse[name] - there[name])) for name in error}
-        for error, pulse, there in zip(found["numerical_error"], found["pulses"], other["pulses"], strict=False)
-    )
-    return found | {"numerical_error": errors}
-
-
 def _pair(case: Case, rtol: float, most: float = inf) -> tuple[dict[str, Any], float]:
     """The run at half a tolerance with its error, known from the run at all of it, and how many times it is
     too large; neither may take more than ``most`` steps."""
-    runs = []
-    for tolerance in (rtol, rtol / 2):
-        found = _once(case, case.scene.replace(solve={"rtol": tolerance}))
-        if found["motion"].get("steps", 0) > most:
-            raise Shaking(found)
-        runs.append(found)
-    coarse, fine = runs
+    coarse, fine = (_once(case, case.scene.replace(solve={"rtol": tolerance}), most) for tolerance in (rtol, rtol / 2))
     if not fine["pulses"] or len(coarse["pulses"]) != len(fine["pulses"]):
         raise Unfinished(f"no pulse came to its end: {fine['ended']}")
     errors = tuple(

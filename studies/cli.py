@@ -111,11 +111,12 @@ def flexible(
 
 
 def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, wishes: dict[str, Any] | None = None) -> None:
-    from .progress import bar
+    from .progress import bar, first_time
     from .solvers import solver
 
     target = folder(out) if out is not None else None
-    with bar(f"{name} hoop") as progress:
+    compiling = first_time() if name == "flexible" else ""
+    with bar(f"{name} hoop{compiling}") as progress:
         motion = solver(name)(scene, history=target is not None, progress=progress)
     if target is not None:
         from .output import write_fields, write_motion

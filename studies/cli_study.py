@@ -93,7 +93,7 @@ def stiffness(
 ) -> None:
     """The flexible hoop against the rigid one as stiffness grows."""
     from .ladder import Ladder
-    from .progress import bar
+    from .progress import bar, first_time
     from .solvers import solver
     from .stiffness import stiffness_study
     from .workers import pool
@@ -104,7 +104,8 @@ def stiffness(
     ladder = Ladder.around(described, along, low, high, count)
     solver(solver_name)
     target = folder(out) if out is not None else None
-    with bar(f"{ladder.count} cases") as progress, pool(workers, scheduler) as place:
+    compiling = first_time() if solver_name == "flexible" else ""
+    with bar(f"{ladder.count} cases{compiling}") as progress, pool(workers, scheduler) as place:
         found = stiffness_study(
             described,
             ladder,
@@ -175,14 +176,15 @@ def sweep(
     FILE is a scene in which any value may be a list. A table [sweep] may name the `solvers` ("rigid",
     "flexible"; both by default), a `scene` from which all starts, and ask for `histories = true`.
     """
-    from .progress import bar
+    from .progress import bar, first_time
     from .sweep import load_sweep, run_sweep
     from .workers import pool
 
     asked = load_sweep(file)
     target = folder(out if out is not None else file.with_suffix("") if file.suffix else Path(f"{file}-results"))
+    compiling = first_time() if "flexible" in asked.solvers else ""
     with (
-        bar(f"{len(asked.points) * len(asked.solvers)} cases") as progress,
+        bar(f"{len(asked.points) * len(asked.solvers)} cases{compiling}") as progress,
         pool(workers, scheduler) as place,
     ):
         table = run_sweep(asked, place, target, progress)

@@ -112,6 +112,12 @@ def _slope(x: Array, y: Array, error: Array) -> tuple[float, float]:
     return float(found[1]), sqrt(scatter**2 + numerical**2)
 
 
+def _carried(weights: Array, error: Array) -> float:
+    """What the cases' own errors make of a weighted sum: those that they have in common, and those that each has for
+    itself."""
+    return sqrt(float(weights @ error) ** 2 + float(weights**2 @ error**2))
+
+
 def richardson(
     s: ArrayLike, y: ArrayLike, error: ArrayLike | None = None, exponent: float | None = None
 ) -> tuple[float, float, float]:
@@ -191,7 +197,7 @@ def _fit(s: Array, y: Array, error: Array, exponent: float | None) -> tuple[floa
     free = y.size - jacobian.shape[1]
     inverse = np.linalg.pinv(jacobian)
     scatter = _t(free) * sqrt(float(residual @ residual) / free * float(inverse[0] @ inverse[0]))
-    numerical = float(np.abs(inverse[0] / sigma) @ error)  # the worst the cases' own errors can do together
+    numerical = _carried(inverse[0] / sigma, error)
     # the limit is known no better than the law meets the stiffest cases, nor than these are themselves known; a law
     # bent to the soft cases misses the stiff ones by less than it misses the limit: thrice is allowed for
     missed = 3 * float(np.maximum(np.abs(residual * sigma), error)[-2:].max())

@@ -3,14 +3,14 @@
 CAPTIONS = {
     "pulse": """\
 Normal force, friction force and slip velocity of the contact through the first pulse, from soft (dark) to
-stiff (light), over the rigid hoop (black).""",
+stiff (light), over the rigid hoop (black, wide). Time counts from the instant at which the disk is lowest.""",
     "impulses": """\
 The same pulse in impulse space. A curve that runs along a dashed line slides; one that leaves it sticks; one
 that turns toward the other line has reversed its slip. The slope from the origin to the end is the impulse
 ratio.""",
     "distance": """\
 How far the flexible hoop's measures are from the rigid ones. Triangles are the numerical error, known
-from a second run at half the tolerance.""",
+from a second run at half the tolerance; the line has the fitted rate and spans the cases it was fitted to.""",
     "energy": """\
 Where the energy is and where it goes; below, the small terms on a logarithmic axis.""",
 }
@@ -25,12 +25,12 @@ PAGE = """\
 <title>{{ title }}</title>
 <style>
 :root { color-scheme: light; }
-body { font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 62rem; margin: 2rem
+body { font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 66rem; margin: 2rem
 auto; padding: 0 1.2rem; } h1 { font-size: 1.6rem; line-height: 1.25; margin-bottom: .3rem; } h2 { font-size:
 1.15rem; margin-top: 2.2rem; } .lead { font-size: 1.05rem; }
 .wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: .86rem; font-variant-numeric: tabular-nums; }
-th, td { padding: .25rem .7rem; text-align: right; border-bottom: 1px solid #e4e4e4; white-space: nowrap; }
+table { border-collapse: collapse; font-size: .8rem; font-variant-numeric: tabular-nums; }
+th, td { padding: .2rem .5rem; text-align: right; border-bottom: 1px solid #e4e4e4; white-space: nowrap; }
 th:first-child, td:first-child { text-align: left; }
 thead th { border-bottom: 2px solid #999; vertical-align: bottom; }
 tr.rigid td { border-top: 2px solid #999; font-weight: 600; }
@@ -47,15 +47,13 @@ footer { color: #666; font-size: .85rem; margin-top: 3rem; border-top: 1px solid
 <p class="lead">{{ verdict }}</p>
 
 <h2>The limit of the first pulse</h2>
-<div class="wide"><table><thead><tr><th>measure</th><th>limit</th><th>uncertainty</th><th>rigid</th><th>limit
-− rigid</th>
-<th>rigid inside?</th><th>rate of the distance</th><th>{{ confidence }} interval</th><th>distance at the
-stiffest</th></tr></thead><tbody>
+<div class="wide"><table><thead><tr><th>measure</th><th>limit</th><th>±</th><th>rigid</th><th>limit − rigid</th>
+<th>inside?</th><th>rate</th><th>{{ confidence }} interval</th><th>last distance</th></tr></thead><tbody>
 {% for row in limits %}<tr>{% for cell in row %}<td>{{ cell }}</td>{% endfor %}</tr>
 {% endfor %}</tbody></table></div>
 <p>The limit is L in L + c s<sup>−p</sup>, s the {{ along }}, fitted to the stiffest cases without knowing the
-rigid value. Its uncertainty covers the scatter about that fit, the choice of the fitted cases and their
-numerical error.
+rigid value. Its uncertainty ± covers the scatter about that fit, the choice of the fitted cases and their
+numerical error. The rate is that of the distance to the rigid value, the last distance that of the stiffest case.
 {{ law }} {{ damping }}</p>
 
 {% for name, caption, image in figures %}

@@ -59,8 +59,9 @@ def test_the_limit_is_inside_for_other_sequences_too(family, noise, floor):
         a, b = random.uniform(-1, 1, 2)
         distance = 0.02 * FAMILIES[family](S / S[0], a, b)
         error = noise * np.abs(distance) + floor
-        inside += limit_of(S, 0.17 + distance + error * random.uniform(-1, 1, S.size), 0.17, error).rigid_inside
-    assert inside >= 36  # 38 of 40 is the level
+        for off in (random.uniform(-1, 1, S.size), random.choice([-1, 1])):  # each for itself, and all alike
+            inside += limit_of(S, 0.17 + distance + error * off, 0.17, error).rigid_inside
+    assert inside >= 72  # 76 of 80 is the level
 
 
 def test_a_wrong_rigid_value_is_found_to_be_wrong():
