@@ -7,6 +7,7 @@
 ``fields``   a frame: ring, rim, disk and floor at one instant, as plain arrays
 ``vtu``      a block to a VTU file and back
 ``series``   frames in time to PVD + VTU and back
+``exchange`` the mesh to other programs, by meshio
 ``view``     pictures, animations and a window: ``picture``, ``animate``, ``window`` (not loaded here);
              behind it ``setting``, ``subject`` (what is shown), ``scales``, ``looks``, ``stage`` (VTK),
              ``lens``, ``sheet`` (type and curves), ``film`` (files), ``window``, ``renderer``

@@ -146,6 +146,16 @@ def scenes(name: str | None) -> None:
     click.echo(text(name) if name else listing(), nl=False)
 
 
+@hoop.command()
+@click.argument("scene")
+@click.argument("file", type=click.Path(path_type=Path))
+def mesh(scene: str, file: Path) -> None:
+    """Write the ring's mesh; the suffix of FILE says in which format (.msh, .vtu, ...)."""
+    from .output import write_mesh
+
+    click.echo(write_mesh(load_scene(scene), file))
+
+
 hoop.add_command(study)
 hoop.add_command(view)
 

@@ -94,3 +94,27 @@ def write_first_pulse(scene: Scene, out: Path, progress: Callable[[float], None]
 
     motion = solver("flexible")(scene.replace(run=Run(until="pulse")), history=True)
     write_fields(motion, out, progress)
+
+
+def write_mesh(scene: Scene, path: Path) -> str:
+    """Write the mesh of a scene's ring, in units of R, and say how good it is.
+
+    Raises
+    ------
+    StudyError
+        A format that cannot be written.
+    """
+    from flexible.ring import ring_of
+    from meshes import MeshError
+    from meshes.exchange import save_mesh
+
+    ring = ring_of(scene).mesh
+    try:
+        save_mesh(ring, path)
+    except MeshError as error:
+        raise StudyError(str(error)) from None
+    quality = ring.quality()
+    return (
+        f"{path}: {quality.elements} nine-node quads, {quality.nodes} nodes; area off by {quality.area_error:.1e}, "
+        f"outer length by {quality.outer_length_error:.1e}; elements at most {quality.aspect:.2f} times longer than wide."
+    )

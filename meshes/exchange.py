@@ -1,0 +1,54 @@
+"""The ring's mesh in the formats of other programs, by meshio: Gmsh, Abaqus, XDMF, VTU, MED and whatever else it knows."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+
+from .ring import MeshError, RingMesh
+
+BOUNDARIES = ("outer", "inner", "weld")  # numbered from 1 in the field "boundary"
+
+
+def save_mesh(ring: RingMesh, path: str | Path) -> None:
+    """Write the mesh: nine-node quads, and the three-node lines of its boundaries with their numbers.
+
+    Parameters
+    ----------
+    ring : RingMesh
+    path : path
+        Its suffix says which format; points have a third coordinate 0.
+
+    Raises
+    ------
+    MeshError
+        A suffix that meshio does not know, or a format that has no nine-node quads.
+    OSError
+        The file cannot be written.
+    """
+    import meshio
+
+    path = Path(path)
+    points = np.column_stack([ring.points, np.zeros(len(ring.points))])
+    lines, numbers = [], []
+    for number, nodes in enumerate((ring.outer_nodes, ring.inner_nodes, ring.weld_nodes), 1):
+        ends = nodes[::2] if number == 3 else np.append(nodes[::2], nodes[0])  # the weld is an arc, the rims close
+        lines.append(np.column_stack([ends[:-1], ends[1:], nodes[1::2]]))
+        numbers += [number] * len(lines[-1])
+    cells = [("quad9", ring.quad9), ("line3", np.concatenate(lines))]
+    tags = [np.zeros(len(ring.quad9), np.int32), np.array(numbers, np.int32)]
+    # the temporary name keeps the suffix, which says the format
+    part = path.with_name(f".{os.getpid()}-{path.name}")
+    gmsh = path.suffix == ".msh"
+    data = {"gmsh:physical": tags, "gmsh:geometrical": tags} if gmsh else {"boundary": tags}
+    try:
+        meshio.Mesh(points, cells, cell_data=data).write(part, **({"file_format": "gmsh22"} if gmsh else {}))
+        part.replace(path)
+    except (meshio.WriteError, meshio.ReadError, KeyError, NotImplementedError):
+        raise MeshError(f"{path} cannot be written: {path.suffix or 'no suffix'} is no format for nine-node quads.") from None
+    except ModuleNotFoundError as error:
+        raise MeshError(f"{path} cannot be written: {path.suffix} needs {error.name}, which is not installed.") from None
+    finally:
+        part.unlink(missing_ok=True)

@@ -1,0 +1,38 @@
+"""The mesh in other programs' formats comes back as it went out."""
+
+from __future__ import annotations
+
+import meshio
+import numpy as np
+import pytest
+
+from meshes import MeshError, ring_mesh
+from meshes.exchange import save_mesh
+
+
+@pytest.mark.parametrize("suffix", [".vtu", ".msh"])
+def test_round_trip(tmp_path, suffix):
+    ring = ring_mesh(0.98, 1.0, 24)
+    save_mesh(ring, tmp_path / f"ring{suffix}")
+    again = meshio.read(tmp_path / f"ring{suffix}")
+    assert np.array_equal(again.points[:, :2], ring.points)
+    assert np.array_equal(again.cells_dict["quad9"], ring.quad9)
+    lines = again.cells_dict["line3"]
+    tags = np.concatenate([data for cells, data in zip(again.cells, again.cell_data["boundary" if suffix == ".vtu" else "gmsh:physical"], strict=True)
+                           if cells.type == "line3"])  # fmt: skip
+    radius = np.linalg.norm(again.points[lines], axis=2)
+    assert np.allclose(radius[tags == 1], 1.0, atol=1e-15)
+    assert np.allclose(radius[np.isin(tags, (2, 3))], 0.98, atol=1e-15)
+    assert (tags == 1).sum() == (tags == 2).sum() == 24
+    angle = np.abs(np.arctan2(again.points[lines[tags == 3], 1], again.points[lines[tags == 3], 0]))
+    assert angle.max() == pytest.approx(ring.weld_half_angle, rel=1e-12)
+    # a mid-side node lies between the ends of its own line: half a chord's length from each, to second order
+    ends, mids = again.points[lines[:, :2]], again.points[lines[:, 2]]
+    chord = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+    assert np.allclose(np.linalg.norm(ends[:, 0] - mids, axis=1), chord / 2, rtol=0.01)
+
+
+def test_a_foreign_suffix_is_a_sentence(tmp_path):
+    with pytest.raises(MeshError, match="cannot be written"):
+        save_mesh(ring_mesh(0.98, 1.0, 24), tmp_path / "ring.nonsense")
+    assert not list(tmp_path.iterdir())
