@@ -1,4 +1,4 @@
-"""The ring's mesh in the formats of other programs, by meshio: Gmsh, Abaqus, XDMF, VTU, MED and whatever else it knows."""
+"""The ring's mesh in the formats of other programs, by meshio: Gmsh, Abaqus, VTU, MED and what else it knows."""
 
 from __future__ import annotations
 
@@ -47,8 +47,10 @@ def save_mesh(ring: RingMesh, path: str | Path) -> None:
         meshio.Mesh(points, cells, cell_data=data).write(part, **({"file_format": "gmsh22"} if gmsh else {}))
         part.replace(path)
     except (meshio.WriteError, meshio.ReadError, KeyError, NotImplementedError):
-        raise MeshError(f"{path} cannot be written: {path.suffix or 'no suffix'} is no format for nine-node quads.") from None
+        suffix = path.suffix or "no suffix"
+        raise MeshError(f"{path} cannot be written: {suffix} is no format for nine-node quads.") from None
     except ModuleNotFoundError as error:
-        raise MeshError(f"{path} cannot be written: {path.suffix} needs {error.name}, which is not installed.") from None
+        needed = f"{path.suffix} needs {error.name}, which is not installed"
+        raise MeshError(f"{path} cannot be written: {needed}.") from None
     finally:
         part.unlink(missing_ok=True)

@@ -116,5 +116,5 @@ def write_mesh(scene: Scene, path: Path) -> str:
     quality = ring.quality()
     return (
         f"{path}: {quality.elements} nine-node quads, {quality.nodes} nodes; area off by {quality.area_error:.1e}, "
-        f"outer length by {quality.outer_length_error:.1e}; elements at most {quality.aspect:.2f} times longer than wide."
+        f"outer length by {quality.outer_length_error:.1e}; elements up to {quality.aspect:.2f} times longer than wide."
     )

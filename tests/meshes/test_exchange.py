@@ -18,8 +18,8 @@ def test_round_trip(tmp_path, suffix):
     assert np.array_equal(again.points[:, :2], ring.points)
     assert np.array_equal(again.cells_dict["quad9"], ring.quad9)
     lines = again.cells_dict["line3"]
-    tags = np.concatenate([data for cells, data in zip(again.cells, again.cell_data["boundary" if suffix == ".vtu" else "gmsh:physical"], strict=True)
-                           if cells.type == "line3"])  # fmt: skip
+    data = again.cell_data["boundary" if suffix == ".vtu" else "gmsh:physical"]
+    tags = np.concatenate([d for cells, d in zip(again.cells, data, strict=True) if cells.type == "line3"])
     radius = np.linalg.norm(again.points[lines], axis=2)
     assert np.allclose(radius[tags == 1], 1.0, atol=1e-15)
     assert np.allclose(radius[np.isin(tags, (2, 3))], 0.98, atol=1e-15)

@@ -8,8 +8,8 @@ import pytest
 from meshes import Block, SeriesWriter, read
 from meshes.patch import patch_of
 from meshes.renderer import renderer_problem
-from meshes.subject import SeriesSubject
 from meshes.setting import setting
+from meshes.subject import SeriesSubject
 from meshes.view import Camera
 
 SIZE = (640, 480)

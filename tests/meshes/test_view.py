@@ -13,9 +13,9 @@ from meshes import SeriesError, SeriesWriter, read
 from meshes import renderer as renderer_module
 from meshes.lens import enlargement
 from meshes.renderer import probe, renderer_problem
+from meshes.setting import setting
 from meshes.stage import ABOVE_FLOOR, deformed
 from meshes.subject import Curves, MotionSubject, SeriesSubject
-from meshes.setting import setting
 from meshes.view import Camera, ViewError, animate, picture, render, window
 from rigid import Friction, Hoop, Motion, Phase, Release, Scene, States, load_scene, simulate
 
