@@ -85,7 +85,7 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
                         x = polish(tt, ORDER, 0.0, length)
                         tt[0] = 0.0
                         carry(par, state, mu_hat, work, x)
-                    # a tiny disk may pass the lift-off between two instants that the clock can tell: a contact never pulls
+                    # a tiny disk may lift off between two instants that the clock can tell: a contact never pulls
                     normal = max(0.0, normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP]))
                     write_state(par, state, normal, -mu_hat * normal, out, i)
                     state[T] = before
