@@ -256,6 +256,7 @@ def _check(table: Array) -> None:
         & (mu_s >= mu)
     )
     fine &= (bounce >= 0) & (bounce <= 1) & ((k > 0) | (mass > 0) | (r == 1))
+    fine &= (np.abs(np.delete(table, 2, axis=1)) <= 1e9).all(axis=1) & (mass <= 1e12)
     if not fine.all():
         index = int(np.argmin(fine))
         row = [float(number) for number in table[index]]

@@ -96,10 +96,11 @@ class Hoop:
             "k is the disk's radius over the hoop's inner radius, at least 0 and below 1",
             open_high=True,
         )
-        _require("hoop.r", self.r, 1, inf, "r is the hoop's outer over its inner radius, at least 1")
-        _require("hoop.mass_ratio", self.mass_ratio, 0, inf, "mass_ratio is m_h/m, at least 0")
+        # the upper bounds here and below keep squares and products within what a float holds
+        _require("hoop.r", self.r, 1, 1e9, "r is the hoop's outer over its inner radius, 1 to 1e9")
+        _require("hoop.mass_ratio", self.mass_ratio, 0, 1e12, "mass_ratio is m_h/m, 0 to 1e12")
         for key in ("R", "m", "g"):
-            _require(f"hoop.{key}", getattr(self, key), 0, inf, f"{key} must be positive", open_low=True)
+            _require(f"hoop.{key}", getattr(self, key), 1e-30, 1e30, f"{key} lies between 1e-30 and 1e30")
         if self.k == 0 and self.mass_ratio == 0 and self.r != 1:
             raise SceneError(
                 f"hoop.r = {self.r!r} is not possible: "
@@ -153,8 +154,8 @@ class Friction:
     mu: float
 
     def __post_init__(self) -> None:
-        _require("friction.mu_s", self.mu_s, 0, inf, "mu_s is the static coefficient, at least 0")
-        _require("friction.mu", self.mu, 0, inf, "mu is the kinetic coefficient, at least 0")
+        _require("friction.mu_s", self.mu_s, 0, 1e9, "mu_s is the static coefficient, 0 to 1e9")
+        _require("friction.mu", self.mu, 0, 1e9, "mu is the kinetic coefficient, 0 to 1e9")
         if self.mu > self.mu_s:
             raise SceneError(
                 f"friction.mu = {self.mu!r} is not possible: "
@@ -172,7 +173,8 @@ class Release:
 
     def __post_init__(self) -> None:
         for key in ("phi0", "omega0", "slip0"):
-            _require(f"release.{key}", getattr(self, key), -inf, inf, f"{key} must be a finite number")
+            # of a larger angle too few digits would be left within a turn
+            _require(f"release.{key}", getattr(self, key), -1e9, 1e9, f"{key} lies between -1e9 and 1e9")
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,137 @@
+"""What holds for any scene, searched by hypothesis: mirror, units, restart, energy, bounds; and what a file may say."""
+
+from __future__ import annotations
+
+import tomllib
+from math import pi
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rigid import (
+    Contact,
+    Friction,
+    Hoop,
+    Kind,
+    Landing,
+    Release,
+    Ring,
+    Run,
+    Scene,
+    Solve,
+    scene_from_dict,
+    simulate,
+    simulate_batch,
+)  # fmt: skip
+from studies import stress_checks as checks
+
+fractions = st.floats(0, 1)
+
+
+@st.composite
+def scenes(draw):
+    """Anything a user can type, with a disk of at least 1e-5: below, stress tests keep the books."""
+    k = draw(st.one_of(st.floats(0.01, 0.95), st.floats(-5, -2).map(lambda x: 10**x)))
+    r = draw(st.one_of(st.just(1.0), st.floats(1, 2)))
+    mass = draw(st.one_of(st.just(0.0), st.floats(-4, 2).map(lambda x: 10**x)))
+    mu = draw(st.one_of(st.just(0.0), st.floats(0, 3)))
+    mu_s = mu * draw(st.one_of(st.just(1.0), st.floats(1, 5)))
+    slip = draw(st.one_of(st.just(0.0), st.floats(-2, 2)))
+    release = Release(draw(st.floats(-pi, pi)), draw(st.floats(-5, 5)), slip)
+    run = draw(st.sampled_from([Run(turns=2), Run(turns=4), Run(until="pulse"), Run(until="rest"), Run(t_end=10.0)]))
+    return Scene(Hoop(k, r, mass), Friction(mu_s, mu), release, run, Landing(draw(fractions)))
+
+
+@settings(max_examples=80, deadline=None)
+@given(scenes())
+def test_bounds_energy_and_order(scene):
+    """Finite, in order, energy falls, N >= 0, |F| <= mu_s N, above the floor."""
+    motion = simulate(scene)
+    margins = checks.listed(motion) | checks.sampled(motion)
+    assert {name: margin for name, margin in margins.items() if not margin <= 1} == {}
+
+
+@settings(max_examples=80, deadline=None)
+@given(scenes())
+def test_mirrored_rescaled_restarted(scene):
+    """The same answer for phi -> -phi, in SI units, and from the middle, up to the motion's own sensitivity."""
+    margins = checks.repeated(simulate(scene))
+    assert {name: margin for name, margin in margins.items() if not margin <= 1} == {}
+
+
+@settings(max_examples=30, deadline=None)
+@given(scenes(), st.floats(0.1, 10), st.floats(0.1, 10), st.floats(0.1, 10))
+def test_any_units(scene, R, m, g):
+    """Impulses scale with m sqrt(g R), losses with m g R, times with sqrt(R/g), angles not at all."""
+    scene = scene.replace(run={"until": "pulse"})
+    plain = simulate(scene)
+    if not plain.pulses or checks.flights(plain):
+        return
+    si = scene.replace(hoop={"R": R, "m": m, "g": g})
+    si = si.replace(
+        release={"omega0": scene.release.omega0 / si.time_unit, "slip0": scene.release.slip0 * si.velocity_unit}
+    )
+    units = np.array([si.impulse_unit, si.impulse_unit, si.time_unit, 1.0])
+
+    def row(motion):
+        pulse = motion.pulses[0]
+        return np.array([pulse.normal_impulse, pulse.friction_impulse, pulse.t_end, pulse.phi_end])
+
+    other = simulate(si)
+    allowed = 1e-9 + 1e-13 * (checks.sensitivity(plain) + 1 / scene.hoop.k)
+    assert row(other) / units == pytest.approx(row(plain), rel=allowed, abs=allowed)
+
+
+@settings(max_examples=40, deadline=None)
+@given(scenes(), fractions)
+def test_restarted_anywhere_on_the_floor(scene, share):
+    """A motion restarted at any instant of rolling or slipping goes on with the same energy and force."""
+    motion = simulate(scene)
+    t = share * motion.t_end
+    phase = motion.phase_at(t)
+    if phase.kind not in (Kind.ROLL, Kind.SKID, Kind.SPIN) or phase.t_end - phase.t_start < 1e-6:
+        return
+    margin = 1e-3 * (phase.t_end - phase.t_start)
+    state = motion.at(min(max(t, phase.t_start + margin), phase.t_end - margin))
+    release = Release(float(state.phi), float(state.omega), float(state.slip_velocity))
+    again = simulate(scene.replace(release=release)).at(0.0)
+    assert float(again.energy) == pytest.approx(float(state.energy), rel=1e-9)
+    digits = 1e-6 + 1e-12 / scene.hoop.k
+    assert float(again.normal_force) == pytest.approx(float(state.normal_force), rel=digits, abs=1e-9)
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.lists(scenes(), min_size=1, max_size=8))
+def test_a_batch_is_its_scenes(many):
+    """Many at once give what each gives alone."""
+    many = [scene.replace(run={"turns": 2}) for scene in many]
+    batch = simulate_batch(many, turns=2)
+    for i, scene in enumerate(many):
+        motion = simulate(scene)
+        if checks.flights(motion) > checks.MOST_FLIGHTS:
+            continue
+        mine = [turn.phi for turn in motion.turns]
+        found = [phi for phi in batch.turn_phi[i] if np.isfinite(phi)]
+        if checks._apart(np.array(mine), np.array(found)) > 1e-9:
+            assert checks.sensitivity(motion) > 1e3
+
+
+positive = st.floats(1e-6, 1e12)
+
+
+@settings(max_examples=100, deadline=None)
+@given(
+    scenes(),
+    st.builds(Ring, positive, st.floats(-0.9, 0.5), st.one_of(st.none(), st.floats(0.01, 0.5)), st.floats(0.01, 1.5)),
+    st.builds(Contact, st.sampled_from(["patch", "brush"]), positive, positive, st.floats(0, 3)),
+    st.builds(
+        Solve, st.sampled_from(["auto", "full"]), st.sampled_from(["pulses", "all"]),
+        st.sampled_from(["equilibrium", "undeformed"]), st.floats(1e-12, 0.5), st.integers(24, 4000),
+    ),
+)  # fmt: skip
+def test_a_scene_survives_its_file(scene, ring, contact, solve):
+    """Written as TOML and read again it is the same scene."""
+    scene = scene.replace(ring=ring, contact=contact, solve=solve)
+    assert scene_from_dict(tomllib.loads(checks.toml(scene))) == scene
