@@ -21,7 +21,7 @@ from .solvers import version
 from .workers import Pool
 
 if TYPE_CHECKING:
-    import pandas  # type: ignore[import-untyped]
+    import pandas
 
 BOTH = ("rigid", "flexible")
 
