@@ -7,6 +7,7 @@
 ``case``       one scene through one solver, made into a row
 ``measures``   what is measured on a pulse; a new measure is one function
 ``solvers``    the solvers by name; a third one is one adapter
-``figures``    how things are drawn;  ``report``  the page
+``figures``    curves through a pulse;  ``study_figures``  those of a study;  ``style``  how they look
+``report``     the page
 ``cli``        ``hoop ...``
 """

@@ -28,8 +28,9 @@ def limits_hold(study) -> None:
         limit = study.limits[name]
         assert limit.rigid == getattr(rigid, name)
         assert abs(limit.error) <= limit.uncertainty <= ENOUGH
-        if scene.friction.mu_s == scene.friction.mu and limit.distance > 1e-5:  # the half-width of the patch, eps^(-1/3)
-            assert limit.rate == pytest.approx(1 / 3, abs=0.06)  # nine rungs still show the next term
+        if scene.friction.mu_s == scene.friction.mu and limit.distance > 1e-5:
+            # the half-width of the patch, eps^(-1/3); nine rungs still show the next term
+            assert limit.rate == pytest.approx(1 / 3, abs=0.06)
     for rung in study.rungs:
         if rung.outcome.resolved:
             for name in ("impulse_ratio", "friction_loss"):
@@ -59,6 +60,6 @@ def test_the_two_laws_differ_by_more_than_their_uncertainty():
 @pytest.mark.parametrize("mass_ratio", [0.0, 0.01, 0.1])
 @pytest.mark.parametrize(("law", "mu_s"), LAWS)
 def test_the_limit_of_every_hoop(k, mass_ratio, law, mu_s):
-    """The default ladder, nine rungs over six decades; all eighteen hoops take two to four minutes on two cores."""
+    """The default ladder, nine rungs over six decades; all eighteen hoops take three to five minutes on two cores."""
     with pool(cores()) as place:
         limits_hold(stiffness_study(scene_of(k, mass_ratio, law, mu_s), pool=place))
