@@ -122,16 +122,23 @@ class Contestant:
 def race(
     contestants: Sequence[Contestant], repeats: int = 5, progress: Callable[[float], None] | None = None
 ) -> list[Row]:
-    """Time the contestants in turns, after one warm-up each; a contestant that fails says so in its row."""
+    """Time the contestants in turns, after one warm-up each; a contestant that fails says so in its row.
+
+    What is to run once only is timed as it warms up.
+    """
     rows = []
     for number, entry in enumerate(contestants):
         row = Row(entry.solver, entry.setting, entry.scene, [], clock=entry.clock)
         rows.append(row)
+        clock = _clock(entry)
+        start = clock()
         try:
             answer = entry.run()
         except Exception as error:
             row.note = " ".join(str(error).split())
             continue
+        if entry.repeats == 1:
+            row.seconds.append(clock() - start)
         verdict = entry.judge(answer)
         row.error, row.more = verdict if isinstance(verdict, tuple) else (verdict, {})
         if entry.memory:
@@ -140,11 +147,11 @@ def race(
             progress(0.5 * (number + 1) / len(contestants))
     for turn in range(repeats):
         for row, entry in zip(rows, contestants, strict=True):
-            if row.note or turn >= (entry.repeats or repeats):
+            if row.note or entry.repeats == 1 or turn >= (entry.repeats or repeats):
                 continue
             if entry.prepare is not None:
                 entry.prepare()
-            clock = time.process_time if entry.clock == "cpu" else time.perf_counter
+            clock = _clock(entry)
             start = clock()
             for _ in range(entry.calls):
                 entry.run()
@@ -152,6 +159,10 @@ def race(
         if progress is not None:
             progress(0.5 + 0.5 * (turn + 1) / repeats)
     return rows
+
+
+def _clock(entry: Contestant) -> Callable[[], float]:
+    return time.process_time if entry.clock == "cpu" else time.perf_counter
 
 
 def peak_memory(entry: Contestant) -> float:

@@ -38,7 +38,7 @@ class Amount:
     seconds_flexible: float
 
 
-QUICK = Amount(rigid=600, flexible=60, seconds_rigid=20.0, seconds_flexible=1.0)
+QUICK = Amount(rigid=800, flexible=40, seconds_rigid=20.0, seconds_flexible=1.0)
 WHOLE = Amount(rigid=2500, flexible=500, seconds_rigid=20.0, seconds_flexible=20.0)
 
 
@@ -109,8 +109,12 @@ class Report:
             if not mine:
                 continue
             cut = sum(finding.cut for finding in mine)
+            stopped = sum(finding.ended.startswith("stopped") for finding in mine)
             slowest = max(finding.seconds for finding in mine)
-            lines.append(f"\n{solver}: {len(mine)} scenes, {cut} cut at the work bound, slowest {slowest:.2g} s")
+            lines.append(
+                f"\n{solver}: {len(mine)} scenes, {cut} cut at the work bound, "
+                f"{stopped} stopped early and said so, slowest {slowest:.2g} s"
+            )
             for name, (most, count, failed) in self.worst(solver).items():
                 lines.append(f"  {name:20} {count:6} scenes, {failed:3} failed, worst margin {most:.2g}")
         for failure in self.failures:
