@@ -54,7 +54,7 @@ class ReducedHoop(RimContact):
         here, there = self.ring.dofs(*window), self.ring.dofs(*state.window)
         moved = self.ring.rim_shapes[here] @ state.pos[3:]
         if state.res[NORMAL] > 0:
-            moved = moved + self.ring.rim_compliance[np.ix_(here, there)] @ state.nodal.ravel()
+            moved = moved + self.ring.compliance(here, there) @ state.nodal.ravel()
         return moved.reshape(-1, 2)
 
     def stage(

@@ -32,8 +32,6 @@ class ReducedRing:
         Gyroscopic coupling.
     rim_shapes : (2 n_rim, n) array
         Modes on the rim, two components per node.
-    rim_compliance : (2 n_rim, 2 n_rim) array
-        Residual static compliance of the rim.
     vertex : (n_elements,) array
         Angles at which rim elements begin.
     """
@@ -44,13 +42,18 @@ class ReducedRing:
     modal: Array
     gyro: Array
     rim_shapes: Array
-    rim_compliance: Array
     vertex: Array
 
     def window(self, first: int, count: int) -> tuple[Array, Array]:
         """Modes and residual compliance of the nodes of rim elements ``first`` to ``first + count - 1``."""
         dofs = self.dofs(first, count)
-        return self.rim_shapes[dofs], self.rim_compliance[np.ix_(dofs, dofs)]
+        block = self.compliance(dofs, dofs)
+        return self.rim_shapes[dofs], (block + block.T) / 2
+
+    def compliance(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> Array:
+        """Residual static compliance: displacement of some rim dofs under unit forces on others."""
+        held = (self.rim_shapes[rows] / self.modal[:, 0]) @ self.rim_shapes[columns].T
+        return self.ring.rim_block(rows, columns) / self.stiffness - held
 
     def dofs(self, first: int, count: int) -> NDArray[np.int64]:
         """Rim dofs of a window, counted round and round."""
@@ -71,7 +74,6 @@ def reduce(scene: Scene, modes: int = 24, ring: Ring | None = None) -> ReducedRi
     ring = ring_of(scene) if ring is None else ring
     stiffness = membrane_stiffness(scene)
     mass = scene.hoop.mass_ratio
-    compliance = ring.rim_compliance / stiffness
     count = modes if mass > 0 else 0
     if count:
         squares, shapes = ring.modes(count)
@@ -91,7 +93,6 @@ def reduce(scene: Scene, modes: int = 24, ring: Ring | None = None) -> ReducedRi
         gyro = weighted.T @ ring.turned(full)
         gyro = (gyro - gyro.T) / 2
         rim = shapes[ring.rim_dofs]
-        compliance = compliance - (rim / (squares * stiffness)) @ rim.T
         rim_shapes = rim / root
     else:
         modal, gyro = np.zeros((0, 5)), np.zeros((0, 0))
@@ -103,6 +104,5 @@ def reduce(scene: Scene, modes: int = 24, ring: Ring | None = None) -> ReducedRi
         modal=np.ascontiguousarray(modal),
         gyro=np.ascontiguousarray(gyro),
         rim_shapes=np.ascontiguousarray(rim_shapes),
-        rim_compliance=compliance,
         vertex=np.ascontiguousarray(ring.mesh.rim_theta[::2]),
     )

@@ -22,6 +22,8 @@ from rigid import Scene
 
 Array = NDArray[np.float64]
 
+COLUMNS = 64  # of the rim's compliance are solved for together
+
 
 def membrane_stiffness(scene: Scene) -> float:
     """E b of the ring, in m g/R: the section E I = E b h^3/12 with h the wall."""
@@ -101,14 +103,31 @@ class Ring:
         return self._factor.solve(load)
 
     @cached_property
+    def _columns(self) -> tuple[Array, NDArray[np.bool_]]:
+        """Compliance of the rim, column by column, and which groups of columns are known."""
+        n = len(self.rim_dofs)
+        return np.empty((n, n), order="F"), np.zeros(-(-n // COLUMNS), np.bool_)
+
+    def rim_block(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> Array:
+        """Displacement of some of ``rim_dofs`` under unit forces on others; a motion loads a short arc of the rim.
+
+        Only the columns that are asked for, and their neighbours, are solved for, once.
+        """
+        compliance, known = self._columns
+        for group in np.unique(columns // COLUMNS):
+            if not known[group]:
+                some = np.arange(COLUMNS * group, min(COLUMNS * (group + 1), len(compliance)))
+                load = np.zeros((len(self.free), len(some)))
+                load[self.rim_dofs[some], np.arange(len(some))] = 1.0
+                compliance[:, some] = self.solve(load)[self.rim_dofs]
+                known[group] = True
+        return compliance[np.ix_(rows, columns)]
+
+    @property
     def rim_compliance(self) -> Array:
         """Displacement of the rim under unit forces on it, (2 n_rim, 2 n_rim), in the order of ``rim_dofs``."""
-        compliance = np.empty((len(self.rim_dofs), len(self.rim_dofs)))
-        for start in range(0, len(self.rim_dofs), 256):
-            columns = np.arange(start, min(start + 256, len(self.rim_dofs)))
-            load = np.zeros((len(self.free), len(columns)))
-            load[self.rim_dofs[columns], np.arange(len(columns))] = 1.0
-            compliance[:, columns] = self.solve(load)[self.rim_dofs]
+        every = np.arange(len(self.rim_dofs))
+        compliance = self.rim_block(every, every)
         return (compliance + compliance.T) / 2
 
     def modes(self, count: int) -> tuple[Array, Array]:

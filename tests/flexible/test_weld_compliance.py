@@ -62,7 +62,8 @@ def test_modes_and_residual_add_up_to_the_static_compliance():
     exact = ring_of(SCENE).rim_compliance / membrane_stiffness(SCENE)
     for count in (1, 7, 24):
         reduced = reduce(SCENE, count)
-        held = (reduced.rim_shapes / reduced.modal[:, 0]) @ reduced.rim_shapes.T + reduced.rim_compliance
+        every = np.arange(len(exact))
+        held = (reduced.rim_shapes / reduced.modal[:, 0]) @ reduced.rim_shapes.T + reduced.compliance(every, every)
         assert np.abs(held - exact).max() < 1e-10 * np.abs(exact).max()
 
 
@@ -85,7 +86,8 @@ def test_dynamic_compliance_converges_with_the_modes():
     for count in counts:
         reduced = reduce(SCENE, int(count))
         shape = reduced.rim_shapes[2 * 300]
-        found = (shape**2 / (reduced.modal[:, 0] - square)).sum() + reduced.rim_compliance[2 * 300, 2 * 300]
+        here = np.array([2 * 300])
+        found = (shape**2 / (reduced.modal[:, 0] - square)).sum() + float(reduced.compliance(here, here)[0, 0])
         errors.append(abs(found / exact - 1))
     slope = np.polyfit(np.log(counts), np.log(errors), 1)[0]
     assert slope == pytest.approx(-7, abs=1)
