@@ -70,9 +70,7 @@ def test_a_race_times_everyone_and_tells_who_failed():
     def stumble() -> None:
         raise ValueError("no such thing")
 
-    fine, fell = race(
-        [Contestant("a", "", "", lambda: 1.0, lambda x: x), Contestant("b", "", "", stumble)], repeats=3
-    )
+    fine, fell = race([Contestant("a", "", "", lambda: 1.0, lambda x: x), Contestant("b", "", "", stumble)], repeats=3)
     assert (len(fine.seconds), fine.error, fell.seconds) == (3, 1.0, [])
     assert fell.note == "no such thing"
     assert fine.peak_memory > 1 or not isfinite(fine.peak_memory)
