@@ -204,8 +204,9 @@ def _warm(kind: str) -> None:
     if kind == FLEXIBLE:
         from flexible import simulate as simulate_flexible
 
-        for law in ("patch", "brush"):
-            simulate_flexible(scene.replace(run={"t_end": 1e-3}, contact={"law": law}, solve={"resolve": "all"}))
+        for law, mass in (("patch", 0.1), ("brush", 0.1), ("patch", 0.0), ("brush", 0.0)):
+            short = scene.replace(hoop={"mass_ratio": mass}, run={"t_end": 1e-3}, contact={"law": law})
+            simulate_flexible(short.replace(solve={"resolve": "all"}))
 
 
 def _flexible(scene: Scene, number: int, quick: bool, watch: Watch) -> tuple[Margins, str]:
