@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from .contact import BRISTLE_ENERGY, BRUSH, FRICTION, NORMAL, STICK
 from .state import Books, Model, Record, State, record
-from .trial import Trial, attempt, restart
+from .trial import MarchError, Trial, attempt, restart
 
 
 def _excess(model: Model, state: State) -> float:
@@ -94,7 +94,10 @@ def march(
             return state, records, attempts, ""
         if event is not None:
             mode = STICK if state.mode != STICK else (1 if state.res[FRICTION] > 0 else -1)
-            state = restart(model, state, mode)
+            try:
+                state = restart(model, state, mode)
+            except MarchError as error:
+                return state, records, attempts, str(error)
             # what the ring and the patch let go of in the jump of the friction force is lost to friction
             before, after = records[-1], record(model, state, books)
             released = before.ring_strain + before.contact_spring - after.ring_strain - after.contact_spring

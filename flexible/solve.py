@@ -100,6 +100,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             state = hand_over(hoop, motion, start, scene.contact.law)
         except MarchError as error:
             builder.add_rigid(motion, start)
+            builder.completed = False
             return str(error) + _too_soft(scene)
         builder.add_rigid(motion, start)
         state = replace(state, t=builder.t, x_C=builder.x_C)
@@ -162,7 +163,11 @@ def _rest_of(run: Run, builder: Builder) -> Run | None:
 def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _Progress) -> str:
     """Flexible from the release on; pulses are measured over the rigid hoop's intervals."""
     reference = rigid.simulate(rigid_limit(scene))
-    state = hand_over(hoop, reference, 0.0, scene.contact.law)
+    try:
+        state = hand_over(hoop, reference, 0.0, scene.contact.law)
+    except MarchError as error:
+        builder.completed = False
+        return str(error) + _too_soft(scene)
     windows = [(p.phi_start, p.phi_end) for p in reference.pulses]
     run = scene.run
     horizon = run.t_end if run.t_end is not None else reference.t_end

@@ -92,7 +92,7 @@ def restart(model: Model, state: State, mode: int) -> State:
         state, mode, damper, state.pos, state.vel, beta, beta**2 * state.acc
     )
     if not ok:
-        raise MarchError(f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved.")
+        raise MarchError(f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved")
     pos = state.pos.copy()
     pos[3:] += d[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
     return replace(
