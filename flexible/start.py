@@ -96,7 +96,7 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> Sta
     patch = Patch(hoop, pose.phi, pose.normal_force, pose.friction_force)
     if not settle(ring, patch):
         raise MarchError(
-            f"no start at phi = {pose.phi:.6g}: no equilibrium of the ring under N = {pose.normal_force:.4g} was found."
+            f"no start at phi = {pose.phi:.6g}: no equilibrium of the ring under N = {pose.normal_force:.4g} was found"
         )
     pos = np.concatenate([[0.0, patch.height, pose.phi], ring.coordinates])
     return State(

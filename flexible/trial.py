@@ -31,7 +31,15 @@ class Trial:
 
 
 def attempt(model: Model, old: State, h: float) -> Trial | None:
-    """One TR-BDF2 step of length ``h``; None if Newton failed."""
+    """One TR-BDF2 step of length ``h``; None if Newton failed or met a singular matrix."""
+    try:
+        return _stages(model, old, h)
+    except np.linalg.LinAlgError:
+        return None
+
+
+def _stages(model: Model, old: State, h: float) -> Trial | None:
+    """The two stages of a step, and what is measured of it."""
     beta = BETA * h
     rho, drag = model.relaxation / beta, model.patch_damping(old) / beta
     pos0, vel0, acc0 = old.pos, old.vel, old.acc
@@ -88,9 +96,11 @@ def restart(model: Model, state: State, mode: int) -> State:
     """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
     beta = 1e-7
     damper = np.array([0.0, 0.0, state.res[ETA] if state.res[ELASTIC] > 0 else 1.0, 0.0, 0.0, 1.0])
-    ok, d, acc, _, window, u, nodal, res, bristles, flags = model.stage(
-        state, mode, damper, state.pos, state.vel, beta, beta**2 * state.acc
-    )
+    try:
+        solved = model.stage(state, mode, damper, state.pos, state.vel, beta, beta**2 * state.acc)
+    except np.linalg.LinAlgError:
+        solved = (False,) * 10
+    ok, d, acc, _, window, u, nodal, res, bristles, flags = solved
     if not ok:
         raise MarchError(f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved")
     pos = state.pos.copy()
