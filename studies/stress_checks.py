@@ -65,7 +65,7 @@ def numbers(motion: Motion) -> Iterator[float]:
 def listed(motion: Motion) -> Margins:
     """Finite, in order, joined without gaps, nothing gained in a pulse."""
     # a march that cannot take its first step says so, and has nothing to list
-    told = bool(motion.phases) or motion.ended.startswith("stopped")
+    told = bool(motion.phases) or not motion.completed
     fine = all(map(isfinite, numbers(motion))) and bool(motion.ended) and told
     jumps = [abs(b.phi_start - a.phi_end) / max(1.0, abs(a.phi_end)) for a, b in pairwise(motion.phases)]
     ordered = all(a.t_start <= a.t_end == b.t_start for a, b in pairwise(motion.phases))
