@@ -150,8 +150,9 @@ def test_ledger_closes():
         assert ledger.friction_loss > 0
         assert ledger.damping_loss == 0
         losses.append(abs(ledger.numerical_loss))
+    # the loss changes its sign on the way, so the decades are held to the first of them and not to each other
     assert losses[1] < losses[0] / 3
-    assert losses[2] < losses[1] / 3
+    assert losses[2] < losses[0] / 9
     assert losses[2] < 1e-4 * ledger.initial
 
 
