@@ -85,7 +85,7 @@ def test_a_claim_holds_or_does_not():
 
 
 def test_bench_rigid_as_json_with_its_figure(hoop, tmp_path):
-    hoop("bench", "rigid", "--quick", "--json")  # on a fresh machine this compiles, and the compiler's memory is not ours
+    hoop("bench", "rigid", "--quick", "--json")  # a fresh machine compiles: not our memory
     status, out, err = hoop("bench", "rigid", "--quick", "--json", "--out", tmp_path)
     assert (status, err) == (0, "")
     found = json.loads(out)
