@@ -26,6 +26,7 @@ from .layout import (
     STEPS,
     TOP,
     TURN,
+    TURN_ENERGY,
     WHOLE,
     WIDTH,
     T,
@@ -68,7 +69,7 @@ def entry_batch(pars, release, low, high, work, state, tape, ends, turns, pulses
                         turns[scene, n_turns, 0] = tape[r + 1]
                         turns[scene, n_turns, 1] = angle_of(tape[r + 2], tape[r + 3], tape[r + 4])
                         turns[scene, n_turns, 2] = tape[r + 6]
-                        turns[scene, n_turns, 3] = tape[r + 10]
+                        turns[scene, n_turns, 3] = tape[r + TURN_ENERGY]
                     n_turns += 1
                 elif tape[r] == PULSE:
                     if n_pulses < pulses.shape[1]:

@@ -9,7 +9,7 @@ from math import pi, sin, sqrt
 
 from .angle import chart, trig
 from .kernel import kernel
-from .layout import ANGLE, ECC, GAP, OMEGA, ONE_MINUS_E, SLIP, TOP, UN, WHOLE, X_C, T
+from .layout import ANGLE, ECC, GAP, OMEGA, ONE_MINUS_E, SLIP, TOP, UN, WHOLE, X_C, XDOT, YDOT, T
 
 
 @kernel
@@ -86,36 +86,37 @@ def touch_down(e, gap, un, omega, a, top):
 def fly(par, state, time):
     """Advance a state in flight."""
     e, omega, a, top = par[ECC], state[OMEGA], state[ANGLE], state[TOP]
-    s, c, h, _ = trig(a, top)
+    s, c, _, _ = trig(a, top)
     gap, rate = height(e, state[GAP], state[UN], omega, s, c, time)
-    xdot_g = state[SLIP] + omega * (par[ONE_MINUS_E] + e * h)
     a, top, whole = chart(a + omega * time, top, state[WHOLE])
     s1, _, h1, _ = trig(a, top)
     state[T] += time
     state[ANGLE], state[TOP], state[WHOLE] = a, top, whole
-    state[X_C] += xdot_g * time - e * (s1 - s)
-    state[SLIP] = xdot_g - omega * (par[ONE_MINUS_E] + e * h1)
+    state[X_C] += state[XDOT] * time - e * (s1 - s)
+    state[YDOT] -= time
+    state[SLIP] = state[XDOT] - omega * (par[ONE_MINUS_E] + e * h1)
     state[GAP], state[UN] = gap, rate
 
 
 @kernel
-def settle(par, state, lift):
-    """Put the contact point on the floor to the last digit, G being at the height ``lift`` above the hoop's
-    centre.
+def settle(par, state, a0, top0, rise):
+    """Put the contact point on the floor to the last digit, after a flight from the angle (a0, top0) in which
+    the height of G above that of the hoop's centre on the floor changed by ``rise``.
 
     A fast rotation leaves the angle uncertain by the round-off of omega t, which would make or destroy
-    energy: the height of G is known better, so the angle gives way.
+    energy: the height of G is known better, so the angle gives way. Heights are counted from the bottom or the
+    top, whichever is near: from the centre, a hop of a tiny disk would be lost in them.
     """
     e, omega = par[ECC], state[OMEGA]
-    s, c, h, _ = trig(state[ANGLE], state[TOP])
-    error = lift - e * c
+    _, _, h0, low0 = trig(a0, top0)
+    s, _, h, low = trig(state[ANGLE], state[TOP])
+    error = rise - e * (h - h0) if state[TOP] == 0.0 else rise + e * (low - low0)
+    # beyond half the way to where s = 0 a linear correction is none, and round-off is as large as the hop
     if abs(error) < 1e-5 * abs(e * s):
-        xdot_g = state[SLIP] + omega * (par[ONE_MINUS_E] + e * h)
-        ydot_g = state[UN] - e * s * omega
         state[ANGLE], state[TOP], state[WHOLE] = chart(
             state[ANGLE] - error / (e * s), state[TOP], state[WHOLE]
         )
         s1, _, h1, _ = trig(state[ANGLE], state[TOP])
         state[X_C] -= e * (s1 - s)
-        state[SLIP] = xdot_g - omega * (par[ONE_MINUS_E] + e * h1)
-        state[UN] = ydot_g + e * s1 * omega
+        state[SLIP] = state[XDOT] - omega * (par[ONE_MINUS_E] + e * h1)
+        state[UN] = state[YDOT] + e * s1 * omega

@@ -13,24 +13,27 @@ from .layout import (
     FLIGHT,
     GAP,
     GYR,
+    MOVING,
     MU,
     OMEGA,
     ROLL,
     SKID,
     SKIM,
     SLIP,
+    SLIP_SCALE,
     SPIN,
     TOP,
     WHOLE,
     WIDTH,
     X_C,
+    XDOT,
     T,
 )  # fmt: skip
 from .pointmass import drop, roll_point_mass
 from .polynomial import polish, value
 from .pulse import energy
 from .rolling import rolling_forces
-from .slide import carry
+from .slide import carry, slip_now
 from .slipping import JAM, ORDER, S_D, S_P, S_T, normal_force, series
 from .swing import roll_on
 
@@ -60,24 +63,24 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
             p += 1
         kind = phases[p * WIDTH]
         until = phases[(p + 1) * WIDTH + 1] if p + 1 < count else inf
-        for j in range(X_C + 1):
+        for j in range(MOVING):
             state[j] = phases[p * WIDTH + 1 + j]
         start = state[T]
         if kind in (SKID, SPIN):
             mu_hat = par[MU] if kind == SKID else -par[MU]
             p_known = inf
             steps = 0
+            state[SLIP_SCALE] = 0.0
             while i < len(times) and times[i] < until:
-                length = series(
-                    par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], state[SLIP], p_known, work
-                )
+                slip = slip_now(par, state)
+                length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], slip, p_known, work)
                 tt = work[S_T]
                 duration = value(tt, ORDER, length)
                 before = state[T]
                 steps += 1
                 if work[S_D][0] <= JAM * par[GYR] or steps > MOST_STEPS:
                     duration = inf  # jammed: nothing moves in what is left of the phase
-                keep = (state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C])
+                keep = (state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C], state[XDOT])
                 while i < len(times) and times[i] < until and times[i] <= before + duration:
                     x = 0.0
                     if times[i] > before and duration < inf:
@@ -89,13 +92,13 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
                     normal = max(0.0, normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP]))
                     write_state(par, state, normal, -mu_hat * normal, out, i)
                     state[T] = before
-                    state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C] = keep
+                    state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C], state[XDOT] = keep
                     i += 1
                 p_known = value(work[S_P], ORDER, length)
                 carry(par, state, mu_hat, work, length)
             continue
         while i < len(times) and times[i] < until:
-            for j in range(X_C + 1):
+            for j in range(MOVING):
                 state[j] = phases[p * WIDTH + 1 + j]
             time = times[i] - start
             normal = 0.0

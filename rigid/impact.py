@@ -18,7 +18,7 @@ from math import inf, sqrt
 
 from .angle import trig
 from .kernel import kernel
-from .layout import ANGLE, ECC, GYR, MU, MU_S, OMEGA, ONE_MINUS_E, SLIP, TOP, UN
+from .layout import ANGLE, ECC, GYR, MU, MU_S, OMEGA, ONE_MINUS_E, SLIP, TOP, UN, XDOT, YDOT
 
 
 @kernel
@@ -30,7 +30,7 @@ def strike(par, state, restitution):
     arm = par[ONE_MINUS_E] + e * h
     v, un = state[SLIP], min(state[UN], 0.0)
     jammed = un == 0.0 and v != 0.0
-    omega = state[OMEGA]
+    omega, xdot, ydot = state[OMEGA], state[XDOT], state[YDOT]
     work = 0.0  # of the normal force: negative in compression
     needed = inf  # what restitution has to give back
     for _ in range(12):
@@ -42,9 +42,11 @@ def strike(par, state, restitution):
         # while it sticks, es - friction arm = es K/(K + arm^2), written so that a small K keeps its digits
         spin_rate = es / (gyr + arm * arm) if stick else (es - friction * arm) / gyr
         un_rate = 1.0 + es * spin_rate
-        if jammed and v != 0.0 and un_rate > -1e-30:
-            un_rate = -1e-30  # D is zero to round-off, whatever its sign
-        v_rate = 0.0 if stick else (friction * (gyr + arm * arm) - es * arm) / gyr
+        if jammed and v != 0.0 and un_rate * gyr > -4e-16 * abs(es) * (abs(es) + abs(friction * arm)):
+            # D is zero to round-off, whatever its sign
+            un_rate, spin_rate = -1e-30, -1 / es
+        along_rate = arm * spin_rate if stick else friction
+        v_rate = 0.0 if stick else friction - arm * spin_rate
         # next: the slip stops, compression ends, or restitution is complete
         to_stop = -v / v_rate if v * v_rate < 0 else inf
         to_end = inf
@@ -75,6 +77,8 @@ def strike(par, state, restitution):
         un_before = un
         un += un_rate * step
         v += v_rate * step
+        xdot += along_rate * step
+        ydot += step
         if to_stop <= to_end:
             v, jammed = 0.0, False
         if over:
@@ -89,5 +93,5 @@ def strike(par, state, restitution):
         if un_before == un and step == 0.0 and to_stop > to_end and over:
             break
     reverses = omega * state[OMEGA] < 0
-    state[OMEGA], state[SLIP], state[UN] = omega, v, un
+    state[OMEGA], state[SLIP], state[UN], state[XDOT], state[YDOT] = omega, v, un, xdot, ydot
     return reverses

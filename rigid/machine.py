@@ -33,6 +33,7 @@ from .layout import (
     HOPS,
     IMPACT,
     LAST_ENERGY,
+    LAST_KIND,
     LAST_TURNS,
     MODE,
     MORE,
@@ -63,10 +64,12 @@ from .layout import (
     UNTIL,
     WIDTH,
     WORK_BOUND,
+    XDOT,
+    YDOT,
     T,
 )  # fmt: skip
 from .pointmass import choose_point_mass, roll_point_mass, skim
-from .pulse import energy, watch
+from .pulse import energy, released, watch
 from .rolling import TIE, rolling_forces
 from .slide import slide
 from .slipping import JAM, denominator
@@ -85,7 +88,7 @@ def choose_slip(par, state, tape):
     s, c, h, _ = trig(a, top)
     e, gyr, v = par[ECC], par[GYR], state[SLIP]
     if lifts(e, omega, s, c):
-        begin(state, FLIGHT, tape)
+        begin(par, state, FLIGHT, tape)
         return
     if v == 0.0:
         # acceleration of the contact point under the normal force of a smooth floor
@@ -94,7 +97,7 @@ def choose_slip(par, state, tape):
         v = e * s * omega * omega - arm * e * s * n / gyr
     sign = 1.0 if v > 0 else -1.0
     if denominator(par, par[MU] * sign, a, top) > JAM * gyr:
-        begin(state, SKID if sign > 0 else SPIN, tape)
+        begin(par, state, SKID if sign > 0 else SPIN, tape)
     else:
         state[MODE] = IMPACT
 
@@ -102,9 +105,11 @@ def choose_slip(par, state, tape):
 @kernel
 def choose(par, state, tape):
     """What the contact does from here on."""
+    if state[LAST_KIND] == CHOOSE:
+        released(par, state)
     a, top, omega = state[ANGLE], state[TOP], state[OMEGA]
     if state[GAP] > 0.0 or state[UN] > 0.0:
-        begin(state, FLIGHT, tape)
+        begin(par, state, FLIGHT, tape)
         return
     state[GAP] = 0.0
     state[UN] = 0.0
@@ -114,7 +119,7 @@ def choose(par, state, tape):
     if state[SLIP] == 0.0:
         n, f = rolling_forces(par, omega, a, top)
         if n >= 0.0 and abs(f) <= par[MU_S] * n * (1 + TIE):
-            begin(state, ROLL, tape)
+            begin(par, state, ROLL, tape)
             return
     choose_slip(par, state, tape)
 
@@ -129,10 +134,11 @@ def soar(par, state, tape):
         fly(par, state, par[T_END] - state[T])
         state[T] = par[T_END]
         return TIME_REACHED
-    s, c, _, _ = trig(state[ANGLE], state[TOP])
-    lift = state[GAP] + par[ECC] * c + time * (state[UN] - par[ECC] * s * state[OMEGA] - 0.5 * time)
+    s, _, _, _ = trig(state[ANGLE], state[TOP])
+    a, top = state[ANGLE], state[TOP]
+    rise = state[GAP] + time * (state[UN] - par[ECC] * s * state[OMEGA] - 0.5 * time)
     fly(par, state, time)
-    settle(par, state, lift)
+    settle(par, state, a, top, rise)
     state[GAP] = 0.0
     state[UN] = min(state[UN], 0.0)
     state[HOPS] += 1.0
@@ -142,11 +148,11 @@ def soar(par, state, tape):
 @kernel
 def hit(par, state, tape):
     """An impact, and what follows it: a hop or contact."""
-    begin(state, IMPACT, tape)
-    omega, slip, un = state[OMEGA], state[SLIP], state[UN]
+    begin(par, state, IMPACT, tape)
+    omega, slip, un, xdot, ydot = state[OMEGA], state[SLIP], state[UN], state[XDOT], state[YDOT]
     reverses = strike(par, state, par[RESTITUTION])
     if state[UN] <= SLOWEST_HOP:
-        state[OMEGA], state[SLIP], state[UN] = omega, slip, un
+        state[OMEGA], state[SLIP], state[UN], state[XDOT], state[YDOT] = omega, slip, un, xdot, ydot
         reverses = strike(par, state, 0.0)
         state[UN] = 0.0
     if reverses and turn(par, state, tape):
@@ -202,7 +208,7 @@ def entry_run(par, state, work, tape):
                 return SLIDES if par[MU] == 0.0 else SETTLES
             code = slide(par, state, work, tape)
             if state[MODE] == FLIGHT:
-                begin(state, FLIGHT, tape)
+                begin(par, state, FLIGHT, tape)
         elif mode == FLIGHT:
             code = soar(par, state, tape)
             if code == PHASE_OVER:

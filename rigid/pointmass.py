@@ -33,6 +33,7 @@ from .layout import (
     UNTIL,
     WHOLE,
     X_C,
+    XDOT,
     T,
 )  # fmt: skip
 from .pulse import watch
@@ -50,9 +51,9 @@ def choose_point_mass(par, state, tape):
     g = h + state[OMEGA] * state[OMEGA] * h
     holds = h >= 0.5 * g * (1 - TIE) and abs(s) <= par[MU_S] * h * (1 + TIE)
     if state[SLIP] == 0.0 and holds and h > 0.0:
-        begin(state, ROLL, tape)
+        begin(par, state, ROLL, tape)
     else:
-        begin(state, SKIM, tape)
+        begin(par, state, SKIM, tape)
 
 
 @kernel
@@ -117,7 +118,7 @@ def roll_point_mass(par, state, tape, t_end):
         if turn_at < time:
             state[OMEGA] = 0.0
             return TURNS_REACHED if turn(par, state, tape) else PHASE_OVER
-        begin(state, SKIM, tape)
+        begin(par, state, SKIM, tape)
     return reason
 
 
@@ -160,7 +161,7 @@ def drop(state, time):
     """Advance a skimming point mass."""
     a, top, whole, omega = state[ANGLE], state[TOP], state[WHOLE], state[OMEGA]
     s, _c, h, low = trig(a, top)
-    xdot = state[SLIP] + omega * h
+    xdot = state[XDOT]
     ydot = -s * omega
     fall = ydot * time - 0.5 * time * time
     # the side of the hoop does not change on the way

@@ -39,16 +39,29 @@ from .layout import (
     UN,
     WHOLE,
     WIDTH,
+    XDOT,
+    YDOT,
     T,
 )  # fmt: skip
 
 
 @kernel
 def velocity_of_g(par, state):
-    """(xdot_G, ydot_G)."""
+    """(xdot_G, ydot_G): while the hoop rolls, that of the rotation; on the floor, nothing but it upwards."""
+    if state[UN] != 0.0 or state[GAP] != 0.0:
+        return state[XDOT], state[YDOT]
     s, _, h, _ = trig(state[ANGLE], state[TOP])
     omega = state[OMEGA]
-    return state[SLIP] + omega * (par[ONE_MINUS_E] + par[ECC] * h), state[UN] - par[ECC] * s * omega
+    along = state[XDOT] if state[SLIP] != 0.0 else omega * (par[ONE_MINUS_E] + par[ECC] * h)
+    return along, -par[ECC] * s * omega
+
+
+@kernel
+def released(par, state):
+    """Give G the velocity that belongs to the rotation and to the velocity of the contact point."""
+    s, _, h, _ = trig(state[ANGLE], state[TOP])
+    state[XDOT] = state[SLIP] + state[OMEGA] * (par[ONE_MINUS_E] + par[ECC] * h)
+    state[YDOT] = state[UN] - par[ECC] * s * state[OMEGA]
 
 
 @kernel

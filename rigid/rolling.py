@@ -14,9 +14,9 @@ from .angle import trig
 from .elliptic import r_f_and_r_j
 from .kernel import kernel
 from .layout import ECC, GYR, MU_S, ONE_MINUS_E, ZETA
-from .polynomial import first_positive
+from .polynomial import first_positive, value_and_slope
 
-TIE = 1e-13  # |F| may exceed mu_s N by this fraction and still hold: round-off of a start on the edge
+TIE = 1e-12  # |F| may exceed mu_s N by this fraction and still hold: round-off of a start on the edge
 
 
 @kernel
@@ -82,13 +82,27 @@ def margin_polynomials(par, g, reverse, plus, minus):
 
 
 @kernel
+def past_tie(c, start, stop):
+    """``start``, or just past the root next to it: |F| = mu_s N to round-off and about to fall below is no slip."""
+    y, slope = value_and_slope(c, 6, start)
+    hold = 0.0  # mu_s N, in the even terms
+    for i in range(6, -1, -2):
+        hold = hold * start * start - c[i]
+    if y > 0.0 and y <= TIE * hold and slope * (stop - start) < 0:
+        past = start - 2 * y / slope
+        if (stop - past) * (stop - start) > 0:
+            return past
+    return start
+
+
+@kernel
 def first_slip(par, g, upper, start, stop, plus, minus):
     """First y (or 1/y in the upper half) from ``start`` to ``stop`` at which |F| passes mu_s N; -1 if it
     never does.
     """
     margin_polynomials(par, g, upper, plus, minus)
-    x = first_positive(plus, 6, start, stop)
-    other = first_positive(minus, 6, start, stop)
+    x = first_positive(plus, 6, past_tie(plus, start, stop), stop)
+    other = first_positive(minus, 6, past_tie(minus, start, stop), stop)
     if x < 0:
         return other
     if other >= 0 and abs(other - start) < abs(x - start):

@@ -36,6 +36,7 @@ from .layout import (
     SKID,
     SLIDES,
     SLIP,
+    SLIP_SCALE,
     STEPS,
     T_END,
     TIME_REACHED,
@@ -47,6 +48,7 @@ from .layout import (
     WIDTH,
     WORK_BOUND,
     X_C,
+    XDOT,
     T,
 )  # fmt: skip
 from .polynomial import first_crossing, value, value_and_slope
@@ -113,15 +115,31 @@ def carry(par, state, mu_hat, work, x):
     s0, _, h0, _ = trig(state[ANGLE], state[TOP])
     xdot, ydot = velocity_of_g(par, state)
     dt = value(work[S_T], ORDER, x)
-    s1, h1 = value(work[S_SIN], ORDER, x), value(work[S_H], ORDER, x)
+    s1, h1, omega = value(work[S_SIN], ORDER, x), value(work[S_H], ORDER, x), value(work[S_OMEGA], ORDER, x)
     a, top, whole = next_angle(s1, h1, state[TOP], state[WHOLE])
     # xddot_G = -mu^ (1 + yddot_G), integrated twice
     along = xdot * dt - mu_hat * (0.5 * dt * dt + e * (h1 - h0) - ydot * dt)
     state[X_C] += along - e * (s1 - s0)
     state[T] += dt
     state[ANGLE], state[TOP], state[WHOLE] = a, top, whole
-    state[OMEGA] = value(work[S_OMEGA], ORDER, x)
+    state[XDOT] -= mu_hat * (dt + (-e * s1 * omega - ydot))
+    state[OMEGA] = omega
     state[SLIP] = value(work[S_SLIP], ORDER, x)
+
+
+@kernel
+def slip_now(par, state):
+    """The slip velocity: carried along, or anew from phidot and the velocity of G where that has more digits.
+
+    Past the bottom of a tiny hoop it was as large as phidot ~ 1/k, and has kept the round-off of that size.
+    """
+    _, _, h, _ = trig(state[ANGLE], state[TOP])
+    turning = state[OMEGA] * (par[ONE_MINUS_E] + par[ECC] * h)
+    terms = abs(turning) + abs(state[XDOT])
+    if terms < 0.1 * state[SLIP_SCALE]:
+        state[SLIP], state[SLIP_SCALE] = state[XDOT] - turning, terms
+    state[SLIP_SCALE] = max(state[SLIP_SCALE], abs(state[SLIP]))
+    return state[SLIP]
 
 
 @kernel
@@ -133,6 +151,7 @@ def slide(par, state, work, tape):
     at_edge = False
     p_known = inf
     state[LOSSLESS_TURNS] = 0.0
+    state[SLIP_SCALE] = 0.0
     n = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
     if watch(par, state, n, tape) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
@@ -142,7 +161,7 @@ def slide(par, state, work, tape):
         if state[STEPS] <= 0.0:
             return WORK_BOUND
         state[STEPS] -= 1.0
-        length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], state[SLIP], p_known, work)
+        length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], slip_now(par, state), p_known, work)
         if work[S_D][0] <= JAM * gyr:
             state[MODE] = IMPACT
             return PHASE_OVER
@@ -195,6 +214,13 @@ def slide(par, state, work, tape):
             carry(par, state, mu_hat, work, length)
         if event == 1:
             state[SLIP] = 0.0
+        # without friction the slip stops where the hoop turns, to the last digit
+        if event == 4 or (state[OMEGA] == 0.0 and om[0] != 0.0):
+            state[OMEGA] = 0.0
+            state[LOSSLESS_TURNS] += 1.0
+            if turn(par, state, tape):
+                return TURNS_REACHED
+        if event == 1:
             return PHASE_OVER
         if event == 2:
             state[GAP] = 0.0
@@ -204,12 +230,7 @@ def slide(par, state, work, tape):
         if event == 3:
             state[T] = par[T_END]
             return TIME_REACHED
-        if event == 4:
-            state[OMEGA] = 0.0
-            state[LOSSLESS_TURNS] += 1.0
-            if turn(par, state, tape):
-                return TURNS_REACHED
-        elif event == 5:
+        if event == 5:
             state[ANGLE] = 0.0
             state[LOSSLESS_TURNS] += 0.5
             cross_bottom(state)

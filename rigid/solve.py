@@ -179,7 +179,7 @@ def simulate(scene: Scene) -> Motion:
                     row[1] * time,
                     angle_of(row[2], row[3], row[4]),
                     row[6] * scene.velocity_unit,
-                    row[10] * energy,
+                    row[at.TURN_ENERGY] * energy,
                 )
             )
         elif tag == at.PULSE:
@@ -187,7 +187,7 @@ def simulate(scene: Scene) -> Motion:
             pulses.append(_pulse(row[1] * time, row[5] * time, row[2:5], row[6:9], measures))
         else:
             starts.append(row)
-    end = [float(at.END), *final[: at.X_C + 1]]
+    end = [float(at.END), *final[: at.MOVING]]
     starts = _merged(starts, end)
     edges = [*starts, end]
     # the angle of release is given, not rounded through its chart

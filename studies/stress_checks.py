@@ -19,6 +19,7 @@ Margins = dict[str, float]
 METRE, KILOGRAM, GRAVITY = 0.3, 0.7, 9.81  # any units that are no powers of two
 MOST_FLIGHTS = 2  # each bounce multiplies round-off: after more of them a motion does not repeat
 RESOLVED = 1e-9
+ENERGY = 1e-10  # growth that is round-off, of the energy at release
 NO = 1e9  # the margin of what is plainly wrong
 
 
@@ -76,11 +77,6 @@ def listed(motion: Motion) -> Margins:
     }
 
 
-def round_off(scene: Scene, motion: Motion) -> float:
-    """Of the energy: a flight at phidot ~ 1/k leaves 1e-16/k in the angle, and so in the energy at its landing."""
-    return 1e-10 + (1e-13 / scene.hoop.k if flights(motion) else 0.0)
-
-
 def instants(motion: Motion, spread: int = 60) -> np.ndarray:
     """Times evenly over the motion and within its first phases.
 
@@ -108,7 +104,7 @@ def sampled(motion: Motion) -> Margins:
     excess = np.abs(friction) - scene.friction.mu_s * normal * (1 + 1e-9)
     growth = max(float(np.diff(values).max(initial=0.0)) for values in (energy, turns))
     return {
-        "energy": growth / scale / round_off(scene, motion),
+        "energy": growth / scale / ENERGY,
         "N >= 0": float(-normal.min()) / most / 1e-10,
         "|F| <= mu_s N": float(excess.max()) / (1e-10 * most),
         "above the floor": float(1 - states.y_C.min()) / 1e-9,
@@ -138,8 +134,9 @@ def sensitivity(motion: Motion) -> float:
     """Change of the results per change of the release; infinite where another course is taken."""
     scene, nudge = motion.scene, 1e-11
     worst = 0.0
-    for sign in (1, -1):
-        release = Release(*(value + sign * nudge for value in dataclasses.astuple(scene.release)))
+    for signs in ((1, 1, 1), (-1, -1, -1), (1, -1, 1), (-1, 1, -1)):
+        values = dataclasses.astuple(scene.release)
+        release = Release(*(value + sign * nudge for value, sign in zip(values, signs, strict=True)))
         apart = _apart(_results(motion), _results(simulate(scene.replace(release=release))))
         worst = max(worst, inf if apart == NO else apart / nudge)
     return worst

@@ -13,7 +13,7 @@ from rigid.angle import chart
 from rigid.flight import height, touch_down
 from rigid.impact import strike
 from rigid.layout import ANGLE, OMEGA, SLIP, STATE, TOP, UN
-from rigid.pulse import energy
+from rigid.pulse import energy, released
 from rigid.solve import parameters
 
 
@@ -77,10 +77,11 @@ def test_touch_down_is_the_first(omega):
     assert height(e, 0.0, un, omega, sin(phi), cos(phi), time)[0] == pytest.approx(0, abs=1e-14 + 2e-16 * omega * time)
 
 
-def at_landing(phi, omega, slip, un):
+def at_landing(par, phi, omega, slip, un):
     state = [0.0] * STATE
     state[ANGLE], state[TOP], _ = chart(phi, 1.0, 0.0)
     state[OMEGA], state[SLIP], state[UN] = omega, slip, un
+    released(par, state)
     return state
 
 
@@ -88,7 +89,7 @@ def at_landing(phi, omega, slip, un):
 def test_smooth_landing(restitution):
     """Without friction the normal velocity is reversed times the coefficient; with 1 energy is kept."""
     par = parameters(Scene(Hoop(0.3), Friction(0, 0), Release(1.0)))
-    state = at_landing(5.0, 2.0, 0.7, -1.3)
+    state = at_landing(par, 5.0, 2.0, 0.7, -1.3)
     before = energy(par, state)
     strike(par, state, restitution)
     assert state[UN] == pytest.approx(1.3 * restitution, abs=1e-14)
@@ -109,7 +110,7 @@ def test_landing_against_its_differential_equation():
         hoop = Hoop(float(rng.uniform(0.05, 0.8)), 1.0, float(rng.choice([0, 0.1, 1])))
         mu, phi = float(rng.uniform(0, 0.6)), float(rng.uniform(0, 2 * pi))
         par = parameters(Scene(hoop, Friction(mu, mu), Release(1.0)))
-        state = at_landing(phi, float(rng.normal()), float(rng.normal() * 0.3), -float(rng.uniform(0.1, 2)))
+        state = at_landing(par, phi, float(rng.normal()), float(rng.normal() * 0.3), -float(rng.uniform(0.1, 2)))
         omega, v0, un0 = state[OMEGA], state[SLIP], state[UN]
         e, gyr, s, arm = par[0], par[2], sin(phi), 1 + par[0] * cos(phi)
 
@@ -139,7 +140,7 @@ def test_no_landing_makes_energy():
         hoop = Hoop(float(10 ** rng.uniform(-4, -0.05)), float(rng.uniform(1, 2)), float(rng.choice([0, 0.01, 1])))
         mu = float(rng.uniform(0, 3))
         par = parameters(Scene(hoop, Friction(mu * float(rng.uniform(1, 3)), mu), Release(1.0)))
-        state = at_landing(
+        state = at_landing(par, 
             float(rng.uniform(0, 2 * pi)), float(rng.normal()), float(rng.normal()), -float(rng.exponential())
         )
         before = energy(par, state)
