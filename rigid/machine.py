@@ -41,6 +41,7 @@ from .layout import (
     MU_S,
     OMEGA,
     ONE_MINUS_E,
+    PULL,
     PULSE_OVER,
     RECORDS,
     REST,
@@ -90,7 +91,12 @@ def choose_slip(par, state, tape):
     if lifts(e, omega, s, c):
         begin(par, state, FLIGHT, tape)
         return
-    if v == 0.0:
+    pull = state[PULL]
+    state[PULL] = 0.0
+    if v == 0.0 and pull != 0.0:
+        # the end of a rolling knows which way F has pulled, even where F and N are round-off
+        v = -pull
+    elif v == 0.0:
         # acceleration of the contact point under the normal force of a smooth floor
         arm = par[ONE_MINUS_E] + e * h
         n = gyr * (1 - e * c * omega * omega) / (gyr + e * e * s * s)

@@ -97,17 +97,15 @@ def past_tie(c, start, stop):
 
 @kernel
 def first_slip(par, g, upper, start, stop, plus, minus):
-    """First y (or 1/y in the upper half) from ``start`` to ``stop`` at which |F| passes mu_s N; -1 if it
-    never does.
+    """First y (or 1/y in the upper half) from ``start`` to ``stop`` at which |F| passes mu_s N, and the sign of
+    F sin phi there; y = -1 if it never does.
     """
     margin_polynomials(par, g, upper, plus, minus)
     x = first_positive(plus, 6, past_tie(plus, start, stop), stop)
     other = first_positive(minus, 6, past_tie(minus, start, stop), stop)
-    if x < 0:
-        return other
-    if other >= 0 and abs(other - start) < abs(x - start):
-        return other
-    return x
+    if x < 0 or (other >= 0 and abs(other - start) < abs(x - start)):
+        return other, -1.0
+    return x, 1.0
 
 
 @kernel
@@ -181,8 +179,8 @@ def pulse_edge(zeta, g):
 
 @kernel
 def slip_edges(par, g, below, a, top, plus, minus):
-    """How far a swing may roll: (found, |offset|, chart) of the nearest slip inwards and outwards of the
-    angle.
+    """How far a swing may roll: (y or -1, chart, sign of F sin phi) of the nearest slip inwards and outwards of
+    the angle.
 
     The forces depend on |psi| only, so the stretch around the present |psi| in which friction holds is all
     one needs.
@@ -192,23 +190,23 @@ def slip_edges(par, g, below, a, top, plus, minus):
     inner = -1.0
     inner_top = top
     if top != 0.0:
-        inner = first_slip(par, g, True, y, 1.0, plus, minus)
+        inner, inner_pull = first_slip(par, g, True, y, 1.0, plus, minus)
         if inner < 0:
             inner_top = 0.0
-            inner = first_slip(par, g, False, 1.0, 0.0, plus, minus)
+            inner, inner_pull = first_slip(par, g, False, 1.0, 0.0, plus, minus)
     else:
-        inner = first_slip(par, g, False, y, 0.0, plus, minus)
+        inner, inner_pull = first_slip(par, g, False, y, 0.0, plus, minus)
     outer = -1.0
     outer_top = top
     end = tan(0.5 * turn_a)
     if top == 0.0:
-        outer = first_slip(par, g, False, y, end if turn_top == 0.0 else 1.0, plus, minus)
+        outer, outer_pull = first_slip(par, g, False, y, end if turn_top == 0.0 else 1.0, plus, minus)
         if outer < 0 and turn_top != 0.0:
             outer_top = 1.0
-            outer = first_slip(par, g, True, 1.0, end, plus, minus)
+            outer, outer_pull = first_slip(par, g, True, 1.0, end, plus, minus)
     else:
-        outer = first_slip(par, g, True, y, end, plus, minus)
-    return inner, inner_top, outer, outer_top
+        outer, outer_pull = first_slip(par, g, True, y, end, plus, minus)
+    return inner, inner_top, inner_pull, outer, outer_top, outer_pull
 
 
 @kernel

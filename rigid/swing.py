@@ -22,6 +22,7 @@ from .layout import (
     P_PEAK,
     PERIOD,
     PHASE_T,
+    PULL,
     PULSE_OVER,
     RECORDS,
     REST,
@@ -150,7 +151,9 @@ def roll(par, state, work, tape):
     psi_sign = (1.0 if a > 0 else -1.0) if top == 0.0 else (-1.0 if a > 0 else 1.0)
     if a == 0.0:
         psi_sign = d if top == 0.0 else -d
-    inner, inner_top, outer, outer_top = slip_edges(par, g, below, a, top, work[S_PLUS], work[S_MINUS])
+    inner, inner_top, inner_pull, outer, outer_top, outer_pull = slip_edges(
+        par, g, below, a, top, work[S_PLUS], work[S_MINUS]
+    )
     turn_a, turn_top = turning_point(g, below)
     if omega == 0.0:
         turn_a, turn_top = abs(a), top
@@ -229,6 +232,10 @@ def roll(par, state, work, tape):
                 place(state, d, outer_a, outer_top, bottom)
                 rest = rest_to_ceiling(g, below, outer_a, outer_top)
             arrive(state, zeta, rest, d, x_start, a0, top0, whole0)
+            s, _, _, _ = trig(state[ANGLE], state[TOP])
+            state[PULL] = inner_pull if where == 0 else outer_pull
+            if s < 0.0:
+                state[PULL] = -state[PULL]
             if state[P_OPEN] != 0.0:
                 n, _ = rolling_forces(par, state[OMEGA], state[ANGLE], state[TOP])
                 state[P_PEAK] = max(state[P_PEAK], n)
