@@ -33,8 +33,8 @@ from .pointmass import drop, roll_point_mass
 from .polynomial import polish, value
 from .pulse import energy
 from .rolling import rolling_forces
-from .slide import carry, slip_now
-from .slipping import JAM, ORDER, S_D, S_P, S_T, normal_force, series
+from .slide import carry, end_of_slip, step
+from .slipping import JAM, ORDER, S_D, S_P, S_T, normal_force
 from .swing import roll_on
 
 MOST_STEPS = 400_000  # in one phase: beyond the work bound of the motion itself
@@ -72,13 +72,17 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
             steps = 0
             state[SLIP_SCALE] = 0.0
             while i < len(times) and times[i] < until:
-                slip = slip_now(par, state)
-                length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], slip, p_known, work)
+                length = step(par, state, mu_hat, p_known, work)
+                length, event = end_of_slip(work, length, 1.0 if kind == SKID else -1.0)
                 tt = work[S_T]
                 duration = value(tt, ORDER, length)
                 before = state[T]
                 steps += 1
-                if work[S_D][0] <= JAM * par[GYR] or steps > MOST_STEPS:
+                if event > 0 and before + duration < times[i]:
+                    # the last digits of the phase: near a jam the slip stops within them
+                    carry(par, state, mu_hat, work, length)
+                    duration = inf
+                elif work[S_D][0] <= JAM * par[GYR] or steps > MOST_STEPS:
                     duration = inf  # jammed: nothing moves in what is left of the phase
                 keep = (state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C], state[XDOT])
                 while i < len(times) and times[i] < until and times[i] <= before + duration:

@@ -79,7 +79,7 @@ from .tape import ROOM, begin, turn
 
 SLOWEST_HOP = 1e-6
 MOST_STALLS = 50.0
-SLIPS, LEAST_LOSS = 100.0, 1e-6
+SLIPS, LEAST_LOSS = 100.0, 1e-4
 
 
 @kernel
@@ -94,8 +94,10 @@ def choose_slip(par, state, tape):
     pull = state[PULL]
     state[PULL] = 0.0
     if v == 0.0 and pull != 0.0:
-        # the end of a rolling knows which way F has pulled, even where F and N are round-off
-        v = -pull
+        # the end of a rolling knows which way F has pulled; where N is round-off, as when the contact force of a hoop
+        # of next to no inertia has died out, F = N e s/(1 + e c) changes sign with it, and the slip follows sin phi
+        n, _ = rolling_forces(par, omega, a, top)
+        v = -pull if abs(n) > 1e-14 * (1 + omega * omega) else s
     elif v == 0.0:
         # acceleration of the contact point under the normal force of a smooth floor
         arm = par[ONE_MINUS_E] + e * h
@@ -180,7 +182,7 @@ def settles(par, state):
         return False
     now = energy(par, state)
     idle = par[UNTIL] == REST or state[TURNS_DONE] == state[LAST_TURNS]
-    done = idle and state[LAST_ENERGY] - now <= LEAST_LOSS * now
+    done = idle and state[LAST_ENERGY] > 0.0 and state[LAST_ENERGY] - now <= LEAST_LOSS * now
     state[SLIDES_DONE], state[LAST_ENERGY], state[LAST_TURNS] = 0.0, now, state[TURNS_DONE]
     return done
 

@@ -41,6 +41,7 @@ from .layout import (
     T_END,
     TIME_REACHED,
     TOP,
+    TURNS,
     TURNS_REACHED,
     UN,
     UNTIL,
@@ -143,6 +144,38 @@ def slip_now(par, state):
 
 
 @kernel
+def step(par, state, mu_hat, p_known, work):
+    """The series of the next step, and how far it is good."""
+    slip = slip_now(par, state)
+    length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], slip, p_known, work)
+    b, v, om = work[S_B], work[S_SLIP], work[S_OMEGA]
+    if v[0] == 0.0:
+        # a slip that starts with mu_s = mu starts with no acceleration either, up to the round-off of its
+        # terms
+        gyr, es = par[GYR], par[ECC] * abs(work[S_SIN][0])
+        arm = par[ONE_MINUS_E] + par[ECC] * work[S_H][0]
+        terms = (gyr + es + par[MU] * arm) * abs(b[0]) + es * om[0] * om[0] * work[S_D][0]
+        if abs(v[1]) <= 1e-13 * terms:
+            v[1] = 0.0
+    if abs(b[0]) <= 1e-14 * (1 + par[ECC] * om[0] * om[0]):
+        b[0] = 0.0
+    return length
+
+
+@kernel
+def end_of_slip(work, length, sign):
+    """(how far, event): 1 where the slip stops, 2 where the contact point lifts off, 0 if neither is in this step."""
+    event = 0
+    x = first_crossing(work[S_SLIP], ORDER, length, sign)
+    if x >= 0:
+        length, event = x, 1
+    x = first_crossing(work[S_B], ORDER, length, 1.0)
+    if x >= 0:
+        length, event = x, 2
+    return length, event
+
+
+@kernel
 def slide(par, state, work, tape):
     """Slip until the contact point rests or lifts, or the run is over."""
     sign = 1.0 if state[MODE] == SKID else -1.0
@@ -150,7 +183,7 @@ def slide(par, state, work, tape):
     gyr = par[GYR]
     at_edge = False
     p_known = inf
-    state[LOSSLESS_TURNS] = 0.0
+    state[LOSSLESS_TURNS], whirled = 0.0, 0
     state[SLIP_SCALE] = 0.0
     n = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
     if watch(par, state, n, tape) and par[UNTIL] == FIRST_PULSE:
@@ -161,28 +194,12 @@ def slide(par, state, work, tape):
         if state[STEPS] <= 0.0:
             return WORK_BOUND
         state[STEPS] -= 1.0
-        length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], slip_now(par, state), p_known, work)
+        length = step(par, state, mu_hat, p_known, work)
         if work[S_D][0] <= JAM * gyr:
             state[MODE] = IMPACT
             return PHASE_OVER
-        event = 0
-        b, v, om, n1, tt = work[S_B], work[S_SLIP], work[S_OMEGA], work[S_N1], work[S_T]
-        if v[0] == 0.0:
-            # a slip that starts with mu_s = mu starts with no acceleration either, up to the round-off of its
-            # terms
-            es = par[ECC] * abs(work[S_SIN][0])
-            arm = par[ONE_MINUS_E] + par[ECC] * work[S_H][0]
-            terms = (gyr + es + par[MU] * arm) * abs(b[0]) + es * om[0] * om[0] * work[S_D][0]
-            if abs(v[1]) <= 1e-13 * terms:
-                v[1] = 0.0
-        if abs(b[0]) <= 1e-14 * (1 + par[ECC] * om[0] * om[0]):
-            b[0] = 0.0
-        x = first_crossing(v, ORDER, length, sign)
-        if x >= 0:
-            length, event = x, 1
-        x = first_crossing(b, ORDER, length, 1.0)
-        if x >= 0:
-            length, event = x, 2
+        om, n1, tt = work[S_OMEGA], work[S_N1], work[S_T]
+        length, event = end_of_slip(work, length, sign)
         if par[T_END] - state[T] < value(tt, ORDER, length):
             left = par[T_END] - state[T]
             tt[0] = -left
@@ -218,6 +235,7 @@ def slide(par, state, work, tape):
         if event == 4 or (state[OMEGA] == 0.0 and om[0] != 0.0):
             state[OMEGA] = 0.0
             state[LOSSLESS_TURNS] += 1.0
+            whirled = 0
             if turn(par, state, tape):
                 return TURNS_REACHED
         if event == 1:
@@ -233,6 +251,7 @@ def slide(par, state, work, tape):
         if event == 5:
             state[ANGLE] = 0.0
             state[LOSSLESS_TURNS] += 0.5
+            whirled += 1
             cross_bottom(state)
         elif event == 6:
             at_edge = True
@@ -243,3 +262,5 @@ def slide(par, state, work, tape):
                 return PULSE_OVER
         if par[MU] == 0.0 and par[UNTIL] == REST and state[LOSSLESS_TURNS] >= 3.0:
             return SLIDES
+        if par[MU] == 0.0 and whirled >= 3 and par[TURNS] < inf:
+            return SLIDES  # round and round: there is no turn to wait for

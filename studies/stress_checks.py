@@ -151,7 +151,7 @@ def _margin(motion: Motion, apart: float) -> float | None:
     if apart <= allowed:
         return apart / allowed
     grown = sensitivity(motion)
-    return None if grown == inf else apart / (allowed + 1e-13 * grown)
+    return None if grown == inf else apart / (allowed + 1e-12 * grown)
 
 
 def repeated(motion: Motion) -> Margins:

@@ -140,9 +140,8 @@ def test_no_landing_makes_energy():
         hoop = Hoop(float(10 ** rng.uniform(-4, -0.05)), float(rng.uniform(1, 2)), float(rng.choice([0, 0.01, 1])))
         mu = float(rng.uniform(0, 3))
         par = parameters(Scene(hoop, Friction(mu * float(rng.uniform(1, 3)), mu), Release(1.0)))
-        state = at_landing(par, 
-            float(rng.uniform(0, 2 * pi)), float(rng.normal()), float(rng.normal()), -float(rng.exponential())
-        )
+        phi, omega, slip, un = rng.uniform(0, 2 * pi), rng.normal(), rng.normal(), -rng.exponential()
+        state = at_landing(par, float(phi), float(omega), float(slip), float(un))
         before = energy(par, state)
         strike(par, state, float(rng.uniform()))
         assert energy(par, state) <= before * (1 + 1e-12)
@@ -185,3 +184,37 @@ def test_release_in_a_jam():
     assert motion.at(0.0).slip_velocity == 0
     below = simulate(Scene(hoop, Friction(2 * limit, 0.8 * limit), Release(phi, 0.0, 0.5), Run(turns=1)))
     assert below.phases[0].kind == Kind.SKID
+
+
+@pytest.mark.parametrize("k", [1e-8, 1e-7, 1e-6])
+@pytest.mark.parametrize("restitution", [0.5, 0.9375])
+def test_hops_of_a_tiny_hoop_make_no_energy(k, restitution):
+    """phidot reaches 1/k at the floor; on a smooth one xdot_G never changes and each landing takes energy."""
+    motion = simulate(
+        Scene(Hoop(k, 2.0), Friction(0, 0), Release(0, 1.75), Run(turns=2), landing=Landing(restitution))
+    )
+    assert sum(phase.kind == Kind.FLIGHT for phase in motion.phases) > 3
+    energy = motion.at(np.array([(p.t_start + p.t_end) / 2 for p in motion.phases if p.t_end > p.t_start])).energy
+    assert np.diff(energy).max() < 1e-12 * energy[0]
+
+
+@pytest.mark.parametrize("k", [1e-8, 1e-5])
+def test_a_smooth_pass_of_a_tiny_hoop_keeps_its_energy(k):
+    """Without friction every pass is its own mirror image: the same energy and, at the same height, |phidot|."""
+    motion = simulate(Scene(Hoop(k, 1.5), Friction(0, 0), Release(1.0, 0.3, 0.2), Run(t_end=30.0)))
+    states = motion.at(np.linspace(0, 30, 1000))
+    assert np.ptp(states.energy) < 1e-12 * states.energy[0]
+    xdot_g = states.slip_velocity + states.omega * (1 + motion.scene.hoop.e * np.cos(states.phi))
+    assert np.ptp(xdot_g) < 1e-12 * abs(states.omega).max()
+
+
+def test_a_jammed_landing_makes_no_energy():
+    """D = K + e s P vanishes to round-off with K ~ 1e-17: P is then -K/(e s), not the round-off of its terms."""
+    hoop, mu = Hoop(1.35e-8, 1.8935927956232002), 0.5028936512116338
+    motion = simulate(
+        Scene(hoop, Friction(1.2, mu), Release(2.5, -3.0, -1.0), Run(until="rest"), landing=Landing(0.13))
+    )
+    jams = [phase for phase in motion.phases if phase.kind == Kind.IMPACT]
+    assert jams
+    energy = motion.at(np.array([p.t_start for p in motion.phases])).energy
+    assert np.diff(energy).max() < 1e-11 * energy[0]

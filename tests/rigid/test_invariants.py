@@ -42,11 +42,7 @@ def test_any_scene(scene):
     states = motion.at(np.linspace(0, motion.t_end, 40))
     table = np.array([states.phi, states.omega, states.slip_velocity, states.normal_force, states.energy])
     assert np.isfinite(table).all()
-    # the accuracy promised for tiny disks is 1e-9; the round-off of a flight at phidot ~ 1/k is 1e-16/k in angle, and
-    # so is that of the energy at its landing
-    slack = 1e-10 if scene.hoop.k >= 0.01 else 1e-9
-    slack += 1e-13 / scene.hoop.k if any(p.kind == "flight" for p in motion.phases) else 0.0
-    assert np.diff(states.energy).max() <= slack * max(1.0, states.energy.max())
+    assert np.diff(states.energy).max() <= 1e-10 * max(1.0, states.energy.max())
     assert states.normal_force.min() >= -1e-10 * max(1.0, states.normal_force.max())
     bound = scene.friction.mu_s * states.normal_force
     assert (np.abs(states.friction_force) <= bound * (1 + 1e-9) + 1e-10).all()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import acosh, asin, atan, cosh, inf, pi, radians, sin, sqrt, tan
 
 import numpy as np
@@ -177,3 +178,65 @@ def test_batch_is_many_single_motions():
         simulate_batch({"k": [0.1, 0.2, 1.5], "mu_s": 0.35, "mu": 0.3, "phi0": 0.1})
     with pytest.raises(SceneError, match="phi0 is missing"):
         simulate_batch({"k": 0.1, "mu_s": 0.35, "mu": 0.3})
+
+
+def test_slip_that_ends_on_the_edge_of_holding_rolls_on():
+    """mu = 0 < mu_s: a pass is its own mirror image, so the slip ends where it began, at |F| = mu_s N to round-off.
+
+    Each pass goes roll, slip, roll.
+    """
+    scene = Scene(Hoop(7.9e-8), Friction(0.6, 0.0), Release(1.0), Run(t_end=40.0))
+    found = kinds(simulate(scene))
+    rolls = [i for i, kind in enumerate(found) if kind == Kind.ROLL]
+    assert len(rolls) > 3
+    assert len({after - before for before, after in pairwise(rolls)}) == 1
+
+
+@pytest.mark.parametrize(
+    ("hoop", "friction", "release"),
+    [
+        (
+            Hoop(1.531767533623547e-08, 1.6181974387062448),
+            Friction(1.6053665170731655, 0.37055021177456093),
+            Release(-0.6730584926392402, -3.1027420104614323, -1.9532793996234736),
+        ),
+        (
+            Hoop(1.201013238678522e-08, 1.6245642179357156),
+            Friction(1.9628089489546119, 0.7595783739056603),
+            Release(3.784249587310647, -3.767514529504946),
+        ),
+    ],
+)
+@pytest.mark.parametrize("units", [1.0, 0.3])
+def test_rolling_that_ends_with_no_force_slips_the_right_way(hoop, friction, release, units):
+    """K ~ 1e-17: N and F die out together, and the slip that follows has the sign of sin phi (where D > 0)."""
+    scene = Scene(hoop, friction, release, Run(t_end=20.0))
+    si = scene.replace(hoop={"R": units, "g": 9.81})
+    time = si.time_unit
+    si = si.replace(
+        release={"omega0": release.omega0 / time, "slip0": release.slip0 * si.velocity_unit}, run={"t_end": 20 * time}
+    )
+    motion = simulate(si)
+    assert motion.completed
+    slips = [
+        after
+        for before, after in pairwise(motion.phases)
+        if before.kind == Kind.ROLL and float(motion.at(before.t_end).normal_force) < 1e-12 * si.force_unit
+    ]
+    assert slips
+    for phase in slips:
+        assert phase.kind == (Kind.SKID if sin(phase.phi_start) > 0 else Kind.SPIN)
+
+
+def test_a_hundred_slips_are_not_the_end():
+    """That a motion all but rolls is told by what a hundred slips take, not by their number: this one loses 8 %."""
+    hoop, friction = Hoop(8.295377577318604e-07, 1.2005810607224703, 0.00921034699542735), Friction(2.21228, 0.814857)
+    motion = simulate(Scene(hoop, friction, Release(9.7434557621, 5.2531078461), Run(turns=1)))
+    assert "hundred" not in motion.ended
+    slips = sum(kind in (Kind.SKID, Kind.SPIN) for kind in kinds(motion))
+    assert slips > 100
+
+
+def test_a_smooth_whirl_has_no_turn_to_wait_for():
+    motion = simulate(Scene(Hoop(0.5), Friction(0.0, 0.0), Release(0.1, 1.0), Run(turns=2)))
+    assert motion.ended.startswith("slides for ever")
