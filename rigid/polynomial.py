@@ -15,22 +15,47 @@ SAMPLES = 8
 
 @kernel
 def value(c, n, x):
-    """c[0] + c[1] x + ... + c[n] x^n."""
-    y = c[n]
-    for i in range(n - 1, -1, -1):
-        y = y * x + c[i]
-    return y
+    """c[0] + c[1] x + ... + c[n] x^n, as four polynomials in x^4 that do not wait for each other."""
+    x2 = x * x
+    x4 = x2 * x2
+    last = n - n % 4
+    y0 = c[last]
+    y1 = c[last + 1] if last + 1 <= n else 0.0
+    y2 = c[last + 2] if last + 2 <= n else 0.0
+    y3 = c[last + 3] if last + 3 <= n else 0.0
+    for i in range(last - 4, -1, -4):
+        y0 = y0 * x4 + c[i]
+        y1 = y1 * x4 + c[i + 1]
+        y2 = y2 * x4 + c[i + 2]
+        y3 = y3 * x4 + c[i + 3]
+    return (y0 + x * y1) + x2 * (y2 + x * y3)
 
 
 @kernel
 def value_and_slope(c, n, x):
-    """A polynomial and its derivative."""
-    y = c[n]
-    d = 0.0
-    for i in range(n - 1, -1, -1):
-        d = d * x + y
-        y = y * x + c[i]
-    return y, d
+    """A polynomial and its derivative, in the manner of :func:`value`."""
+    x2 = x * x
+    x4 = x2 * x2
+    last = n - n % 4
+    y0 = c[last]
+    y1 = c[last + 1] if last + 1 <= n else 0.0
+    y2 = c[last + 2] if last + 2 <= n else 0.0
+    y3 = c[last + 3] if last + 3 <= n else 0.0
+    d0 = 0.0
+    d1 = 0.0
+    d2 = 0.0
+    d3 = 0.0
+    for i in range(last - 4, -1, -4):
+        d0 = d0 * x4 + y0
+        d1 = d1 * x4 + y1
+        d2 = d2 * x4 + y2
+        d3 = d3 * x4 + y3
+        y0 = y0 * x4 + c[i]
+        y1 = y1 * x4 + c[i + 1]
+        y2 = y2 * x4 + c[i + 2]
+        y3 = y3 * x4 + c[i + 3]
+    slope = (y1 + 2 * x * y2) + x2 * (3 * y3 + 4 * x * ((d0 + x * d1) + x2 * (d2 + x * d3)))
+    return (y0 + x * y1) + x2 * (y2 + x * y3), slope
 
 
 @kernel

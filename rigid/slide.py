@@ -53,7 +53,7 @@ from .layout import (
     T,
 )  # fmt: skip
 from .polynomial import first_crossing, value, value_and_slope
-from .pulse import cross_bottom, velocity_of_g, watch
+from .pulse import cross_bottom, watch
 from .slipping import (
     JAM,
     ORDER,
@@ -66,6 +66,7 @@ from .slipping import (
     S_SIN,
     S_SLIP,
     S_T,
+    S_YDOT,
     normal_force,
     series,
 )
@@ -113,8 +114,7 @@ def peak_force(gyr, work, length):
 def carry(par, state, mu_hat, work, x):
     """Advance the state along the series by x <= the step's length."""
     e = par[ECC]
-    s0, _, h0, _ = trig(state[ANGLE], state[TOP])
-    xdot, ydot = velocity_of_g(par, state)
+    s0, h0, ydot, xdot = work[S_SIN][0], work[S_H][0], work[S_YDOT][0], state[XDOT]
     dt = value(work[S_T], ORDER, x)
     s1, h1, omega = value(work[S_SIN], ORDER, x), value(work[S_H], ORDER, x), value(work[S_OMEGA], ORDER, x)
     a, top, whole = next_angle(s1, h1, state[TOP], state[WHOLE])
@@ -129,12 +129,11 @@ def carry(par, state, mu_hat, work, x):
 
 
 @kernel
-def slip_now(par, state):
+def slip_now(par, state, h):
     """The slip velocity: carried along, or anew from phidot and the velocity of G where that has more digits.
 
     Past the bottom of a tiny hoop it was as large as phidot ~ 1/k, and has kept the round-off of that size.
     """
-    _, _, h, _ = trig(state[ANGLE], state[TOP])
     turning = state[OMEGA] * (par[ONE_MINUS_E] + par[ECC] * h)
     terms = abs(turning) + abs(state[XDOT])
     if terms < 0.1 * state[SLIP_SCALE]:
@@ -146,8 +145,9 @@ def slip_now(par, state):
 @kernel
 def step(par, state, mu_hat, p_known, work):
     """The series of the next step, and how far it is good."""
-    slip = slip_now(par, state)
-    length = series(par, mu_hat, state[ANGLE], state[TOP], state[OMEGA], slip, p_known, work)
+    s, c, h, _ = trig(state[ANGLE], state[TOP])
+    slip = slip_now(par, state, h)
+    length = series(par, mu_hat, s, c, h, state[OMEGA], slip, p_known, work)
     b, v, om = work[S_B], work[S_SLIP], work[S_OMEGA]
     if v[0] == 0.0:
         # a slip that starts with mu_s = mu starts with no acceleration either, up to the round-off of its

@@ -40,8 +40,9 @@ def known_p(p, terms, carried):
 
 
 @kernel
-def series(par, mu_hat, a, top, omega, slip, p_known, work):
-    """Taylor coefficients in tau of one step, and the length over which they are exact to round-off.
+def series(par, mu_hat, s, c, h, omega, slip, p_known, work):
+    """Taylor coefficients in tau of one step from sin phi, cos phi, 1 + cos phi, phidot and the slip velocity, and
+    the length over which they are exact to round-off.
 
     ``work`` holds, by index: sin phi, 1 + cos phi, phidot, phidot cos phi, P, D, b, ydot_G, slip velocity,
     time from the start of the step, and N - 1 times D.
@@ -49,48 +50,44 @@ def series(par, mu_hat, a, top, omega, slip, p_known, work):
     e, one_minus_e, gyr = par[ECC], par[ONE_MINUS_E], par[GYR]
     sn, hh, om, co, pp, dd = work[S_SIN], work[S_H], work[S_OMEGA], work[S_CO], work[S_P], work[S_D]
     bb, yd, vv, tt, n1 = work[S_B], work[S_YDOT], work[S_SLIP], work[S_T], work[S_N1]
-    s, _, h, _ = trig(a, top)
-    sn[0], hh[0], om[0], vv[0], tt[0] = s, h, omega, slip, 0.0
-    yd[0] = -e * s * omega
     me = mu_hat * e
-    for n in range(ORDER + 1):
-        pp[n] = e * sn[n] + me * hh[n]
-        if n == 0:
-            arm = abs(mu_hat) * (one_minus_e + e * h)
-            pp[0] = known_p(pp[0] + mu_hat * one_minus_e, e * abs(s) + arm, p_known)
-        h_omega = 0.0
+    arm = mu_hat * (one_minus_e + e * h)
+    p = known_p(e * s + arm, e * abs(s) + abs(arm), p_known)
+    b, d = 1.0 - e * c * omega * omega, gyr + e * s * p
+    sn[0], hh[0], om[0], co[0], pp[0], bb[0], dd[0] = s, h, omega, c * omega, p, b, d
+    yd[0], vv[0], tt[0], n1[0] = -e * s * omega, slip, 0.0, gyr * b - d
+    om[1], sn[1], hh[1], tt[1], yd[1] = p * b, co[0] * d, yd[0] * d / e, d, n1[0]
+    for n in range(1, ORDER + 1):
+        # the inner terms of all products at once: independent sums keep the arithmetic units busy
+        h_om = 0.0
         s_p = 0.0
-        for j in range(n + 1):
-            h_omega += hh[j] * om[n - j]
-            s_p += sn[j] * pp[n - j]
-        co[n] = h_omega - om[n]
-        co_omega = 0.0
-        for j in range(n + 1):
-            co_omega += co[j] * om[n - j]
-        bb[n] = -e * co_omega
-        dd[n] = e * s_p
-        n1[n] = gyr * bb[n] - dd[n]
-        if n == 0:
-            bb[0] += 1.0
-            dd[0] += gyr
-        else:
-            vv[n] = -mu_hat * gyr * bb[n - 1] / n - one_minus_e * om[n] - e * h_omega
-        if n == ORDER:
-            break
+        co_om = 0.0
         p_b = 0.0
         co_d = 0.0
         y_d = 0.0
-        for j in range(n + 1):
-            d = dd[n - j]
-            p_b += pp[j] * bb[n - j]
-            co_d += co[j] * d
-            y_d += yd[j] * d
-        m = n + 1
-        om[m] = p_b / m
-        sn[m] = co_d / m
-        hh[m] = y_d / (e * m)
-        yd[m] = n1[n] / m
-        tt[m] = dd[n] / m
+        for j in range(1, n):
+            w, q, f = om[n - j], pp[n - j], dd[n - j]
+            h_om += hh[j] * w
+            co_om += co[j] * w
+            s_p += sn[j] * q
+            p_b += bb[j] * q
+            co_d += co[j] * f
+            y_d += yd[j] * f
+        pn = e * sn[n] + me * hh[n]
+        h_om += h * om[n] + hh[n] * omega
+        cn = h_om - om[n]
+        bn = -e * (co_om + co[0] * om[n] + cn * omega)
+        dn = e * (s_p + s * pn + sn[n] * p)
+        pp[n], co[n], bb[n], dd[n] = pn, cn, bn, dn
+        n1[n] = gyr * bn - dn
+        vv[n] = -mu_hat * gyr * bb[n - 1] / n - one_minus_e * om[n] - e * h_om
+        if n < ORDER:
+            m = n + 1
+            om[m] = (p_b + p * bn + pn * b) / m
+            sn[m] = (co_d + co[0] * dn + cn * d) / m
+            hh[m] = (y_d + yd[0] * dn + yd[n] * d) / (e * m)
+            yd[m] = n1[n] / m
+            tt[m] = dn / m
     length = min(step_length(om, 0), step_length(sn, 0), 1e3 / (abs(dd[0]) + 1e-6))
     if dd[0] < 1e-3 * (gyr + e * e * s * s):
         # towards a jam D decays alone, while the angle stands still

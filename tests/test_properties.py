@@ -110,8 +110,6 @@ def test_a_batch_is_its_scenes(many):
     batch = simulate_batch(many, turns=2)
     for i, scene in enumerate(many):
         motion = simulate(scene)
-        if checks.flights(motion) > checks.MOST_FLIGHTS:
-            continue
         mine = [turn.phi for turn in motion.turns]
         found = [phi for phi in batch.turn_phi[i] if np.isfinite(phi)]
         if checks._apart(np.array(mine), np.array(found)) > 1e-9:
