@@ -141,12 +141,16 @@ def _tangents(points: Any, foundation: Any, tractions: Any, along: Any, up: Any,
             element = here
         for w in range(5):
             by_up[w] = -foundation.diagonal[i] * up[i, w]
-            by_traction[w] = tractions.by_gap[i, 1] * up[i, w]
-        for side in range(2):
-            near = i - 1 + 2 * side
+            by_traction[w] = tractions.by_gap[i, 2] * up[i, w]
+        for away in (-2, -1, 1, 2):
+            near = i + away
             if near < 0 or near >= total or points.last[min(i, near)]:
                 continue
-            spring, rate = foundation.coupling[min(i, near)], tractions.by_gap[i, 2 * side]
+            spring, rate = 0.0, tractions.by_gap[i, 2 + away]
+            if abs(away) == 1:
+                spring = foundation.coupling[min(i, near)]
+            elif rate == 0:
+                continue
             there = points.local[near]
             if there == here:
                 for w in range(5):
@@ -282,7 +286,7 @@ def contact_forces(
             behind = i + 1 if i + 1 < total and not points.last[i] else -1
             tractions.share[i] = foundation.force[i] / elastic
             tractions.force[i] += drag * tractions.share[i]
-            force_by_gaps(tractions.by_gap[i], drag / elastic, foundation, before, i, behind)
+            force_by_gaps(tractions.by_gap[i, 1:4], drag / elastic, foundation, before, i, behind)
 
     pushes = _spread(_gathered(points, foundation.force, up, nodes), Y, s, c)
     forces = _spread(_gathered(points, tractions.force, along, nodes), X, s, c) + eta * pushes
@@ -329,10 +333,17 @@ def contact_forces(
                 res[LOW] = points.psi[i]
             res[HIGH] = points.psi[i]
             active += 1
-    kept, kept_flags = np.empty((active, 2)), np.empty(active, np.int8)
+    keeps = points.gap < 0
+    if mode == STICK:  # a point just past the edge that points leave still bounds the bristles behind it
+        for i in range(total):
+            if carried.touched[i] and points.gap[i] >= 0:
+                before = i > 0 and not points.last[i - 1] and points.gap[i - 1] < 0
+                behind = i + 1 < total and not points.last[i] and points.gap[i + 1] < 0
+                keeps[i] = before or behind
+    kept, kept_flags = np.empty((keeps.sum(), 2)), np.empty(keeps.sum(), np.int8)
     n = 0
     for i in range(total):
-        if points.gap[i] < 0:
+        if keeps[i]:
             kept[n, 0], kept[n, 1], kept_flags[n] = points.number[i], carried.stretch[i], carried.sliding[i]
             n += 1
     return forces[:3].copy(), forces[3:].copy().reshape(nodes, 2), tangent, res, kept, kept_flags

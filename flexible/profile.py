@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .contact import BRUSH, DRAG, ELASTIC, EPS_N, EPS_T, ETA, SPACING, STICK
+from .friction import edge_of_patch
 from .state import State
 from .touch import RimContact
 
@@ -22,8 +23,8 @@ STICKS, FREE, SLIPS = 1, 0, -1
 class Profile:
     """Along the patch, from edge to edge; linear between neighbours.
 
-    Both edges appear twice, inside and outside, because the friction of a sticking patch ends in a jump. The
-    trapezoidal rule over ``theta`` gives N exactly, and F up to the last spacing at that jump.
+    The edge of the friction appears twice, because that of a sticking patch ends in a jump. The trapezoidal rule over
+    ``theta`` gives N and F as the contact has them.
 
     Attributes
     ----------
@@ -54,22 +55,25 @@ def profile(hoop: RimContact, state: State) -> Profile:
         around = np.arange(number[part[0]] - 1, number[part[-1]] + 2)
         theta = around * spacing
         gap = _gap(hoop, state, theta)
-        gap[1:-1] = np.minimum(gap[1:-1], 0.0)  # touching, whatever the last digit says
-        elastic = -eps_n * gap[1:-1]
-        traction = -eps_t * state.bristles[part, 1]
+        on_floor = np.flatnonzero(gap < 0)
+        if not len(on_floor):
+            continue
+        held, flags = np.full(len(around), np.nan), np.zeros(len(around))
+        held[1:-1], flags[1:-1] = -eps_t * state.bristles[part, 1], state.flags[part]
+        elastic = -eps_n * np.minimum(gap, 0.0)
         if state.res[ELASTIC] > 0:
-            traction = traction + state.res[DRAG] * elastic / state.res[ELASTIC]
-        slips = state.flags[part] != 0 if state.mode == BRUSH else np.full(len(part), state.mode != STICK)
-        ends = [_edge(gap[1], gap[0]), _edge(gap[-2], gap[-1])]
-        edge = np.array([theta[1] - ends[0] * spacing, theta[-2] + ends[1] * spacing])
-        at_edge = _traction_at_edges(state, traction, ends)
-        pieces.append((
-            np.concatenate([edge[[0, 0]], theta[1:-1], edge[[1, 1]]]),
-            np.concatenate([[0.0, 0.0], state.res[ETA] * elastic, [0.0, 0.0]]),
-            np.concatenate([[0.0, at_edge[0]], traction, [at_edge[1], 0.0]]),
-            np.concatenate([[FREE, FREE], np.where(slips, SLIPS, STICKS), [FREE, FREE]]).astype(np.int8),
-        ))  # fmt: skip
-    return Profile(*(np.concatenate(column) for column in zip(*pieces, strict=True)))
+            held += state.res[DRAG] * elastic / state.res[ELASTIC]
+        slips = flags != 0 if state.mode == BRUSH else np.full(len(around), state.mode != STICK)
+        inside = slice(on_floor[0], on_floor[-1] + 1)
+        sticks = np.where(slips, SLIPS, STICKS)
+        columns = [theta[inside], state.res[ETA] * elastic[inside], held[inside], sticks[inside]]
+        for end, way in ((on_floor[0], -1), (on_floor[-1], 1)):
+            share, pull = _beyond(gap, held, end, way, state.mode)
+            edge = [theta[end] + way * spacing * share, np.zeros(3), pull, np.full(3, FREE)]
+            columns = [np.concatenate([e[::-1], c] if way < 0 else [c, e]) for c, e in zip(columns, edge, strict=True)]
+        pieces.append(columns)
+    theta, pressure, traction, stick = (np.concatenate(column) for column in zip(*pieces, strict=True))
+    return Profile(theta, pressure, traction, stick.astype(np.int8))
 
 
 def _gap(hoop: RimContact, state: State, theta: Array) -> Array:
@@ -89,16 +93,19 @@ def _gap(hoop: RimContact, state: State, theta: Array) -> Array:
     return height + 2 * np.sin((phi + theta - pi) / 2) ** 2 + u[:, 0] * np.cos(phi) - u[:, 1] * np.sin(phi)
 
 
-def _edge(inside: float, outside: float) -> float:
-    """Share of the spacing from the last touching point to where the gap, linear, is zero."""
-    return float(inside / (inside - outside)) if outside > 0 else 1.0
+def _beyond(gap: Array, held: Array, end: int, way: int, mode: int) -> tuple[Array, Array]:
+    """Where, in spacings beyond the last touching point, pressure and then friction end (twice), and friction there.
 
-
-def _traction_at_edges(state: State, traction: Array, ends: list[float]) -> tuple[float, float]:
-    """Zero where the patch slides or points enter; carried on linearly where a sticking patch lets points go."""
-    if state.mode != STICK or len(traction) < 2:
-        return 0.0, 0.0
-    low = traction[0] + ends[0] * (traction[0] - traction[1])
-    high = traction[-1] + ends[1] * (traction[-1] - traction[-2])
-    # points move toward larger psi as phi grows
-    return (0.0, float(high)) if state.vel[2] >= 0 else (float(low), 0.0)
+    The pressure's edge is that of :mod:`flexible.foundation`, on a straight gap, and so is that of a sliding patch;
+    that of bristles lies on the parabola of :mod:`flexible.friction`.
+    """
+    straight = curved = gap[end] / (gap[end] - gap[end + way])
+    if mode in (STICK, BRUSH) and 0 <= end - way < len(gap):
+        curved = max(straight, edge_of_patch(gap[end], gap[end + way], gap[end - way])[0])
+    share = np.array([straight, curved, curved])
+    if mode == STICK and not np.isnan(held[end + way]):  # points leave here, stretched
+        pull = held[end] + share * (held[end + way] - held[end])
+    else:
+        pull = held[end] * (1 - share / curved)
+    pull[2] = 0.0
+    return share, pull

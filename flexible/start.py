@@ -6,7 +6,7 @@ brought to rest in the disk's frame, and their rates are those of the equilibria
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, pi, sin
 
 import numpy as np
@@ -16,10 +16,13 @@ from rigid import Kind, Motion
 
 from .contact import (
     BRUSH,
+    EPS_N,
     EPS_T,
     FRICTION,
     HIGH,
+    LENGTH,
     LOW,
+    NORMAL,
     RESULTANTS,
     SLIDE_RIGHT,
     SPACING,
@@ -152,12 +155,14 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, law: str) -> State:
     mode = BRUSH if law == "brush" else STICK if rolls else slides
     if rolls and len(bristles):
         length = res[HIGH] - res[LOW] + hoop.law[SPACING]
-        psi = pose.phi - pi + bristles[:, 0] * hoop.law[SPACING]
         eps_t = hoop.law[EPS_T]
-        bristles = bristles.copy()
         if pose.omega == 0:
+            bristles = bristles.copy()
             bristles[:, 1] = -friction / (eps_t * length)
-        else:  # steady rolling: stretched in proportion to the way from the leading edge
+        else:  # steady rolling: stretched in proportion to the way from the leading edge, to just past the trailing one
+            past = [[bristles[-1, 0] + 1, 0.0]] if pose.omega > 0 else [[bristles[0, 0] - 1, 0.0]]
+            bristles = np.concatenate([bristles, past] if pose.omega > 0 else [past, bristles])
+            psi = pose.phi - pi + bristles[:, 0] * hoop.law[SPACING]
             way = psi - res[LOW] if pose.omega > 0 else res[HIGH] - psi
             bristles[:, 1] = -friction * way / (eps_t * length**2 / 2)
             creep = -friction * abs(pose.omega) / (eps_t * length**2 / 2)
@@ -169,7 +174,41 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, law: str) -> State:
         state.t, state.x_C, state.pos, vel, np.zeros_like(vel), mode, state.window, state.u, state.nodal, res,
         bristles, flags, pose.slip_velocity + creep,
     )  # fmt: skip
-    return restart(hoop, state, mode)
+    return _balanced(hoop, state, mode, pose) if mode == STICK and len(bristles) else restart(hoop, state, mode)
+
+
+def _balanced(hoop: Hoop, state: State, mode: int, pose: Pose) -> State:
+    """``state`` under its own law of friction, with the height and the stretch at which it carries N and F of the pose.
+
+    The ring gives way to a friction that is not shared like the pressure, so both come out a little different at first;
+    a hoop of small inertia would start with the acceleration that the difference makes. Broyden's method.
+    """
+    wanted = np.array([pose.normal_force, pose.friction_force])
+    best, least = restart(hoop, state, mode), np.inf
+    pull = best.res[FRICTION] or np.inf
+    inverse = np.diag([-1 / (hoop.law[EPS_N] * best.res[LENGTH] + 1e-300), 1 / pull])  # of the forces' derivatives
+    change, step, off = np.zeros(2), np.zeros(2), np.zeros(2)  # of height and share of the stretch
+    for _ in range(12):
+        raised = state.pos.copy()
+        raised[1] += change[0]
+        bristles = state.bristles.copy()
+        bristles[:, 1] *= 1 + change[1]
+        try:
+            found = restart(hoop, replace(state, pos=raised, bristles=bristles), mode)
+        except MarchError:
+            break
+        before, off = off, found.res[[NORMAL, FRICTION]] - wanted
+        if np.abs(off).max() < least:
+            best, least = found, float(np.abs(off).max())
+        if least < 1e-11 * (1 + pose.normal_force):
+            break
+        gained = off - before
+        along = step @ inverse
+        if along @ gained != 0:
+            inverse += np.outer(step - inverse @ gained, along) / (along @ gained)
+        step = -inverse @ off
+        change = change + step
+    return best
 
 
 def _abscissa(hoop: Hoop, state: State, reference: State) -> float:

@@ -127,14 +127,16 @@ def test_the_energy_of_the_elements_is_the_ledgers(kept):
 
 
 def test_pressure_and_traction_add_up_to_the_forces(kept):
-    """N to round-off; F too while the patch slides or is a brush, to the last spacing's parabola while it sticks."""
+    """To round-off."""
     for state in kept.states[::7]:
         along = profile(kept.hoop, state)
         normal = np.trapezoid(along.pressure, along.theta)
         friction = np.trapezoid(along.traction, along.theta)
         size = 1e-9 + state.normal_force
         assert normal == pytest.approx(state.normal_force, abs=1e-9 * size)
-        assert friction == pytest.approx(state.friction_force, abs=(1e-4 if state.mode == 0 else 1e-9) * size)
+        # the drag of a damper is shared like the pressure, which ends a little earlier than the bristles do
+        digits = 1e-4 if state.mode == 0 and kept.hoop.relaxation > 0 else 1e-9
+        assert friction == pytest.approx(state.friction_force, abs=digits * size)
         assert (along.pressure >= 0).all()
         assert ((along.stick != 0) >= (along.pressure > 0)).all()
 
