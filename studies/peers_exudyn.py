@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from .bench_reference import END_OF_A
+
 R, K, RING_MASS, MU = 1.02, 0.1, 0.1, 0.3
 YOUNG = 1e8 / R
 FOUNDATION = 1e7
@@ -30,7 +32,7 @@ def turn(scene: str, elements: int, step: float) -> dict[str, float]:
     import exudyn as exu
     import exudyn.itemInterface as item
 
-    phi0, omega, t_end = (radians(10), 0.0, 8.5) if scene == "A" else (2.9, 4.0, 0.1426)
+    phi0, omega, t_end = (radians(10), 0.0, END_OF_A) if scene == "A" else (2.9, 4.0, 0.1426)
     system = exu.SystemContainer().AddSystem()
     ground = system.AddNode(item.NodePointGround())
     still = system.AddMarker(item.MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
