@@ -143,4 +143,3 @@ def _locate(model: Model, old: State, trial: Trial, watch: Callable[[State], flo
         if 0 <= value < 1e-9:
             break
     return best, n
-

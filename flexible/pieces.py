@@ -184,5 +184,3 @@ class Builder:
                 for field in dataclasses.fields(History)
             }
         )
-
-

@@ -138,5 +138,3 @@ def record(model: Model, state: State, books: Books) -> Record:
         off_floor=books.off_floor,
         mode=state.mode,
     )
-
-

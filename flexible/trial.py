@@ -114,5 +114,3 @@ def advanced(model: Model, state: State, t: float) -> State | None:
     """The state at ``t`` by a single step from ``state``, shorter than the one accepted there; None if it fails."""
     trial = attempt(model, state, t - state.t)
     return None if trial is None else trial.state
-
-

@@ -52,5 +52,3 @@ def dimensionless(scene: Scene) -> Scene:
         },
         run=run if run.t_end is None else Run(t_end=run.t_end / scene.time_unit),
     )
-
-

@@ -34,9 +34,7 @@ def nodal_gradient(ring: RingMesh) -> tuple[sp.csr_matrix, sp.csr_matrix]:
     weighted = at_nodes * share[quad9][:, :, None, None]
     rows = np.broadcast_to(quad9[:, :, None], weighted.shape[:3]).ravel()
     columns = np.broadcast_to(quad9[:, None, :], weighted.shape[:3]).ravel()
-    by_y1, by_y2 = (
-        sp.csr_matrix((weighted[..., i].ravel(), (rows, columns)), shape=(count, count)) for i in (0, 1)
-    )
+    by_y1, by_y2 = (sp.csr_matrix((weighted[..., i].ravel(), (rows, columns)), shape=(count, count)) for i in (0, 1))
     return by_y1, by_y2
 
 

@@ -77,9 +77,7 @@ class PatchPlot:
         from matplotlib.patches import Polygon
 
         fills = ((looks.NORMAL, 3), (looks.FRICTION, 4))
-        self._curves = [
-            Polygon(nothing, facecolor=f"{c}55", edgecolor=c, zorder=z, **common) for c, z in fills
-        ]
+        self._curves = [Polygon(nothing, facecolor=f"{c}55", edgecolor=c, zorder=z, **common) for c, z in fills]
         #: what is drawn anew in every picture
         self.moving: list[Any] = [axes.add_patch(curve) for curve in self._curves]
 

@@ -55,9 +55,7 @@ class SeriesWriter:
     ...     writer.add(Frame(0.0, {"ring": ring_block(ring, points, displacement=u)}))
     """
 
-    def __init__(
-        self, directory: str | Path, units: Mapping[str, str] | None = None, title: str = ""
-    ) -> None:
+    def __init__(self, directory: str | Path, units: Mapping[str, str] | None = None, title: str = "") -> None:
         self.pvd = Path(directory) / _PVD
         self.folder = Path(directory) / _FOLDER
         try:
@@ -103,7 +101,7 @@ class SeriesWriter:
                 last = self._last[name] = (block, file)
             entries.append(
                 f'<DataSet timestep="{float(frame.time)!r}" group="" part="{part}" '
-                f'name={quoteattr(name)} file={quoteattr(f"{_FOLDER}/{last[1]}")}/>'
+                f"name={quoteattr(name)} file={quoteattr(f'{_FOLDER}/{last[1]}')}/>"
             )
         self._entries.append("\n".join(entries))
         self._time = frame.time

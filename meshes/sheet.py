@@ -107,9 +107,7 @@ class Sheet:
             drawn = np.array(page[box])
             self._over.append((box, drawn, np.any(drawn[..., :3] < 255, axis=2)))
 
-    def fill(
-        self, stage: Image, shot: Shot, factor: float, lens: tuple[float, float, str] | None = None
-    ) -> Image:
+    def fill(self, stage: Image, shot: Shot, factor: float, lens: tuple[float, float, str] | None = None) -> Image:
         """The page with this stage picture, as (height, width, 3) bytes; ``lens`` is column, row, caption."""
         self.canvas.restore_region(self._blank)
         left, top, width, height = self.stage_box
@@ -223,10 +221,12 @@ class Sheet:
         self.time_axis = left, self.size[0] - right
         height = (below - 1.2 * em - foot - gap) / 2
         curves = self.curves
-        for row, (values, colour, name) in enumerate([
-            (curves.normal_force, looks.NORMAL, "N"),
-            (curves.friction_force, looks.FRICTION, "F"),
-        ]):
+        for row, (values, colour, name) in enumerate(
+            [
+                (curves.normal_force, looks.NORMAL, "N"),
+                (curves.friction_force, looks.FRICTION, "F"),
+            ]
+        ):
             axes = self._axes(left, start + row * (height + gap), self.size[0] - left - right, height)
             for kind, t0, t1 in curves.phases:
                 if t1 > t0:

@@ -157,8 +157,7 @@ class MotionSubject:
         """The scene in numbers."""
         hoop, friction = self.motion.scene.hoop, self.motion.scene.friction
         return (
-            f"k = {hoop.k:g}, r = {hoop.r:g}, m_h/m = {hoop.mass_ratio:g}, "
-            f"μ_s = {friction.mu_s:g}, μ = {friction.mu:g}"
+            f"k = {hoop.k:g}, r = {hoop.r:g}, m_h/m = {hoop.mass_ratio:g}, μ_s = {friction.mu_s:g}, μ = {friction.mu:g}"
         )
 
     @property

@@ -46,9 +46,7 @@ class Camera:
         self.setting, self.oversampling = chosen, oversampling
         subject = chosen.subject
         patches: tuple[Shot, ...] = chosen.patches if chosen.zoom == 1 else ()
-        self.sheet = Sheet(
-            size, subject.curves, subject.span, chosen.colours, subject.units, subject.title, patches
-        )
+        self.sheet = Sheet(size, subject.curves, subject.span, chosen.colours, subject.units, subject.title, patches)
         _, _, width, height = self.sheet.stage_box
         pixels = (self.oversampling * width, self.oversampling * height)
         self.stage = Stage(chosen.first, pixels, chosen.zoom, chosen.colours, chosen.largest)
@@ -230,9 +228,7 @@ def animate(
     kind.write(path, pages(), fps, times)
 
 
-def window(
-    thing: Series | Motion, field: str | None = None, factor: float | None = None, zoom: float = 1.0
-) -> None:
+def window(thing: Series | Motion, field: str | None = None, factor: float | None = None, zoom: float = 1.0) -> None:
     """Open a window with a time slider; space plays, [ and ] change the factor, c changes the field.
 
     Raises

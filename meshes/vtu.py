@@ -57,29 +57,31 @@ class Encoder:
             return "\n".join(lines)
 
         values = {"TimeValue": np.array([time]), **block.field_data}
-        header = "\n".join([
-            ' header_type="UInt32" compressor="vtkZLibDataCompressor">',
-            "<UnstructuredGrid>",
-            "<FieldData>",
-            add(self._array(name, v, f'NumberOfTuples="{len(v)}"') for name, v in values.items()),
-            "</FieldData>",
-            f'<Piece NumberOfPoints="{len(block.points)}" NumberOfCells="{len(block.cells)}">',
-            "<PointData>",
-            add(self._array(name, v) for name, v in block.point_data.items()),
-            "</PointData>",
-            "<CellData>",
-            add(self._array(name, v) for name, v in block.cell_data.items()),
-            "</CellData>",
-            "<Points>",
-            add([self._array("Points", block.points)]),
-            "</Points>",
-            "<Cells>",
-            add(self._cells(block)),
-            "</Cells>",
-            "</Piece>",
-            "</UnstructuredGrid>",
-            "",
-        ])
+        header = "\n".join(
+            [
+                ' header_type="UInt32" compressor="vtkZLibDataCompressor">',
+                "<UnstructuredGrid>",
+                "<FieldData>",
+                add(self._array(name, v, f'NumberOfTuples="{len(v)}"') for name, v in values.items()),
+                "</FieldData>",
+                f'<Piece NumberOfPoints="{len(block.points)}" NumberOfCells="{len(block.cells)}">',
+                "<PointData>",
+                add(self._array(name, v) for name, v in block.point_data.items()),
+                "</PointData>",
+                "<CellData>",
+                add(self._array(name, v) for name, v in block.cell_data.items()),
+                "</CellData>",
+                "<Points>",
+                add([self._array("Points", block.points)]),
+                "</Points>",
+                "<Cells>",
+                add(self._cells(block)),
+                "</Cells>",
+                "</Piece>",
+                "</UnstructuredGrid>",
+                "",
+            ]
+        )
         return b"".join([_HEAD, header.encode(), _MARK, *parts, _TAIL])
 
     def _array(self, name: str, value: AnyArray, more: str = "") -> tuple[str, bytes]:

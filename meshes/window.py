@@ -31,9 +31,7 @@ class Window:
         In pixels.
     """
 
-    def __init__(
-        self, chosen: Setting, off_screen: bool = False, size: tuple[int, int] = (1280, 900)
-    ) -> None:
+    def __init__(self, chosen: Setting, off_screen: bool = False, size: tuple[int, int] = (1280, 900)) -> None:
         self.setting, self.size = chosen, size
         self.factor, self.colours, self.span = chosen.factor, chosen.colours, chosen.subject.span
         self.time, self.playing = self.span[0], False

@@ -7,7 +7,8 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
     motion = simulate(load_scene("paper-3.1"))
     motion.phases, motion.turns, motion.pulses, motion.at([0.0, 1.0])
 
-``scene``      what a user describes; the constants (3), (6), (9) of a hoop
+``scene``      what a user describes; the constants (3), (6), (9) of a hoop; ``elastic`` the flexible solver's parts,
+               ``allowed`` what is refused, in a sentence
 ``scenefile``  TOML to scene and back, the paper's scenes by name
 ``motion``     the vocabulary that both solvers speak
 ``solve``      one scene to its motion; ``batch`` many at once; ``thresholds`` where rolling ends
@@ -17,9 +18,11 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
 ``kernel``     why all of this runs both interpreted and compiled
 """
 
+from .allowed import SceneError
 from .batch import Batch, simulate_batch
+from .elastic import Contact, Ring, Solve
 from .motion import Kind, Motion, Phase, Pulse, States, Turn
-from .scene import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, SceneError, Solve
+from .scene import Friction, Hoop, Landing, Release, Run, Scene
 from .scenefile import load_scene, scene_from_dict, scene_names, scene_to_dict
 from .solve import simulate
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import layout as at
+from .allowed import SceneError
 from .angle import PI_LOW, angle_of, chart
 from .kernel import compiled, kernel
 from .layout import (
@@ -33,7 +34,7 @@ from .layout import (
 )  # fmt: skip
 from .machine import entry_run
 from .motion import Array
-from .scene import Friction, Hoop, Landing, Release, Scene, SceneError
+from .scene import Friction, Hoop, Landing, Release, Scene
 from .slipping import ORDER, SERIES
 from .solve import LEVEL, NOTHING_AT_ALL, TAPE_RECORDS, UNTIL_CODES, reason
 from .solve import STEPS as WORK
@@ -140,10 +141,7 @@ class Batch:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Batch):
             return NotImplemented
-        return all(
-            np.array_equal(getattr(self, f.name), getattr(other, f.name), equal_nan=True)
-            for f in fields(self)
-        )
+        return all(np.array_equal(getattr(self, f.name), getattr(other, f.name), equal_nan=True) for f in fields(self))
 
 
 def simulate_batch(
@@ -247,15 +245,7 @@ def _table(scenes: Sequence[Scene] | Mapping[str, ArrayLike]) -> Array:
 def _check(table: Array) -> None:
     """Raise what the first impossible row would raise as a scene."""
     k, r, mass, mu_s, mu, *_, bounce = table.T
-    fine = (
-        np.isfinite(table).all(axis=1)
-        & (k >= 0)
-        & (k < 1)
-        & (r >= 1)
-        & (mass >= 0)
-        & (mu >= 0)
-        & (mu_s >= mu)
-    )
+    fine = np.isfinite(table).all(axis=1) & (k >= 0) & (k < 1) & (r >= 1) & (mass >= 0) & (mu >= 0) & (mu_s >= mu)
     fine &= (bounce >= 0) & (bounce <= 1) & ((k > 0) | (mass > 0) | (r == 1))
     fine &= (np.abs(np.delete(table, 2, axis=1)) <= 1e9).all(axis=1) & (mass <= 1e12)
     if not fine.all():
@@ -270,9 +260,7 @@ def _check(table: Array) -> None:
             raise SceneError(f"scene {index} of the batch: {error}") from None
 
 
-def _constants(
-    table: Array, turns: int | None, t_end: float | None, until: str | None
-) -> tuple[Array, Array]:
+def _constants(table: Array, turns: int | None, t_end: float | None, until: str | None) -> tuple[Array, Array]:
     """Parameters and release states of all scenes, as :mod:`rigid.solve` makes them for one."""
     k, r, q, mu_s, mu, phi0, omega0, slip0, bounce = table.T
     gyr = (k**2 / 2 + q * (1 + r**2) / 2 + (1 - k) ** 2 * q / (1 + q)) / (1 + q) / r**2

@@ -46,9 +46,7 @@ def r_f_and_r_j(x, y, z, p):
     s = -u - v
     e2 = u * v - s * s
     e3 = u * v * s
-    r_f = (
-        1 - e2 / 10 + e3 / 14 + e2 * e2 / 24 - 3 * e2 * e3 / 44 - 5 * e2**3 / 208 + 3 * e3 * e3 / 104
-    ) / sqrt(fm)
+    r_f = (1 - e2 / 10 + e3 / 14 + e2 * e2 / 24 - 3 * e2 * e3 / 44 - 5 * e2**3 / 208 + 3 * e3 * e3 / 104) / sqrt(fm)
     u = quarter * (j0 - x) / jm
     v = quarter * (j0 - y) / jm
     s = quarter * (j0 - z) / jm

@@ -113,9 +113,7 @@ def settle(par, state, a0, top0, rise):
     error = rise - e * (h - h0) if state[TOP] == 0.0 else rise + e * (low - low0)
     # beyond half the way to where s = 0 a linear correction is none, and round-off is as large as the hop
     if abs(error) < 1e-5 * abs(e * s):
-        state[ANGLE], state[TOP], state[WHOLE] = chart(
-            state[ANGLE] - error / (e * s), state[TOP], state[WHOLE]
-        )
+        state[ANGLE], state[TOP], state[WHOLE] = chart(state[ANGLE] - error / (e * s), state[TOP], state[WHOLE])
         s1, _, h1, _ = trig(state[ANGLE], state[TOP])
         state[X_C] -= e * (s1 - s)
         state[SLIP] = state[XDOT] - omega * (par[ONE_MINUS_E] + e * h1)

@@ -65,9 +65,7 @@ def strike(par, state, restitution):
                 to_end = needed / un if un > 0 else inf
             else:
                 root = un * un + 2 * un_rate * needed
-                to_end = (
-                    2 * needed / (un + sqrt(root)) if root >= 0 and un + sqrt(max(root, 0.0)) > 0 else inf
-                )
+                to_end = 2 * needed / (un + sqrt(root)) if root >= 0 and un + sqrt(max(root, 0.0)) > 0 else inf
             over = True
         step = min(to_stop, to_end)
         if step == inf:

@@ -17,9 +17,7 @@ MOVING = 11  # numbers of the state that a record keeps
 MODE, LAST_KIND, TURNS_DONE, STEPS, RECORDS, PULSES_DONE, PERIOD, STALLS, HOPS = range(11, 20)
 # The pulse that is being measured: whether it is open, whether the bottom was crossed, and the state at its
 # start.
-P_OPEN, P_CROSSED, P_T, P_ANGLE, P_TOP, P_WHOLE, P_XDOT, P_YDOT, P_H, P_ENERGY, P_PEAK, P_T_BOTTOM = range(
-    20, 32
-)
+P_OPEN, P_CROSSED, P_T, P_ANGLE, P_TOP, P_WHOLE, P_XDOT, P_YDOT, P_H, P_ENERGY, P_PEAK, P_T_BOTTOM = range(20, 32)
 LOSSLESS_TURNS, SLIDES_DONE, LAST_ENERGY, LAST_TURNS, PHASE_T, SLIP_SCALE, PULL = range(32, 39)
 STATE = 39
 

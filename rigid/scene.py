@@ -12,56 +12,12 @@ Equation numbers are those of V. A. Lubarda, J. Mech. Mater. Struct. 4(6), 2009.
 from __future__ import annotations
 
 import dataclasses
-import sys
 from dataclasses import dataclass, field
-from math import inf, log10, pi, radians, sqrt
+from math import inf, sqrt
 from typing import Any
 
-
-class SceneError(ValueError):
-    """A scene that cannot be: one sentence that names the key, the value and what is allowed."""
-
-
-def _require(
-    key: str,
-    value: Any,
-    low: float,
-    high: float,
-    allowed: str,
-    *,
-    open_low: bool = False,
-    open_high: bool = False,
-) -> None:
-    number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if number and abs(value) <= sys.float_info.max:
-        above = value > low if open_low else value >= low
-        below = value < high if open_high else value <= high
-        if above and below:
-            return
-    elif number:
-        allowed = "it must be a finite number"
-    raise SceneError(f"{key} = {shown(value)} is not possible: {allowed}.")
-
-
-def shown(value: Any) -> str:
-    """A value as a sentence can show it: a whole number that no float holds by its power of ten."""
-    if isinstance(value, int) and abs(value) > sys.float_info.max:
-        return f"{'-' if value < 0 else ''}10^{round(value.bit_length() * log10(2))} or so"
-    return repr(value)
-
-
-def _require_choice(key: str, value: Any, choices: tuple[str, ...]) -> None:
-    if value not in choices:
-        raise SceneError(
-            f"{key} = {value!r} is not possible: it must be one of {', '.join(map(repr, choices))}."
-        )
-
-
-def _require_whole(key: str, value: Any, low: int, high: int) -> None:
-    if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
-        raise SceneError(
-            f"{key} = {shown(value)} is not possible: it must be a whole number from {low} to {high}."
-        )
+from .allowed import SceneError, require, require_choice, require_whole
+from .elastic import Contact, Ring, Solve
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +44,7 @@ class Hoop:
     g: float = 1.0
 
     def __post_init__(self) -> None:
-        _require(
+        require(
             "hoop.k",
             self.k,
             0,
@@ -97,10 +53,10 @@ class Hoop:
             open_high=True,
         )
         # the upper bounds here and below keep squares and products within what a float holds
-        _require("hoop.r", self.r, 1, 1e9, "r is the hoop's outer over its inner radius, 1 to 1e9")
-        _require("hoop.mass_ratio", self.mass_ratio, 0, 1e12, "mass_ratio is m_h/m, 0 to 1e12")
+        require("hoop.r", self.r, 1, 1e9, "r is the hoop's outer over its inner radius, 1 to 1e9")
+        require("hoop.mass_ratio", self.mass_ratio, 0, 1e12, "mass_ratio is m_h/m, 0 to 1e12")
         for key in ("R", "m", "g"):
-            _require(f"hoop.{key}", getattr(self, key), 1e-30, 1e30, f"{key} lies between 1e-30 and 1e30")
+            require(f"hoop.{key}", getattr(self, key), 1e-30, 1e30, f"{key} lies between 1e-30 and 1e30")
         if self.k == 0 and self.mass_ratio == 0 and self.r != 1:
             raise SceneError(
                 f"hoop.r = {self.r!r} is not possible: "
@@ -154,8 +110,8 @@ class Friction:
     mu: float
 
     def __post_init__(self) -> None:
-        _require("friction.mu_s", self.mu_s, 0, 1e9, "mu_s is the static coefficient, 0 to 1e9")
-        _require("friction.mu", self.mu, 0, 1e9, "mu is the kinetic coefficient, 0 to 1e9")
+        require("friction.mu_s", self.mu_s, 0, 1e9, "mu_s is the static coefficient, 0 to 1e9")
+        require("friction.mu", self.mu, 0, 1e9, "mu is the kinetic coefficient, 0 to 1e9")
         if self.mu > self.mu_s:
             raise SceneError(
                 f"friction.mu = {self.mu!r} is not possible: "
@@ -174,7 +130,7 @@ class Release:
     def __post_init__(self) -> None:
         for key in ("phi0", "omega0", "slip0"):
             # of a larger angle too few digits would be left within a turn
-            _require(f"release.{key}", getattr(self, key), -1e9, 1e9, f"{key} lies between -1e9 and 1e9")
+            require(f"release.{key}", getattr(self, key), -1e9, 1e9, f"{key} lies between -1e9 and 1e9")
 
 
 @dataclass(frozen=True, slots=True)
@@ -198,11 +154,11 @@ class Run:
                 f"run.{given[0]} already says how far to run."
             )
         if self.turns is not None:
-            _require_whole("run.turns", self.turns, 1, 1_000_000)
+            require_whole("run.turns", self.turns, 1, 1_000_000)
         if self.t_end is not None:
-            _require("run.t_end", self.t_end, 0, inf, "t_end is a time after release, above 0", open_low=True)
+            require("run.t_end", self.t_end, 0, inf, "t_end is a time after release, above 0", open_low=True)
         if self.until is not None:
-            _require_choice("run.until", self.until, ("pulse", "rest"))
+            require_choice("run.until", self.until, ("pulse", "rest"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,136 +168,7 @@ class Landing:
     restitution: float = 0.0
 
     def __post_init__(self) -> None:
-        _require("landing.restitution", self.restitution, 0, 1, "restitution runs from 0 to 1")
-
-
-@dataclass(frozen=True, slots=True)
-class Ring:
-    """The elastic ring of the flexible hoop (the rigid solver does not look at it).
-
-    Parameters
-    ----------
-    bending_stiffness : float
-        E I/(m g R^2) of the ring's section, I = b h^3/12; dimensionless, so it is the same number in SI units.
-    poisson : float
-        Poisson's ratio, plane stress.
-    thickness : float or None
-        Wall h over R. It follows from r when r > 1; when r = 1 it defaults to 0.02.
-    weld_half_angle : float
-        Half the arc of the inner rim that is welded to the disk, seen from the centre, in radians.
-    """
-
-    bending_stiffness: float = 1e4
-    poisson: float = 0.3
-    thickness: float | None = None
-    weld_half_angle: float = radians(3)
-
-    def __post_init__(self) -> None:
-        _require(
-            "ring.bending_stiffness",
-            self.bending_stiffness,
-            0,
-            inf,
-            "E I/(m g R^2) must be positive",
-            open_low=True,
-        )
-        _require(
-            "ring.poisson", self.poisson, -1, 0.5, "Poisson's ratio lies between -1 and 0.5", open_low=True
-        )
-        if self.thickness is not None:
-            _require(
-                "ring.thickness",
-                self.thickness,
-                0,
-                1,
-                "thickness is the wall over R, between 0 and 1",
-                open_low=True,
-                open_high=True,
-            )
-        _require(
-            "ring.weld_half_angle_deg",
-            self.weld_half_angle * 180 / pi,
-            0,
-            90,
-            "the weld's half angle lies between 0 and 90",
-            open_low=True,
-        )
-
-
-@dataclass(frozen=True, slots=True)
-class Contact:
-    """The compliant frictional contact of the flexible hoop with the floor.
-
-    Parameters
-    ----------
-    law : {"patch", "brush"}
-        "patch": the static coefficient acts on the resultants of the contact patch, |F| <= mu_s N (the paper's law);
-        "brush": it acts at every point of the patch.
-    stiffness : float
-        Normal foundation eps_n R^2/(m g): force per area of rim and unit penetration, dimensionless.
-    tangential_ratio : float
-        Tangential over normal foundation.
-    damping : float
-        Damping ratio of the approach of the patch as a whole; 0 is none.
-    """
-
-    law: str = "patch"
-    stiffness: float = 1e9
-    tangential_ratio: float = 0.8
-    damping: float = 0.0
-
-    def __post_init__(self) -> None:
-        _require_choice("contact.law", self.law, ("patch", "brush"))
-        _require(
-            "contact.stiffness",
-            self.stiffness,
-            0,
-            inf,
-            "the foundation eps_n R^2/(m g) must be positive",
-            open_low=True,
-        )
-        _require(
-            "contact.tangential_ratio",
-            self.tangential_ratio,
-            0,
-            inf,
-            "the tangential over the normal foundation must be positive",
-            open_low=True,
-        )
-        _require("contact.damping", self.damping, 0, inf, "the damping ratio is at least 0")
-
-
-@dataclass(frozen=True, slots=True)
-class Solve:
-    """How the flexible solver works: what it resolves, how finely, and to which tolerance.
-
-    Parameters
-    ----------
-    level : {"auto", "reduced", "full", "exact"}
-        Reduced modes with static correction, every node of the ring, or the geometrically exact ring;
-        "auto" takes the cheapest that the scene allows.
-    resolve : {"pulses", "all"}
-        Flexible inside the pulses only, with the rigid closed form between them, or flexible throughout.
-    start : {"equilibrium", "undeformed"}
-        Whether the flexible hoop begins sagged in quasi-static equilibrium, or undeformed and touching the floor.
-    rtol : float
-        Tolerance on the impulses.
-    elements : int
-        Elements around the ring.
-    """
-
-    level: str = "auto"
-    resolve: str = "pulses"
-    start: str = "equilibrium"
-    rtol: float = 1e-4
-    elements: int = 240
-
-    def __post_init__(self) -> None:
-        _require_choice("solve.level", self.level, ("auto", "reduced", "full", "exact"))
-        _require_choice("solve.resolve", self.resolve, ("pulses", "all"))
-        _require_choice("solve.start", self.start, ("equilibrium", "undeformed"))
-        _require("solve.rtol", self.rtol, 1e-12, 0.5, "the tolerance lies between 1e-12 and 0.5")
-        _require_whole("solve.elements", self.elements, 24, 4000)
+        require("landing.restitution", self.restitution, 0, 1, "restitution runs from 0 to 1")
 
 
 @dataclass(frozen=True, slots=True)

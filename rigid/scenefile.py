@@ -16,7 +16,9 @@ from math import degrees, inf, isclose, nextafter, radians
 from pathlib import Path
 from typing import Any
 
-from .scene import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, SceneError, Solve, shown
+from .allowed import SceneError, shown
+from .elastic import Contact, Ring, Solve
+from .scene import Friction, Hoop, Landing, Release, Run, Scene
 
 _PARTS: dict[str, type] = {
     "hoop": Hoop,
@@ -78,9 +80,7 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
                 raise SceneError(f"{part}.{key} = {value!r} is not possible: it must be a number or a word.")
             if name in _IN_DEGREES:
                 if isinstance(value, str):
-                    raise SceneError(
-                        f"{part}.{key} = {value!r} is not possible: it must be a number, in degrees."
-                    )
+                    raise SceneError(f"{part}.{key} = {value!r} is not possible: it must be a number, in degrees.")
                 try:
                     value = radians(value)
                 except OverflowError:
@@ -140,9 +140,7 @@ def scene_to_dict(scene: Scene) -> dict[str, dict[str, Any]]:
 def scene_names() -> list[str]:
     """Names of the scenes that ship with the package."""
     return sorted(
-        entry.name.removesuffix(".toml")
-        for entry in files("rigid.scenes").iterdir()
-        if entry.name.endswith(".toml")
+        entry.name.removesuffix(".toml") for entry in files("rigid.scenes").iterdir() if entry.name.endswith(".toml")
     )
 
 

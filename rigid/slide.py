@@ -255,10 +255,7 @@ def slide(par, state, work, tape):
             cross_bottom(state)
         elif event == 6:
             at_edge = True
-            if (
-                watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, tape)
-                and par[UNTIL] == FIRST_PULSE
-            ):
+            if watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, tape) and par[UNTIL] == FIRST_PULSE:
                 return PULSE_OVER
         if par[MU] == 0.0 and par[UNTIL] == REST and state[LOSSLESS_TURNS] >= 3.0:
             return SLIDES

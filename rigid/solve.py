@@ -192,9 +192,7 @@ def simulate(scene: Scene) -> Motion:
     edges = [*starts, end]
     # the angle of release is given, not rounded through its chart
     phases = tuple(
-        Phase(
-            KINDS[int(a[0])], a[1] * time, b[1] * time, angle_of(a[2], a[3], a[4]), angle_of(b[2], b[3], b[4])
-        )
+        Phase(KINDS[int(a[0])], a[1] * time, b[1] * time, angle_of(a[2], a[3], a[4]), angle_of(b[2], b[3], b[4]))
         for a, b in itertools.pairwise(edges)
     )
     period = final[at.PERIOD] * time if 0 < final[at.PERIOD] < inf else None

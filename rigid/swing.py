@@ -58,9 +58,7 @@ from .slipping import S_MINUS, S_PLUS
 from .tape import ROOM, turn
 
 PHASE_OVER = -1
-LISTED_PERIODS = (
-    2000.0  # of a motion that repeats itself for ever; its turns and pulses after that are not listed
-)
+LISTED_PERIODS = 2000.0  # of a motion that repeats itself for ever; its turns and pulses after that are not listed
 
 
 @kernel

@@ -52,9 +52,7 @@ def rolling_mu_s(hoop: Hoop, release: Release) -> float:
         real = vanishing[np.abs(vanishing.imag) <= 1e-12 * np.abs(vanishing)].real
         if np.any((real >= first) & (real <= last)):
             return inf
-        inside = peaks.real[
-            (np.abs(peaks.imag) <= 1e-6 * np.abs(peaks)) & (peaks.real > first) & (peaks.real < last)
-        ]
+        inside = peaks.real[(np.abs(peaks.imag) <= 1e-6 * np.abs(peaks)) & (peaks.real > first) & (peaks.real < last)]
         for y in (first, *inside, last):
             worst = max(worst, abs(odd(y) / even(y)))
     return worst

@@ -74,9 +74,7 @@ def many_disks(count: int) -> np.ndarray:
 def batch_of(count: int, workers: int | None = None) -> Callable[[], rigid.Batch]:
     """Run so many different scenes at once."""
     ks = many_disks(count)
-    return lambda: simulate_batch(
-        {"k": ks, "mu_s": MU_S, "mu": MU, "phi0": PHI0}, turns=TURNS_ASKED, workers=workers
-    )
+    return lambda: simulate_batch({"k": ks, "mu_s": MU_S, "mu": MU, "phi0": PHI0}, turns=TURNS_ASKED, workers=workers)
 
 
 def _scipy(k: float, method: str, rtol: float) -> Callable[[], Any]:

@@ -26,7 +26,12 @@ def _stiff(stiffness: float) -> Contestant:
 
 def _sized(what: str, size: float, run: Callable[[], object], **more: object) -> Contestant:
     return Contestant(
-        "hoop-pulse", f"{size:g}", what, run, lambda _: (float("nan"), {"size": size}), **more  # type: ignore[arg-type]
+        "hoop-pulse",
+        f"{size:g}",
+        what,
+        run,
+        lambda _: (float("nan"), {"size": size}),
+        **more,  # type: ignore[arg-type]
     )
 
 

@@ -59,9 +59,7 @@ def bench(
 @click.option("--scenes", type=click.IntRange(1, 1_000_000), metavar="N", help="How many scenes; 3000 by default.")
 @click.option("--quick", is_flag=True, help="At most a minute.")
 @click.pass_context
-def stress(
-    ctx: click.Context, as_json: bool, out: Path | None, seed: int, scenes: int | None, quick: bool
-) -> None:
+def stress(ctx: click.Context, as_json: bool, out: Path | None, seed: int, scenes: int | None, quick: bool) -> None:
     """Numerical stability over everything a user can type."""
     from .progress import bar
     from .stress import run_stress

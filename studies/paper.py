@@ -138,9 +138,7 @@ def _section_3_4() -> Iterator[Row]:
             why,
         )
     hoop = load_scene("paper-3.4-rough").hoop
-    yield Row(
-        "3.4", "smallest mu_s that rolls throughout, m_h/m = 0.1", 0.78, rolling_mu_s(hoop, RELEASE), 0.01
-    )
+    yield Row("3.4", "smallest mu_s that rolls throughout, m_h/m = 0.1", 0.78, rolling_mu_s(hoop, RELEASE), 0.01)
 
 
 def _point_mass() -> Iterator[Row]:

@@ -30,4 +30,3 @@ def drift(scene: Scene) -> tuple[Margins, str]:
         "energy drifts": abs(last.energy / first.energy - 1) / 1e-11,
         "period drifts": abs(last.t / expected - 1) / 1e-11,
     }, motion.ended
-

@@ -63,7 +63,7 @@ def test_odd_numbers_survive(tmp_path):
         9,
         {"odd": odd, "vector": np.arange(8.0).reshape(4, 2), "single": odd.astype(np.float32)},
         {"flag": np.array([-3], dtype=np.int32)},
-        {"display_factor": 250.0, "a < \"b\"": np.arange(3)},
+        {"display_factor": 250.0, 'a < "b"': np.arange(3)},
     )
     with SeriesWriter(tmp_path) as writer:
         writer.add(Frame(-1.5, {"ring": block}))

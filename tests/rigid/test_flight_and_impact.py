@@ -190,9 +190,7 @@ def test_release_in_a_jam():
 @pytest.mark.parametrize("restitution", [0.5, 0.9375])
 def test_hops_of_a_tiny_hoop_make_no_energy(k, restitution):
     """phidot reaches 1/k at the floor; on a smooth one xdot_G never changes and each landing takes energy."""
-    motion = simulate(
-        Scene(Hoop(k, 2.0), Friction(0, 0), Release(0, 1.75), Run(turns=2), landing=Landing(restitution))
-    )
+    motion = simulate(Scene(Hoop(k, 2.0), Friction(0, 0), Release(0, 1.75), Run(turns=2), landing=Landing(restitution)))
     assert sum(phase.kind == Kind.FLIGHT for phase in motion.phases) > 3
     energy = motion.at(np.array([(p.t_start + p.t_end) / 2 for p in motion.phases if p.t_end > p.t_start])).energy
     assert np.diff(energy).max() < 1e-12 * energy[0]
