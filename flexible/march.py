@@ -30,12 +30,13 @@ def march(
     h: float = 1e-4,
     largest_step: float = 0.05,
     max_steps: int = 50_000,
-    progress: Callable[[State], None] | None = None,
+    progress: Callable[[State], object] | None = None,
     keep: Callable[[State], None] | None = None,
 ) -> tuple[State, list[Record], int, str]:
     """March until ``done(state)`` turns positive; that instant is located.
 
-    ``keep`` is given the state behind every record.
+    ``progress`` is told every state that was reached, and stops the march by a true answer; ``keep`` is given the state
+    behind every record.
 
     Returns
     -------
@@ -88,10 +89,11 @@ def march(
         books.off_floor += trial.off_floor
         state = trial.state
         note(state)
-        if progress is not None:
-            progress(state)
+        asked = progress is not None and progress(state)
         if done(state) >= 0:
             return state, records, attempts, ""
+        if asked:
+            return state, records, attempts, f"stopped at t = {state.t:.6g}, as asked"
         if event is not None:
             mode = STICK if state.mode != STICK else (1 if state.res[FRICTION] > 0 else -1)
             try:

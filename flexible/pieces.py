@@ -143,10 +143,9 @@ class Builder:
         """:func:`march.march`, watching the ring's range, and the states if they are to be kept."""
         progress = options.pop("progress", None)
 
-        def watch(now: State) -> None:
+        def watch(now: State) -> object:
             self.range(now)
-            if progress is not None:
-                progress(now)
+            return progress is not None and progress(now)
 
         states: list[State] = []
         if self.kept is not None:

@@ -27,7 +27,7 @@ from .state import State
 from .trial import MarchError
 from .units import dimensionless
 
-Progress = Callable[[float], None]
+Progress = Callable[[float], object]
 
 LEAD = 0.5  # a flexible stretch begins this many pulse lengths before the pulse, to let its start settle
 
@@ -38,7 +38,7 @@ class _Progress:
     def __init__(self, report: Progress | None) -> None:
         self.report = report
 
-    def watch(self, low: float, high: float, fraction: Callable[[State], float]) -> Callable[[State], None] | None:
+    def watch(self, low: float, high: float, fraction: Callable[[State], float]) -> Callable[[State], object] | None:
         if self.report is None:
             return None
         report = self.report
@@ -54,7 +54,7 @@ def simulate(scene: Scene, *, history: bool = False, progress: Progress | None =
     history : bool
         Keep every step, as ``motion.history``, and the ring's states, of which fields are made.
     progress : callable, optional
-        Called with the fraction done, 0 to 1.
+        Called with the fraction done, 0 to 1; the motion ends where it answers with something true.
 
     Returns
     -------
@@ -185,13 +185,12 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
 
     report = progress.watch(0.0, 1.0, lambda s: s.t / horizon)
 
-    def watch(s: State) -> None:
+    def watch(s: State) -> object:
         if counted["omega"] * s.vel[2] < 0:
             counted["turns"] += 1
         if s.vel[2] != 0:
             counted["omega"] = float(s.vel[2])
-        if report is not None:
-            report(s)
+        return report is not None and report(s)
 
     state, records, attempts, trouble = builder.march(hoop, state, finished, scene.solve.rtol, progress=watch)
     stretch = builder.add_flexible(records, attempts)

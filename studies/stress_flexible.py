@@ -9,7 +9,7 @@ from math import isfinite, isnan
 import numpy as np
 
 from flexible import FlexibleMotion, simulate
-from rigid import Scene
+from rigid import Kind, Release, Scene
 
 from .stress_checks import NO, Margins, in_si, listed, mirrored
 
@@ -67,27 +67,53 @@ def _apart(a: np.ndarray, b: np.ndarray) -> float:
     return float(np.abs(a - b).max(initial=0.0) / max(1.0, np.abs(a).max(initial=0.0)))
 
 
-def flexible_margins(scene: Scene, thorough: bool, watch: Callable[[float], None]) -> tuple[Margins, str]:
+def _again(motion: FlexibleMotion, watch: Callable[[float], bool]) -> Margins:
+    """Mirrored, in SI units and restarted, as long as there is time.
+
+    A rerun may take other steps: it agrees as the tolerance promises, not to round-off.
+    """
+    scene = motion.scene
+    si = in_si(scene)
+    others = {"mirrored": (mirrored(scene), (1, -1)), "in SI units": (si, 1 / si.impulse_unit)}
+    later = _from_the_middle(motion)
+    if later is not None:
+        others["restarted"] = (later, 1)
+    margins = {}
+    for name, (other, units) in others.items():
+        again = simulate(other, progress=watch)
+        if watch(0.0):
+            break
+        margins[name] = _apart(_measures(motion), _measures(again) * units) / _allowed(scene)
+    return margins
+
+
+def _from_the_middle(motion: FlexibleMotion) -> Scene | None:
+    """The scene released in the middle of the rolling or slipping that the rigid hoop does before the first pulse."""
+    scene, first = motion.scene, motion.phases[0]
+    before = first.t_end < motion.pulses[0].t_start and first.kind in (Kind.ROLL, Kind.SKID, Kind.SPIN)
+    if scene.solve.resolve != "pulses" or scene.run.until != "pulse" or not before:
+        return None
+    state = motion.at(first.t_end / 2)
+    return scene.replace(release=Release(float(state.phi), float(state.omega), float(state.slip_velocity)))
+
+
+def flexible_margins(scene: Scene, thorough: bool, watch: Callable[[float], bool]) -> tuple[Margins, str]:
     """All checks of a flexible scene, and how it ended.
 
-    ``watch`` is called in every step and may stop the run.
+    ``watch`` is asked in every step; a run that it stops is checked as far as it went.
     """
     motion = simulate(scene, history=True, progress=watch)
     margins = listed(motion)
     if not any(margins.values()):
         margins |= _history(motion) | _ledger(motion)
-        if thorough and motion.pulses:
-            # a rerun may take other steps: it agrees as the tolerance promises, not to round-off
-            allowed = _allowed(scene)
-            other = simulate(mirrored(scene), progress=watch)
-            margins["mirrored"] = _apart(_measures(motion), _measures(other) * (1, -1)) / allowed
-            si = in_si(scene)
-            other = simulate(si, progress=watch)
-            margins["in SI units"] = _apart(_measures(motion), _measures(other) / si.impulse_unit) / allowed
+        if thorough and motion.pulses and not watch(0.0):
+            margins |= _again(motion, watch)
     return {name: NO if isnan(value) else max(value, 0.0) for name, value in margins.items()}, motion.ended
 
 
-def against_all_nodes(scene: Scene, watch: Callable[[float], None]) -> Margins:
+def against_all_nodes(scene: Scene, watch: Callable[[float], bool]) -> Margins:
     """The normal impulse of the reduced hoop beside that of all nodes."""
     reduced, full = (simulate(scene.replace(solve={"level": level}), progress=watch) for level in ("reduced", "full"))
+    if watch(0.0):
+        return {}
     return {"all nodes": _apart(_measures(reduced), _measures(full)) / (_allowed(scene) + 3e-3)}

@@ -227,3 +227,22 @@ def test_ends_at_the_instant_asked_for(t_end):
     """The last step is cut to it, not taken whole."""
     motion = flexible.simulate(HOOP.replace(run={"t_end": t_end}, solve={"resolve": "all"}), history=True)
     assert motion.history.t[-1] == pytest.approx(t_end, abs=1e-8)
+
+
+def test_a_motion_ends_where_progress_asks_it_to():
+    """What was reached by then is whole: its books are closed at the last step."""
+    told = []
+
+    def halfway(fraction):
+        told.append(fraction)
+        return fraction > 0.3
+
+    scene = rigid.load_scene("paper-3.1").replace(run={"until": "pulse"}, solve={"rtol": 1e-2})
+    motion = flexible.simulate(scene, progress=halfway)
+    assert not motion.completed
+    assert "as asked" in motion.ended
+    assert told[-2] <= 0.3 < told[-1]
+    books = motion.ledger
+    held = books.kinetic + books.gravity + books.ring_strain + books.contact_spring
+    lost = books.friction_loss + books.damping_loss + books.numerical_loss
+    assert held + lost == pytest.approx(books.initial + books.hand_over, abs=1e-12)
