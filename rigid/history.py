@@ -33,7 +33,7 @@ from .pointmass import drop, roll_point_mass
 from .polynomial import polish, value
 from .pulse import energy
 from .rolling import rolling_forces
-from .slide import carry, end_of_slip, step
+from .slide import NOTHING_YET, carry, end_of_slip, step
 from .slipping import JAM, ORDER, S_D, S_P, S_T, normal_force
 from .swing import roll_on
 
@@ -78,7 +78,7 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
                 duration = value(tt, ORDER, length)
                 before = state[T]
                 steps += 1
-                if event > 0 and before + duration < times[i]:
+                if event != NOTHING_YET and before + duration < times[i]:
                     # the last digits of the phase: near a jam the slip stops within them
                     carry(par, state, mu_hat, work, length)
                     duration = inf

@@ -73,6 +73,9 @@ from .slipping import (
 from .swing import PHASE_OVER
 from .tape import ROOM, turn
 
+# what a step is cut at
+NOTHING_YET, STOPS, LIFTS, TIME_IS_UP, TURNS_BACK, AT_BOTTOM, AT_WEIGHT = range(7)
+
 
 @kernel
 def peak_force(gyr, work, length):
@@ -164,14 +167,14 @@ def step(par, state, mu_hat, p_known, work):
 
 @kernel
 def end_of_slip(work, length, sign):
-    """(how far, event): 1 where the slip stops, 2 where the contact point lifts off, 0 if neither is in this step."""
-    event = 0
+    """(how far, event): where the slip stops or the contact point lifts off; ``NOTHING_YET`` if neither happens."""
+    event = NOTHING_YET
     x = first_crossing(work[S_SLIP], ORDER, length, sign)
     if x >= 0:
-        length, event = x, 1
+        length, event = x, STOPS
     x = first_crossing(work[S_B], ORDER, length, 1.0)
     if x >= 0:
-        length, event = x, 2
+        length, event = x, LIFTS
     return length, event
 
 
@@ -206,54 +209,54 @@ def slide(par, state, work, tape):
             x = first_crossing(tt, ORDER, length, -1.0)
             tt[0] = 0.0
             if x >= 0:
-                length, event = x, 3
+                length, event = x, TIME_IS_UP
         heading = om[0] if om[0] != 0.0 else om[1]
         x = first_crossing(om, ORDER, length, 1.0 if heading > 0 else -1.0)
         if x > 0:
-            length, event = x, 4
+            length, event = x, TURNS_BACK
         if state[TOP] == 0.0:
             a = state[ANGLE]
             # sin phi has the sign of -a
             side = a if a != 0.0 else heading
             x = first_crossing(work[S_SIN], ORDER, length, -1.0 if side > 0 else 1.0)
             if x > 0:
-                length, event = x, 5
+                length, event = x, AT_BOTTOM
         if at_edge:
             n1[0] = 0.0
         x = first_crossing(n1, ORDER, length, 1.0 if state[P_OPEN] != 0.0 else -1.0)
         if x > 0 or (x == 0.0 and not at_edge):
-            length, event = x, 6
+            length, event = x, AT_WEIGHT
         at_edge = False
         if state[P_OPEN] != 0.0:
             state[P_PEAK] = max(state[P_PEAK], peak_force(gyr, work, length))
         p_known = value(work[S_P], ORDER, length)
         if length > 0.0:
             carry(par, state, mu_hat, work, length)
-        if event == 1:
+        if event == STOPS:
             state[SLIP] = 0.0
         # without friction the slip stops where the hoop turns, to the last digit
-        if event == 4 or (state[OMEGA] == 0.0 and om[0] != 0.0):
+        if event == TURNS_BACK or (state[OMEGA] == 0.0 and om[0] != 0.0):
             state[OMEGA] = 0.0
             state[LOSSLESS_TURNS] += 1.0
             whirled = 0
             if turn(par, state, tape):
                 return TURNS_REACHED
-        if event == 1:
+        if event == STOPS:
             return PHASE_OVER
-        if event == 2:
+        if event == LIFTS:
             state[GAP] = 0.0
             state[UN] = 0.0
             state[MODE] = FLIGHT
             return PHASE_OVER
-        if event == 3:
+        if event == TIME_IS_UP:
             state[T] = par[T_END]
             return TIME_REACHED
-        if event == 5:
+        if event == AT_BOTTOM:
             state[ANGLE] = 0.0
             state[LOSSLESS_TURNS] += 0.5
             whirled += 1
             cross_bottom(state)
-        elif event == 6:
+        elif event == AT_WEIGHT:
             at_edge = True
             if watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, tape) and par[UNTIL] == FIRST_PULSE:
                 return PULSE_OVER
