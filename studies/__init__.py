@@ -9,5 +9,6 @@
 ``solvers``    the solvers by name; a third one is one adapter
 ``figures``    curves through a pulse;  ``study_figures``  those of a study;  ``style``  how they look
 ``report``     the page
+``bench``      run time against error;  ``stress``  thousands of scenes and what must hold of them
 ``cli``        ``hoop ...``
 """

@@ -11,7 +11,7 @@ import click
 from .files import folder, to_json, write_text
 
 if TYPE_CHECKING:
-    from .benchmark import Result
+    from .bench.race import Result
 
 
 @click.command()
@@ -29,18 +29,18 @@ def bench(
     from .progress import bar
 
     target = folder(out) if out is not None else None
-    run = importlib.import_module(f".bench_{what}", __package__).bench
+    run = importlib.import_module(f".bench.{what}", __package__).bench
     with bar(f"bench {what}") as progress:
         result: Result = run(quick, peers_too, progress)
     if target is not None:
-        from .bench_figures import draw
+        from .bench.figures import draw
 
         write_text(target / f"bench-{what}.json", to_json(result.to_dict()))
         draw(what, result, target)
     if as_json:
         click.echo(to_json(result.to_dict()))
     else:
-        from .bench_tables import bench_tables
+        from .bench.tables import bench_tables
         from .tables import show
 
         show(*bench_tables(result))
@@ -62,13 +62,13 @@ def bench(
 def stress(ctx: click.Context, as_json: bool, out: Path | None, seed: int, scenes: int | None, quick: bool) -> None:
     """Numerical stability over everything a user can type."""
     from .progress import bar
-    from .stress import run_stress
+    from .stress.run import run_stress
 
     target = folder(out) if out is not None else None
     with bar("stress") as progress:
         report = run_stress(scenes, seed, quick, progress)
     if target is not None:
-        from .stress_figures import draw
+        from .stress.figures import draw
 
         write_text(target / "stress.json", to_json(report.to_dict()))
         draw(report, target)

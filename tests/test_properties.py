@@ -25,7 +25,7 @@ from rigid import (
     simulate,
     simulate_batch,
 )  # fmt: skip
-from studies import stress_checks as checks
+from studies.stress import checks
 
 fractions = st.floats(0, 1)
 

@@ -10,9 +10,9 @@ from math import isfinite
 import pytest
 from command_line import is_one_sentence
 
-from studies import bench_reference, peers, precision, precision_values
-from studies.bench_rigid import scene_of, worst
-from studies.benchmark import Claim, Contestant, exponent, race
+from studies.bench import peers, precision, precision_values, reference
+from studies.bench.race import Claim, Contestant, exponent, race
+from studies.bench.rigid import scene_of, worst
 
 
 @pytest.mark.parametrize("k", precision.DISKS)
@@ -55,15 +55,15 @@ def test_the_peer_converges_to_the_reference():
 def test_all_nodes_are_found_again():
     """One entry of the flexible reference, to the digits that another processor leaves."""
     key = (120, 1e-3, 24)
-    again = bench_reference.run_all_nodes(*key)
-    error, peak = bench_reference.errors(again, bench_reference.ALL_NODES[key])
+    again = reference.run_all_nodes(*key)
+    error, peak = reference.errors(again, reference.ALL_NODES[key])
     assert error < 1e-4
     assert peak < 1e-3
 
 
 def test_the_limit_lies_beyond_the_finest_run_and_near_the_peers():
     """J_N 2.149 ± .003, J_F/J_N -.0029 ± .0003, loss .0113 ± .0004 of three other codes (R0 = 1)."""
-    true, R = bench_reference.limit(), bench_reference.R
+    true, R = reference.limit(), reference.R
     assert true.normal_impulse * R**0.5 == pytest.approx(2.149, abs=0.003)
     assert true.friction_loss * R == pytest.approx(0.0113, abs=0.0004)
 
@@ -102,8 +102,8 @@ def test_bench_rigid_as_json_with_its_figure(tmp_path):
 
 
 def test_check_ends_with_one_when_a_ratio_does_not_hold(hoop, monkeypatch):
-    from studies import bench_rigid
-    from studies.benchmark import Result
+    from studies.bench import rigid as bench_rigid
+    from studies.bench.race import Result
 
     monkeypatch.setattr(bench_rigid, "bench", lambda *_: Result(claims=[Claim("faster", 80, 100)]))
     status, _, err = hoop("bench", "rigid", "--check")

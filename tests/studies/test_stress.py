@@ -8,14 +8,14 @@ import tomllib
 import pytest
 
 from rigid import scene_from_dict
-from studies import stress, stress_checks, stress_draws
-from studies.stress import Finding, Report
+from studies.stress import checks, draws, run
+from studies.stress.run import Finding, Report
 
 
 def test_scenes_are_seeded_and_spread():
-    first, again = (list(stress_draws.flexible_scenes(256, 3)) for _ in range(2))
+    first, again = (list(draws.flexible_scenes(256, 3)) for _ in range(2))
     assert first == again
-    assert first != list(stress_draws.flexible_scenes(256, 4))
+    assert first != list(draws.flexible_scenes(256, 4))
     for quantity, low, high in (
         (lambda s: s.hoop.k, 1e-7, 0.9),
         (lambda s: s.hoop.mass_ratio, 0, 30),
@@ -29,7 +29,7 @@ def test_scenes_are_seeded_and_spread():
 
 
 def test_a_failure_prints_a_scene_that_can_be_run_again():
-    scene = next(stress_draws.flexible_scenes(1, 0))
+    scene = next(draws.flexible_scenes(1, 0))
     text = Finding("flexible", 0, scene, "ended", 0.1, {"energy": 3.0}).text()
     assert scene_from_dict(tomllib.loads(text)) == scene
     assert "energy by 3" in text
@@ -42,29 +42,29 @@ def test_what_is_wrong_is_found(monkeypatch):
     from rigid import load_scene, simulate
 
     motion = simulate(load_scene("paper-3.1"))
-    assert max(stress_checks.sampled(motion).values()) < 1
+    assert max(checks.sampled(motion).values()) < 1
     turn = dataclasses.replace(motion.turns[1], energy=motion.turns[0].energy + 1e-6)
     wrong = dataclasses.replace(motion, turns=(motion.turns[0], turn))
-    assert stress_checks.sampled(wrong)["energy"] > 1
-    assert stress_checks.listed(dataclasses.replace(motion, phases=motion.phases[::-1]))["in order"] > 1
+    assert checks.sampled(wrong)["energy"] > 1
+    assert checks.listed(dataclasses.replace(motion, phases=motion.phases[::-1]))["in order"] > 1
     lost = dataclasses.replace(motion.turns[0], t=float("nan"))
-    assert stress_checks.listed(dataclasses.replace(motion, turns=(lost,)))["finite"] > 1
+    assert checks.listed(dataclasses.replace(motion, turns=(lost,)))["finite"] > 1
 
 
 def test_a_crash_and_a_run_without_end_are_told():
-    scene = next(stress_draws.rigid_scenes(1, 0))
+    scene = next(draws.rigid_scenes(1, 0))
 
     def crash(*_: object) -> tuple[dict[str, float], str]:
         raise ZeroDivisionError("by zero")
 
-    def endless(_: object, watch: stress.Watch, __: int) -> tuple[dict[str, float], str]:
+    def endless(_: object, watch: run.Watch, __: int) -> tuple[dict[str, float], str]:
         while True:
             watch(0.0)
 
-    crashed = stress._find(stress.FLEXIBLE, 0, scene, 1.0, crash)
+    crashed = run._find(run.FLEXIBLE, 0, scene, 1.0, crash)
     assert crashed.failed
     assert "ZeroDivisionError" in crashed.text()
-    cut = stress._find(stress.FLEXIBLE, 0, scene, 0.01, endless)
+    cut = run._find(run.FLEXIBLE, 0, scene, 0.01, endless)
     assert cut.cut
     assert not cut.failed
     assert len(Report(0, [crashed, cut]).failures) == 1
@@ -84,5 +84,5 @@ def test_quick_stress(hoop, tmp_path):
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2])
 def test_other_sequences(seed):
-    report = stress.run_stress(scenes=600, seed=seed)
+    report = run.run_stress(scenes=600, seed=seed)
     assert not report.failures, report.text()

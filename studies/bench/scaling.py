@@ -9,9 +9,9 @@ import flexible
 from rigid import Release, load_scene, simulate
 from rigid.solve import PATIENCE
 
-from . import bench_reference as reference
-from .bench_rigid import batch_of
-from .benchmark import Claim, Contestant, Result, Row, exponent, race
+from . import reference
+from .race import Claim, Contestant, Result, Row, exponent, race
+from .rigid import batch_of
 
 STIFFNESS, CYCLES, PULSES, MESH, BATCH, WORKERS, STEPS = (
     "foundation", "turns (rigid)", "turns (flexible)", "elements", "scenes in a batch", "workers", "time of one run",

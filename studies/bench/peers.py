@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .files import StudyError
+from ..files import StudyError
 
 Array = NDArray[np.float64]
 METHODS = ("DOP853", "LSODA", "Radau")

@@ -6,7 +6,7 @@ from math import radians
 
 from rigid import Friction, Hoop, Release, Run, Scene, simulate
 
-from .stress_checks import Margins
+from .checks import Margins
 
 CYCLES = 1000
 HOOPS = {

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from .bench_reference import END_OF_A
+from .reference import END_OF_A
 
 R, K, RING_MASS, MU = 1.02, 0.1, 0.1, 0.3
 YOUNG = 1e8 / R

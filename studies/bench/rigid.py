@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from math import inf
 from typing import Any
 
@@ -12,9 +13,9 @@ import rigid
 from rigid import Friction, Hoop, Release, Run, Scene, simulate, simulate_batch, solve
 
 from . import peers
-from .benchmark import Claim, Contestant, Result, Row, race
 from .precision import DISKS, MU, MU_S, PHI0
 from .precision_values import TURNS
+from .race import Claim, Contestant, Result, Row, race
 
 TURNS_ASKED = 2
 TOLERANCES = (1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
@@ -125,9 +126,28 @@ def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[floa
     batch.seconds = [seconds / count for seconds in batch.seconds]
     batch.note = "per scene"
     rows.append(batch)
+    if peers_too and peers.installed("exudyn"):
+        rows += race(_exudyn(), 1)
     if peers_too:
         rows += [_absent(name) for name in ("exudyn", "pydrake") if not peers.installed(name)]
+        if peers.installed("pydrake"):
+            note = "no setting of its contact was found that comes within 10 degrees of the first turn"
+            rows.append(Row("pydrake", "-", "-", [], note=note))
     return Result(rows, _claims(rows, batch))
+
+
+def _exudyn() -> list[Contestant]:
+    """Exudyn's roll, for the disk of section 3.1 (smaller ones want smaller steps than anyone would wait for)."""
+    from .exudyn_roll import SETTINGS, roll_turns
+
+    k = DISKS[0]
+    return [
+        Contestant(
+            "exudyn", str(setting), f"k = {k:g}", partial(roll_turns, k, MU_S, MU, PHI0, TURNS_ASKED, setting),
+            partial(worst, k), repeats=1, memory=False,
+        )
+        for setting in SETTINGS
+    ]  # fmt: skip
 
 
 def _absent(name: str) -> Row:

@@ -11,7 +11,7 @@ import numpy as np
 from flexible import FlexibleMotion, simulate
 from rigid import Kind, Release, Scene
 
-from .stress_checks import NO, Margins, in_si, listed, mirrored
+from .checks import NO, Margins, in_si, listed, mirrored
 
 _LOOSE = 30.0  # times rtol: what the error control, which works on the impulses step by step, may leave at the end
 

@@ -12,8 +12,8 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from .benchmark import Result, Row
-from .figures import OKABE_ITO, STYLE, save
+from ..figures import OKABE_ITO, STYLE, save
+from .race import Result, Row
 
 _MARKERS = "osv^DPX*<>h"
 _COLOURS = [colour for name, colour in OKABE_ITO.items() if name != "contact_spring"]

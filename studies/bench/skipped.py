@@ -11,8 +11,8 @@ from typing import Any
 import flexible
 from rigid import Scene, load_scene
 
-from . import bench_reference as reference
-from .benchmark import Contestant, Row, race, wall_of
+from . import reference
+from .race import Contestant, Row, race, wall_of
 
 SCENE = "skipped"
 

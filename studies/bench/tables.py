@@ -7,7 +7,7 @@ from typing import Any
 
 from rich.table import Table
 
-from .benchmark import Result
+from .race import Result
 
 
 def _number(value: float, digits: int = 3) -> str:

@@ -1,7 +1,4 @@
-"""`hoop stress`: thousands of scenes over everything a user can type, each with a bound on its work.
-
-``stress_draws``  the scenes;  ``stress_checks``, ``stress_flexible``  what must hold;  ``stress_figures``  the map
-"""
+"""Scenes are drawn, run in processes and checked; whatever happens to one is told with the scene."""
 
 from __future__ import annotations
 
@@ -17,8 +14,8 @@ from typing import Any
 
 from rigid import Scene
 
-from .stress_checks import Margins, toml
-from .workers import cores
+from ..workers import cores
+from .checks import Margins, toml
 
 RIGID, FLEXIBLE, CYCLES = "rigid", "flexible", "cycles"
 THOROUGH = 5  # one rigid scene in so many is also integrated in time
@@ -172,22 +169,22 @@ def _find(solver: str, number: int, scene: Scene, seconds: float, check: Check) 
 
 def run_chunk(kind: str, seed: int, count: int, low: int, high: int, seconds: float, quick: bool) -> list[Finding]:
     """Scenes ``low`` to ``high`` of a sequence of ``count``, in this process."""
-    from . import stress_checks, stress_cycles, stress_draws
+    from . import checks, cycles, draws
 
     if kind == CYCLES:
         return [
-            _find(CYCLES, number, scene, seconds, lambda scene, *_: stress_cycles.drift(scene))
-            for number, scene in enumerate(stress_cycles.HOOPS.values())
+            _find(CYCLES, number, scene, seconds, lambda scene, *_: cycles.drift(scene))
+            for number, scene in enumerate(cycles.HOOPS.values())
         ]
     if kind == RIGID:
         _warm(RIGID)
-        scenes = islice(enumerate(stress_draws.rigid_scenes(count, seed)), low, high)
+        scenes = islice(enumerate(draws.rigid_scenes(count, seed)), low, high)
 
         def check(scene: Scene, watch: Watch, number: int) -> tuple[Margins, str]:
-            return stress_checks.rigid_margins(scene, number % THOROUGH == 0)
+            return checks.rigid_margins(scene, number % THOROUGH == 0)
     else:
         _warm(FLEXIBLE)
-        scenes = islice(enumerate(stress_draws.flexible_scenes(count, seed)), low, high)
+        scenes = islice(enumerate(draws.flexible_scenes(count, seed)), low, high)
 
         def check(scene: Scene, watch: Watch, number: int) -> tuple[Margins, str]:
             return _flexible(scene, number, quick, watch)
@@ -212,12 +209,12 @@ def _warm(kind: str) -> None:
 
 
 def _flexible(scene: Scene, number: int, quick: bool, watch: Watch) -> tuple[Margins, str]:
-    from . import stress_flexible
+    from . import flexible
 
-    margins, ended = stress_flexible.flexible_margins(scene, number % TWICE == 0, watch)
+    margins, ended = flexible.flexible_margins(scene, number % TWICE == 0, watch)
     if not quick and number % ALL_NODES == 0 and not watch(0.0):
         coarse = scene.replace(solve={"rtol": max(scene.solve.rtol, 1e-3), "elements": min(scene.solve.elements, 72)})
-        margins |= stress_flexible.against_all_nodes(coarse, watch)
+        margins |= flexible.against_all_nodes(coarse, watch)
     return margins, ended
 
 

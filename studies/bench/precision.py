@@ -4,7 +4,8 @@ In units R = g = m = 1 for the massless hoop with r = 1, so e = 1 - k and K = k^
 c = cos(phi): rolling obeys (1 + e^2 + K + 2 e c) phidd = e s (1 + w), slipping with friction -mu^ N
 D phidd = (e s + mu^ (1 + e c)) (1 - e c w), D = K + e s (e s + mu^ (1 + e c)), N = K (1 - e c w)/D.
 
-Its numbers are kept in :mod:`studies.precision_values`; ``python -m studies.precision`` prints that module anew.
+Its numbers are kept in :mod:`studies.bench.precision_values`; ``python -m studies.bench.precision`` prints that
+module anew.
 """
 
 from __future__ import annotations
@@ -223,14 +224,14 @@ def integrate(k: float, turns: int = 2) -> Trace:
 
 
 def module_text(traces: dict[float, Trace]) -> str:
-    """The source of :mod:`studies.precision_values`."""
+    """The source of :mod:`studies.bench.precision_values`."""
     from mpmath import nstr
 
     lines = [
         '"""Turns (t, phi, slip velocity, energy) and pulses (J_N, J_F, friction loss) by disk radius k.',
         "",
         "Massless hoop, r = 1, mu_s = 0.35, mu = 0.3, from rest at 10 degrees; R = m = g = 1. Printed by",
-        "``python -m studies.precision``, which integrates with forty digits.",
+        "``python -m studies.bench.precision``, which integrates with forty digits.",
         '"""',
         "",
     ]

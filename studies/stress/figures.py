@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 
 from rigid import Scene
 
-from .figures import STYLE, save
-from .stress import FLEXIBLE, RIGID, Finding, Report
+from ..figures import STYLE, save
+from .run import FLEXIBLE, RIGID, Finding, Report
 
 _FLOOR = 1e-8  # margins below this are drawn as this
 Axis = tuple[str, Callable[[Scene], float]]

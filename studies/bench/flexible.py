@@ -9,10 +9,10 @@ from typing import Any
 import flexible
 from rigid import Motion, Scene
 
-from . import bench_reference as reference
-from .bench_skipped import skipped
-from .benchmark import Claim, Contestant, Result, Row, race
+from . import reference
 from .peers import installed
+from .race import Claim, Contestant, Result, Row, race
+from .skipped import skipped
 
 SCENE_A, SCENE_B, MASSLESS = "scene A, full roll", "scene B, pulse", "massless pulse"
 BEST = "rtol 1e-03"
@@ -93,7 +93,7 @@ def contestants_rest(quick: bool) -> list[Contestant]:
 
 def _exudyn(quick: bool) -> list[Contestant]:
     """Exudyn's beam ring, where it is installed."""
-    from .peers_exudyn import turn
+    from .exudyn_ring import turn
 
     true = reference.limit()
 

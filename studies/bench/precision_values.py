@@ -1,7 +1,7 @@
 """Turns (t, phi, slip velocity, energy) and pulses (J_N, J_F, friction loss) by disk radius k.
 
 Massless hoop, r = 1, mu_s = 0.35, mu = 0.3, from rest at 10 degrees; R = m = g = 1. Printed by
-``python -m studies.precision``, which integrates with forty digits.
+``python -m studies.bench.precision``, which integrates with forty digits.
 """
 
 TURNS: dict[float, tuple[tuple[str, ...], ...]] = {

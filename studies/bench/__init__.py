@@ -1,0 +1,8 @@
+"""`hoop bench`: run time against error, and the ratios that are stated.
+
+``rigid``, ``flexible``, ``scaling``  what is timed, each with its claims;  ``skipped``  what each thing skipped saves
+``race``                              contestants in turns, rows, claims
+``precision``, ``reference``          what is taken for true: forty digits, all nodes in the limit
+``peers``, ``exudyn_roll``, ``exudyn_ring``  the same scenes by other tools
+``tables``, ``figures``               how it is shown
+"""
