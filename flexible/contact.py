@@ -30,9 +30,11 @@ from .points import element_at, gather, vertex_angle
 # positions in the array of contact parameters
 SPACING, EPS_N, EPS_T, MU_S, MU = range(5)
 # positions in the array of resultants: forces, energies, length of the patch and how much of it sticks, mean move in
-# the step, angles psi of its ends, whether it left the window, elastic normal force, damping factor, damping drag
+# the step, angles psi of its ends, whether it left the window, elastic normal force, damping factor, damping drag,
+# mean way along the floor in the step, and the work of the bristles beyond their mean force times that
 NORMAL, FRICTION, NORMAL_ENERGY, BRISTLE_ENERGY, LENGTH, STUCK, SLIP, LOW, HIGH, OUTSIDE, ELASTIC, ETA, DRAG = range(13)
-RESULTANTS = 13
+WAY, BEYOND = 13, 14
+RESULTANTS = 15
 
 UNDAMPED = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 1.0])
 
@@ -231,8 +233,8 @@ def contact_forces(
         Spacing, eps_n, eps_t, mu_s, mu.
     mode : int
         STICK, SLIDE_RIGHT or SLIDE_LEFT for the patch law, BRUSH for the brush.
-    bristles, flags : (m, 2), (m,) arrays
-        Number and stretch of each point in contact at the beginning of the step, ascending; sliding or not.
+    bristles, flags : (m, 3), (m,) arrays
+        Number, stretch and force of each point in contact at the beginning of the step, ascending; sliding or not.
     damper : (6,) array
         (rho, N_0, eta_0, c, x_0, r): pressures are eta times the elastic ones, eta = eta_0 + rho (N_el - N_0)/N_el, at
         least 0; a sticking patch drags with -c (x - x_0), shared like the pressure, x its mean move in the step.
@@ -261,7 +263,7 @@ def contact_forces(
     total = points.gap.shape[0]
     if total == 0:
         nothing = np.zeros((size, size))
-        return np.zeros(3), np.zeros((nodes, 2)), nothing, res, np.empty((0, 2)), np.empty(0, np.int8)
+        return np.zeros(3), np.zeros((nodes, 2)), nothing, res, np.empty((0, 3)), np.empty(0, np.int8)
 
     foundation = press(points.gap, points.last, eps_n, spacing)
     elastic = foundation.force.sum()
@@ -277,6 +279,10 @@ def contact_forces(
     along, up = _directions(points)
     s, c = sin(phi), cos(phi)
     slip = (foundation.force * points.move).sum() / elastic if elastic > 0 else 0.0
+    held = tractions.force.copy()
+    mean_way = slip
+    if elastic > 0:
+        mean_way += (phi - old_pose[2]) * (foundation.force * 2 * np.sin(points.psi / 2) ** 2).sum() / elastic
     dragging = mode == STICK and elastic > 0 and damper[3] > 0
     drag = 0.0
     if dragging:  # shared over the patch like the pressure
@@ -326,6 +332,8 @@ def contact_forces(
     res[LENGTH] = foundation.length
     res[STUCK] = tractions.stuck / foundation.length if foundation.length > 0 else 0.0
     res[SLIP], res[ELASTIC], res[ETA], res[DRAG] = slip, elastic, eta, drag
+    res[WAY] = mean_way
+    res[BEYOND] = ((carried.pull + held) * (carried.way - carried.part * mean_way)).sum() / 2
     active = 0
     for i in range(total):
         if points.gap[i] < 0:
@@ -340,11 +348,12 @@ def contact_forces(
                 before = i > 0 and not points.last[i - 1] and points.gap[i - 1] < 0
                 behind = i + 1 < total and not points.last[i] and points.gap[i + 1] < 0
                 keeps[i] = before or behind
-    kept, kept_flags = np.empty((keeps.sum(), 2)), np.empty(keeps.sum(), np.int8)
+    kept, kept_flags = np.empty((keeps.sum(), 3)), np.empty(keeps.sum(), np.int8)
     n = 0
     for i in range(total):
         if keeps[i]:
-            kept[n, 0], kept[n, 1], kept_flags[n] = points.number[i], carried.stretch[i], carried.sliding[i]
+            kept[n, 0], kept[n, 1], kept[n, 2] = points.number[i], carried.stretch[i], held[i]
+            kept_flags[n] = carried.sliding[i]
             n += 1
     return forces[:3].copy(), forces[3:].copy().reshape(nodes, 2), tangent, res, kept, kept_flags
 

@@ -28,6 +28,9 @@ Bristles = namedtuple(
         "by_phi",  # by phi, through the instant of entry
         "touched",  # whether the point has touched the floor in this visit
         "sliding",  # direction in which friction pushes a sliding point, 0 while it sticks
+        "way",  # along the floor since the step began or the point touched, rolling included
+        "part",  # of the step, for which it has done so
+        "pull",  # tangential force on the point when the step began
     ],
 )
 
@@ -76,6 +79,7 @@ def carry(points: Any, kept: Any, flags: Any, dphi: float, ratio: float, start: 
     stretch, rate = np.zeros(total), np.zeros(total)
     by_gap, by_phi = np.zeros(total), np.zeros(total)
     touched, sliding = np.zeros(total, np.bool_), np.zeros(total, np.int8)
+    way, part, pull = np.zeros(total), np.zeros(total), np.zeros(total)
     p = 0
     for i in range(total):
         j, move = points.number[i], points.move[i]
@@ -83,7 +87,8 @@ def carry(points: Any, kept: Any, flags: Any, dphi: float, ratio: float, start: 
             p += 1
         if p < kept.shape[0] and kept[p, 0] == j:
             touched[i] = True
-            stretch[i] = kept[p, 1] + move + points.rolled[i]
+            way[i], part[i], pull[i] = move + points.rolled[i], 1.0, kept[p, 2]
+            stretch[i] = kept[p, 1] + way[i]
             rate[i] = 1.0
             sliding[i] = flags[p]
             continue
@@ -96,14 +101,15 @@ def carry(points: Any, kept: Any, flags: Any, dphi: float, ratio: float, start: 
             psi_in = psi - rest * dphi
             lift, lift_in = 2 * sin(psi / 2) ** 2, 2 * sin(psi_in / 2) ** 2
             rolled = rest * dphi - 2 * cos((psi + psi_in) / 2) * sin(rest * dphi / 2)
-            stretch[i] = rolled + rest * (ending - (ending - move) * rest)
+            way[i] = stretch[i] = rolled + rest * (ending - (ending - move) * rest)
+            part[i] = rest
             rate[i] = rest * (ratio - (ratio - 1) * rest)
             by_fraction = -(ending - 2 * (ending - move) * rest) - lift_in * dphi
             by_gap[i] = by_fraction * d_gap
             by_phi[i] = by_fraction * d_sweep * 2 * dphi + (1 - rate[i]) * lift - (1 - rest) * lift_in
             if brush and flags.shape[0] > 0:  # a point that enters behind a sliding edge goes on sliding
                 sliding[i] = flags[0] if j < kept[0, 0] else flags[-1]
-    return Bristles(stretch, rate, by_gap, by_phi, touched, sliding)
+    return Bristles(stretch, rate, by_gap, by_phi, touched, sliding, way, part, pull)
 
 
 @njit(cache=True, error_model="numpy")
@@ -178,7 +184,8 @@ def rub(
             share[i] = mode * mu * foundation.force[i]
             force[i] = eta * share[i]
             force_by_gaps(by_gap[i, 1:4], eta * mode * mu, foundation, before, i, behind)
-            stretch[i] = -eta * mode * mu * pressure / eps_t
+            # what a damper adds to the pressure is no spring: bristles that hold it would give it back when they stick
+            stretch[i] = -mode * mu * pressure / eps_t
             energy += weight[i] * eps_t * stretch[i] ** 2 / 2
         elif weight[i] != 0:
             limit = (mu if sliding[i] != 0 else mu_s) * eta * pressure

@@ -121,7 +121,7 @@ class Patch:
     def solve(self, ring: RestingRing, share: float) -> bool:
         """Newton on height and rim for ``share`` of the forces; whether it converged."""
         s, c = np.sin(self.phi), np.cos(self.phi)
-        empty, flags = np.empty((0, 2)), np.empty(0, np.int8)
+        empty, flags = np.empty((0, 3)), np.empty(0, np.int8)
         wanted = share * self.normal
         margin = self.half + self.hoop.element
         last = np.inf

@@ -24,6 +24,7 @@ from .contact import (
     LOW,
     NORMAL,
     RESULTANTS,
+    SLIDE_LEFT,
     SLIDE_RIGHT,
     SPACING,
     STICK,
@@ -48,7 +49,16 @@ class Pose:
     slip_velocity: float
     normal_force: float
     friction_force: float
-    rolls: bool
+    kind: Kind
+
+    @property
+    def rolls(self) -> bool:
+        return self.kind == Kind.ROLL
+
+    @property
+    def mode(self) -> int:
+        """What the patch does: friction pushes a skidding hoop to the left."""
+        return {Kind.SKID: SLIDE_LEFT, Kind.SPIN: SLIDE_RIGHT}.get(self.kind, STICK)
 
     def accelerations(self, hoop: Hoop) -> tuple[float, float]:
         """Horizontal acceleration of C and angular acceleration, from the balance of the rigid hoop."""
@@ -70,7 +80,7 @@ def pose_at(motion: Motion, t: float) -> Pose:
         float(now.slip_velocity) / scene.velocity_unit,
         float(now.normal_force) / scene.force_unit,
         float(now.friction_force) / scene.force_unit,
-        kind == Kind.ROLL,
+        kind,
     )
 
 
@@ -94,7 +104,7 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> Sta
         # just clear of the floor
         height = -min(0.0, float((u[:, 0] * c - u[:, 1] * s).min()))
         pos = np.concatenate([[0.0, height, pose.phi], ring.coordinates])
-        nothing = (np.zeros_like(u), np.zeros(RESULTANTS), np.empty((0, 2)), np.empty(0, np.int8))
+        nothing = (np.zeros_like(u), np.zeros(RESULTANTS), np.empty((0, 3)), np.empty(0, np.int8))
         return State(t, x_C, pos, zero, zero, STICK, window, u, *nothing, pose.slip_velocity)
     patch = Patch(hoop, pose.phi, pose.normal_force, pose.friction_force)
     if not settle(ring, patch):
@@ -116,7 +126,7 @@ def undeformed(hoop: Hoop, pose: Pose, mode: int) -> State:
     pos, vel = np.zeros(3 + n), np.zeros(3 + n)
     pos[2] = pose.phi
     vel[0], vel[2] = pose.slip_velocity, pose.omega
-    empty, flags = np.empty((0, 2)), np.empty(0, np.int8)
+    empty, flags = np.empty((0, 3)), np.empty(0, np.int8)
     state = State(
         0.0, 0.0, pos, vel, np.zeros(3 + n), mode, window, u, np.zeros_like(u), np.zeros(RESULTANTS), empty, flags,
         pose.slip_velocity,
@@ -151,7 +161,8 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, law: str) -> State:
     friction = res[FRICTION]
     bristles = state.bristles
     creep = 0.0
-    slides = int(np.sign(friction)) or (STICK if hoop.mu_s > 0 else SLIDE_RIGHT)  # a smooth floor never holds
+    # a smooth floor never holds
+    slides = SLIDE_RIGHT if pose.mode == STICK and hoop.mu_s == 0 else pose.mode
     mode = BRUSH if law == "brush" else STICK if rolls else slides
     if rolls and len(bristles):
         length = res[HIGH] - res[LOW] + hoop.law[SPACING]
@@ -160,7 +171,7 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, law: str) -> State:
             bristles = bristles.copy()
             bristles[:, 1] = -friction / (eps_t * length)
         else:  # steady rolling: stretched in proportion to the way from the leading edge, to just past the trailing one
-            past = [[bristles[-1, 0] + 1, 0.0]] if pose.omega > 0 else [[bristles[0, 0] - 1, 0.0]]
+            past = [[bristles[-1, 0] + 1, 0.0, 0.0]] if pose.omega > 0 else [[bristles[0, 0] - 1, 0.0, 0.0]]
             bristles = np.concatenate([bristles, past] if pose.omega > 0 else [past, bristles])
             psi = pose.phi - pi + bristles[:, 0] * hoop.law[SPACING]
             way = psi - res[LOW] if pose.omega > 0 else res[HIGH] - psi

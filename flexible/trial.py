@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact import DRAG, ELASTIC, ETA, FRICTION, NORMAL, NORMAL_ENERGY, SLIP
+from .contact import BEYOND, DRAG, ELASTIC, ETA, FRICTION, NORMAL, NORMAL_ENERGY, SLIP, WAY
 from .state import Model, State
 from .step import BETA, ERROR_WEIGHTS, TAU
 
@@ -68,8 +68,8 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
     bend = (slip - slip_mid / TAU) / (1 - TAU)
     forces = (old.res, res_mid, res)
     impulses = [h * sum(w * r[i] for w, r in zip(_QUADRATURE, forces, strict=True)) for i in (NORMAL, FRICTION)]
-    work, damped = 0.0, 0.0
-    for a, b, moved in ((old.res, res_mid, slip_mid), (res_mid, res, slip - slip_mid)):
+    work, damped = float(res[BEYOND]), 0.0
+    for a, b, moved in ((old.res, res_mid, res_mid[WAY]), (res_mid, res, res[WAY] - res_mid[WAY])):
         work += (a[FRICTION] - a[DRAG] + b[FRICTION] - b[DRAG]) / 2 * moved
         damped -= (a[DRAG] + b[DRAG]) / 2 * moved
         damped += (_eta(a, b) - 1) * (b[NORMAL_ENERGY] - a[NORMAL_ENERGY])

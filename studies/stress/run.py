@@ -36,7 +36,7 @@ class Amount:
 
 
 QUICK = Amount(rigid=800, flexible=40, seconds_rigid=20.0, seconds_flexible=1.0)
-WHOLE = Amount(rigid=2500, flexible=500, seconds_rigid=20.0, seconds_flexible=20.0)
+WHOLE = Amount(rigid=2500, flexible=500, seconds_rigid=20.0, seconds_flexible=5.0)
 
 
 Watch = Callable[[float], bool]

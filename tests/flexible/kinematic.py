@@ -16,7 +16,7 @@ class Rim:
     def __init__(self, law, depth, phi=2.9, mode=BRUSH):
         self.law, self.mode = np.array(law, dtype=float), mode
         self.pose = np.array([0.0, -depth, phi])
-        self.bristles, self.flags = np.empty((0, 2)), np.empty(0, np.int8)
+        self.bristles, self.flags = np.empty((0, 3)), np.empty(0, np.int8)
         self.result = self._forces(self.pose)
         self.bristles, self.flags = self.result[4].copy(), self.result[5].copy()
         self.bristles[:, 1] = 0.0

@@ -25,7 +25,7 @@ def flying(hoop, pos, vel):
     """A hoop off the floor."""
     window = hoop.window(pos[2], 0.0, 0.0, 0.1 * hoop.element)
     u = np.zeros((2 * window[1] + 1, 2))
-    nothing = (u, np.zeros_like(u), np.zeros(RESULTANTS), np.empty((0, 2)), np.empty(0, np.int8))
+    nothing = (u, np.zeros_like(u), np.zeros(RESULTANTS), np.empty((0, 3)), np.empty(0, np.int8))
     return State(0.0, 0.0, pos, vel, np.zeros_like(pos), STICK, window, *nothing, 0.0)
 
 

@@ -68,7 +68,7 @@ def test_tangent_of_the_contact(mode, damper):
     flat = np.zeros((9, 2))
     old = np.array([0.0, -depth, phi])
     start = contact_forces(
-        old, flat, first, VERTEX, law, mode, old, flat, np.empty((0, 2)), np.empty(0, np.int8), np.array(damper)
+        old, flat, first, VERTEX, law, mode, old, flat, np.empty((0, 3)), np.empty(0, np.int8), np.array(damper)
     )
     bristles, flags = start[4].copy(), start[5].copy()
     bristles[:, 1] = -1e-6 * rng.random(len(bristles))

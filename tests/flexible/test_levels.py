@@ -16,7 +16,7 @@ from flexible.ring import ring_of
 from flexible.start import Pose, equilibrium, undeformed
 from flexible.trial import MarchError
 from flexible.units import dimensionless
-from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
+from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
 
 WALL = 1 - 1 / 1.02
 
@@ -38,7 +38,7 @@ def measures(hoop, rtol):
     """J_N, J_F and friction loss of scene B, in R0 = g = m = 1."""
     scene = scene_b()
     inner = dimensionless(scene)
-    start = undeformed(hoop, Pose(2.9, 4.0 * scene.time_unit, 0.0, 0.0, 0.0, True), BRUSH)
+    start = undeformed(hoop, Pose(2.9, 4.0 * scene.time_unit, 0.0, 0.0, 0.0, Kind.ROLL), BRUSH)
     _, records, _, ended = march(hoop, start, lambda s: s.t - inner.run.t_end, rtol)
     assert not ended
     last = records[-1]
@@ -99,7 +99,7 @@ def test_exact_ring_has_no_strain_when_turned(soft_ring):
 
 def test_equilibria_of_the_levels():
     """Sag under N, F and inertia: modes against nodes to what 24 modes leave out, nodes against exact to O(strain)."""
-    pose = Pose(2.2, 1.0, 0.0, 1.3, -0.2, True)
+    pose = Pose(2.2, 1.0, 0.0, 1.3, -0.2, Kind.ROLL)
     for mass in (0.1, 0.0):
         scene = HOOP.replace(hoop={"mass_ratio": mass})
         states = [equilibrium(kind(scene), pose) for kind in (ReducedHoop, FullHoop, ExactHoop)]
@@ -112,7 +112,7 @@ def test_equilibria_of_the_levels():
 
 def test_equilibrium_of_a_soft_ring():
     """E b R/(m g) = 1e6: the sag is several walls, and forces balance; softer than it can carry is said to be so."""
-    pose = Pose(2.2, 1.0, 0.0, 1.3, -0.2, True)
+    pose = Pose(2.2, 1.0, 0.0, 1.3, -0.2, Kind.ROLL)
     state = equilibrium(ExactHoop(dimensionless(scene_b(1e6))), pose)
     assert state.pos[1] < -4 * WALL
     assert state.res[:2] == pytest.approx([1.3, -0.2], abs=1e-9)
@@ -145,7 +145,7 @@ def test_linear_against_exact():
     apart = []
     for stiffness in (2e7, 2e8):
         inner = dimensionless(scene_b(stiffness))
-        poses = Pose(2.6, 4.0, 0.0, 5.0, -0.5, True)
+        poses = Pose(2.6, 4.0, 0.0, 5.0, -0.5, Kind.ROLL)
         linear, exact = (equilibrium(kind(inner), poses).pos[1] for kind in (FullHoop, ExactHoop))
         apart.append(abs(linear / exact - 1))
     assert apart[1] == pytest.approx(apart[0] / 10, rel=0.3)
@@ -165,7 +165,7 @@ def test_a_linear_ring_that_goes_too_far_says_so():
     assert "too far for a linear ring" in motion.ended
     assert "too far" not in flexible.simulate(HOOP.replace(release={"phi0": 2.4, "omega0": 1.5})).ended
     assert FAR < 0.01  # a percent, as it goes with the rotation
-    far = equilibrium(ExactHoop(scene), Pose(2.2, 1.0, 0.0, 1.3, -0.2, True))
+    far = equilibrium(ExactHoop(scene), Pose(2.2, 1.0, 0.0, 1.3, -0.2, Kind.ROLL))
     limits = Range(ExactHoop(scene))
     limits(far)
     assert not limits.complaint()
@@ -202,7 +202,7 @@ def newton_errors(hoop, old, beta, dphi):
 def test_newton_converges_quadratically(kind):
     """On a smooth step: the error's exponent doubles with each iteration until round-off."""
     hoop = kind(HOOP.replace(solve={"elements": 96}))
-    old = equilibrium(hoop, Pose(2.2, 1.0, 0.0, 1.3, -0.2, True))
+    old = equilibrium(hoop, Pose(2.2, 1.0, 0.0, 1.3, -0.2, Kind.ROLL))
     sizes = newton_errors(hoop, old, 2e-3, 2e-4)
     floor = 1e-7  # round-off of the elastic forces of a ring this stiff
     falling = [i for i in range(len(sizes) - 1) if sizes[i] < 0.1 and sizes[i + 1] > floor]

@@ -77,7 +77,7 @@ def test_static_sag():
     scene = HOOP.replace(ring={"bending_stiffness": 1e8}, contact={"stiffness": 1e6})
     hoop = ReducedHoop(scene)
     weight = 1 + scene.hoop.mass_ratio
-    state = equilibrium(hoop, Pose(pi, 0.0, 0.0, weight, 0.0, True))
+    state = equilibrium(hoop, Pose(pi, 0.0, 0.0, weight, 0.0, rigid.Kind.ROLL))
     depth = -state.pos[1]
     assert 4 / 3 * 1e6 * depth * sqrt(2 * depth) == pytest.approx(weight, rel=3e-3)
     # and it stays at rest
