@@ -90,7 +90,9 @@ def _again(motion: FlexibleMotion, watch: Callable[[float], bool]) -> Margins:
 def _from_the_middle(motion: FlexibleMotion) -> Scene | None:
     """The scene released in the middle of the rolling or slipping that the rigid hoop does before the first pulse."""
     scene, first = motion.scene, motion.phases[0]
-    before = first.t_end < motion.pulses[0].t_start and first.kind in (Kind.ROLL, Kind.SKID, Kind.SPIN)
+    start = motion.pulses[0].t_start
+    on_floor = (Kind.ROLL, Kind.SKID, Kind.SPIN)
+    before = first.t_end < start and all(phase.kind in on_floor for phase in motion.phases if phase.t_start < start)
     if scene.solve.resolve != "pulses" or scene.run.until != "pulse" or not before:
         return None
     state = motion.at(first.t_end / 2)

@@ -19,7 +19,7 @@ from .checks import Margins, toml
 
 RIGID, FLEXIBLE, CYCLES = "rigid", "flexible", "cycles"
 THOROUGH = 5  # one rigid scene in so many is also integrated in time
-TWICE = 4  # one flexible scene in so many is run again, mirrored and in SI units
+TWICE = 2  # one flexible scene in so many is run again, mirrored and in SI units
 ALL_NODES = 60  # one in so many with all nodes (not with --quick)
 CHUNK = 50
 CYCLE_COUNT = 1000
