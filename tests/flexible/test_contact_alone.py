@@ -7,6 +7,8 @@ import pytest
 from kinematic import VERTEX, Rim
 
 from flexible.contact import (
+    BEYOND,
+    BRISTLE_ENERGY,
     BRUSH,
     FRICTION,
     NORMAL,
@@ -15,6 +17,7 @@ from flexible.contact import (
     SLIDE_RIGHT,
     STICK,
     UNDAMPED,
+    WAY,
     contact_forces,
 )
 from flexible.points import element_at
@@ -55,6 +58,30 @@ def test_steady_rolling_of_the_brush(xi, way):
     share = np.mean([res[FRICTION] / (mu * res[NORMAL]) for res in found])
     exact = 1 - (1 - min(xi, 1)) ** 3
     assert share == pytest.approx(-exact, abs=1e-3)  # the contact point drifts to the right: friction to the left
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize("points", [12, 48])
+def test_steady_rolling_of_a_sticking_patch(points, way):
+    """Bristles stretch with their way from the leading edge: F = eps_t gamma (2 a)^2/2, smoothly, and F gamma is lost.
+
+    Eight steps from point to point see no rhythm of the points: the edge is on the gap's parabola, which a circle's is
+    but for psi^4 (depth 1e-8), and the last bristle is kept until the next one has left.
+    """
+    depth, creep = 1e-8, 1e-3
+    a = sqrt(2 * depth)
+    rim = Rim((2 * a / points, EPS, 0.8 * EPS, 0.3, 0.3), depth, phi=2.9, mode=STICK)
+    step = 2 * a / points / 8 * 1.0001
+    found = [rim.move(creep * step, way * step) for _ in range(24 * points)]
+    friction = np.array([res[FRICTION] for res in found])
+    exact = -0.8 * EPS * creep * (2 * a) ** 2 / 2
+    assert friction[-8 * points :] == pytest.approx(exact, rel=1e-5)
+    assert np.ptp(friction[-8 * points :]) < 1e-8 * abs(exact)
+    moved, stored = (np.array([res[i] for res in found]) for i in (WAY, BRISTLE_ENERGY))
+    work = (friction[1:] + friction[:-1]) / 2 * moved[1:] + np.array([res[BEYOND] for res in found])[1:]
+    lost = -work - np.diff(stored)
+    assert lost[-8 * points :].mean() == pytest.approx(-exact * creep * step, rel=2e-5)
+    assert lost.min() > -1e-6 * lost.max()
 
 
 @pytest.mark.parametrize("mode", [STICK, SLIDE_RIGHT, SLIDE_LEFT, BRUSH])
