@@ -111,7 +111,7 @@ def settle(par, state, a0, top0, rise):
     _, _, h0, low0 = trig(a0, top0)
     s, _, h, low = trig(state[ANGLE], state[TOP])
     error = rise - e * (h - h0) if state[TOP] == 0.0 else rise + e * (low - low0)
-    # beyond half the way to where s = 0 a linear correction is none, and round-off is as large as the hop
+    # anything larger is no round-off, and no linear correction would mend it
     if abs(error) < 1e-5 * abs(e * s):
         state[ANGLE], state[TOP], state[WHOLE] = chart(state[ANGLE] - error / (e * s), state[TOP], state[WHOLE])
         s1, _, h1, _ = trig(state[ANGLE], state[TOP])

@@ -86,51 +86,50 @@ def polish(c, n, low, high):
 
 
 @kernel
-def first_positive(c, n, start, stop):
-    """First x on the way from ``start`` to ``stop`` (both >= 0, either order) beyond which the polynomial is
-    positive.
+def bernstein(c, n, low, high, b):
+    """Coefficients of a polynomial of degree n <= 6 on [low, high]: it lies in their convex hull, and has no more roots
+    there than they change sign.
+    """
+    for i in range(n + 1):
+        b[i] = c[i]
+    for i in range(n):
+        for j in range(n - 1, i - 1, -1):
+            b[j] += low * b[j + 1]
+    ways = 1.0  # n over j
+    power = 1.0
+    for j in range(n + 1):
+        b[j] *= power / ways
+        power *= high - low
+        ways *= (n - j) / (j + 1)
+    for i in range(1, n + 1):
+        for j in range(n, i - 1, -1):
+            b[j] += b[j - 1]
 
-    -1 if there is none. An interval is dropped when the polynomial is bounded below zero on it: for x >= 0
-    the terms of positive and of negative coefficients are each monotone. It is decided when the slope keeps
-    its sign, by the same bound; else it is halved, geometrically over several orders of magnitude, so that
-    all scales are seen.
+
+@kernel
+def first_positive(c, n, start, stop, b):
+    """First x on the way from ``start`` to ``stop`` (both >= 0, either order) beyond which the polynomial is
+    positive; ``b`` is room for n + 1 numbers.
+
+    -1 if there is none; an interval in which it only falls from a positive start has none. An interval is decided when
+    its Bernstein coefficients change sign once at most; else it is halved, geometrically over several orders of
+    magnitude, so that all scales are seen.
     """
     here = start
     there = stop
-    for _ in range(2000):
-        if here == stop:
-            return -1.0
+    while here != stop:
         low = min(here, there)
         high = max(here, there)
-        above_low = 0.0
-        below_low = 0.0
-        above_high = 0.0
-        below_high = 0.0
-        slope_above_low = 0.0
-        slope_below_low = 0.0
-        slope_above_high = 0.0
-        slope_below_high = 0.0
-        for i in range(n, -1, -1):
-            slope_above_low = slope_above_low * low + above_low
-            slope_below_low = slope_below_low * low + below_low
-            slope_above_high = slope_above_high * high + above_high
-            slope_below_high = slope_below_high * high + below_high
-            up = max(c[i], 0.0)
-            down = max(-c[i], 0.0)
-            above_low = above_low * low + up
-            below_low = below_low * low + down
-            above_high = above_high * high + up
-            below_high = below_high * high + down
-        clear = above_high <= below_low
-        if not clear:
-            monotone = slope_above_high <= slope_below_low or slope_above_low >= slope_below_high
-            narrow = high - low <= 1e-14 * high
-            if monotone or narrow:
-                if value(c, n, there) > 0:
-                    if narrow or value(c, n, here) > 0:
-                        return here
-                    return polish(c, n, here, there)
-                clear = True
+        bernstein(c, n, low, high, b)
+        changes = 0
+        for i in range(n):
+            changes += (b[i] > 0.0) != (b[i + 1] > 0.0)
+        clear = False
+        if changes <= 1 or high - low <= 1e-14 * high:
+            first, last = (b[0], b[n]) if here < there else (b[n], b[0])
+            if last > 0.0:
+                return here if first > 0.0 or changes > 1 else polish(c, n, here, there)
+            clear = True
         if clear:
             width = there - here
             here = there

@@ -96,13 +96,13 @@ def past_tie(c, start, stop):
 
 
 @kernel
-def first_slip(par, g, upper, start, stop, plus, minus):
+def first_slip(par, g, upper, start, stop, plus, minus, room):
     """First y (or 1/y in the upper half) from ``start`` to ``stop`` at which |F| passes mu_s N, and the sign of
     F sin phi there; y = -1 if it never does.
     """
     margin_polynomials(par, g, upper, plus, minus)
-    x = first_positive(plus, 6, past_tie(plus, start, stop), stop)
-    other = first_positive(minus, 6, past_tie(minus, start, stop), stop)
+    x = first_positive(plus, 6, past_tie(plus, start, stop), stop, room)
+    other = first_positive(minus, 6, past_tie(minus, start, stop), stop, room)
     if x < 0 or (other >= 0 and abs(other - start) < abs(x - start)):
         return other, -1.0
     return x, 1.0
@@ -178,7 +178,7 @@ def pulse_edge(zeta, g):
 
 
 @kernel
-def slip_edges(par, g, below, a, top, plus, minus):
+def slip_edges(par, g, below, a, top, plus, minus, room):
     """How far a swing may roll: (y or -1, chart, sign of F sin phi) of the nearest slip inwards and outwards of
     the angle.
 
@@ -190,22 +190,22 @@ def slip_edges(par, g, below, a, top, plus, minus):
     inner = -1.0
     inner_top = top
     if top != 0.0:
-        inner, inner_pull = first_slip(par, g, True, y, 1.0, plus, minus)
+        inner, inner_pull = first_slip(par, g, True, y, 1.0, plus, minus, room)
         if inner < 0:
             inner_top = 0.0
-            inner, inner_pull = first_slip(par, g, False, 1.0, 0.0, plus, minus)
+            inner, inner_pull = first_slip(par, g, False, 1.0, 0.0, plus, minus, room)
     else:
-        inner, inner_pull = first_slip(par, g, False, y, 0.0, plus, minus)
+        inner, inner_pull = first_slip(par, g, False, y, 0.0, plus, minus, room)
     outer = -1.0
     outer_top = top
     end = tan(0.5 * turn_a)
     if top == 0.0:
-        outer, outer_pull = first_slip(par, g, False, y, end if turn_top == 0.0 else 1.0, plus, minus)
+        outer, outer_pull = first_slip(par, g, False, y, end if turn_top == 0.0 else 1.0, plus, minus, room)
         if outer < 0 and turn_top != 0.0:
             outer_top = 1.0
-            outer, outer_pull = first_slip(par, g, True, 1.0, end, plus, minus)
+            outer, outer_pull = first_slip(par, g, True, 1.0, end, plus, minus, room)
     else:
-        outer, outer_pull = first_slip(par, g, True, y, end, plus, minus)
+        outer, outer_pull = first_slip(par, g, True, y, end, plus, minus, room)
     return inner, inner_top, inner_pull, outer, outer_top, outer_pull
 
 

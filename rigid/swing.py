@@ -54,7 +54,7 @@ from .rolling import (
     slip_edges,
     turning_point,
 )  # fmt: skip
-from .slipping import S_MINUS, S_PLUS
+from .slipping import S_MINUS, S_PLUS, S_SIN
 from .tape import ROOM, turn
 
 PHASE_OVER = -1
@@ -150,7 +150,7 @@ def roll(par, state, work, tape):
     if a == 0.0:
         psi_sign = d if top == 0.0 else -d
     inner, inner_top, inner_pull, outer, outer_top, outer_pull = slip_edges(
-        par, g, below, a, top, work[S_PLUS], work[S_MINUS]
+        par, g, below, a, top, work[S_PLUS], work[S_MINUS], work[S_SIN]
     )
     turn_a, turn_top = turning_point(g, below)
     if omega == 0.0:

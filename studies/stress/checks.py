@@ -206,6 +206,15 @@ def right_hand_side(scene: Scene, mu_hat: float | None) -> Any:
     return slope
 
 
+def _near_jam(scene: Scene, phi: float, mu_hat: float | None) -> bool:
+    """Whether the denominator of slipping has all but vanished: a time integration then takes any time it likes."""
+    if mu_hat is None:
+        return False
+    e, gyr, s = scene.hoop.e, scene.hoop.K, float(np.sin(phi))
+    free = gyr + (e * s) ** 2
+    return free + mu_hat * e * s * (1 + e * float(np.cos(phi))) < 0.03 * free
+
+
 def integrated(motion: Motion) -> Margins:
     """Each phase on the floor by DOP853 from its start: it arrives where the closed form does.
 
@@ -222,12 +231,13 @@ def integrated(motion: Motion) -> Margins:
         span = phase.t_end - phase.t_start
         if phase.kind not in hats or not 1e-6 < span < 20:
             continue
+        hat = hats[phase.kind]
         end = phase.t_end - 1e-9 * span
         first, last = motion.at(phase.t_start), motion.at(end)
-        if float(last.normal_force) > 1e4 or float(first.normal_force) > 1e4:
+        if max(float(last.normal_force), float(first.normal_force)) > 1e4 or _near_jam(scene, float(last.phi), hat):
             continue
         start = [float(first.phi), float(first.omega), float(first.slip_velocity)]
-        slope = right_hand_side(scene, hats[phase.kind])
+        slope = right_hand_side(scene, hat)
         theirs, rough = (
             solve_ivp(slope, (phase.t_start, end), start, "DOP853", rtol=rtol, atol=rtol / 10).y[:, -1]
             for rtol in (1e-12, 1e-11)

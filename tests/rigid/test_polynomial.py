@@ -1,0 +1,70 @@
+"""Roots on an interval: none stepped over, against numpy's companion matrix."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rigid.polynomial import bernstein, first_positive, value, value_and_slope
+
+#: the margin of a rolling hoop: 0.1679, 0.4301 and a pair 0.012 beside 0.549, where it all but touches zero
+MARGIN = [
+    -0.11191683326710739,
+    0.8628176242576073,
+    -0.1798487937802197,
+    -7.556122366809637,
+    7.580689444178351,
+    17.93068631138434,
+    -23.386325477734534,
+]
+
+
+def first(c, start, stop):
+    return first_positive(c, len(c) - 1, start, stop, [0.0] * 7)
+
+
+def test_a_root_behind_a_near_miss():
+    assert first(MARGIN, 0.6087, 0.0) == pytest.approx(0.43010775, abs=1e-8)
+    assert first(MARGIN, 0.0, 0.6087) == pytest.approx(0.16787563, abs=1e-8)
+    assert first(MARGIN, 0.6087, 0.45) == -1
+
+
+def test_any_polynomial():
+    """Coefficients and intervals over six orders of magnitude, from either end."""
+    rng = np.random.default_rng(0)
+    found = 0
+    for _ in range(4000):
+        c = list(rng.standard_normal(7) * 10 ** rng.uniform(-4, 2, 7))
+        low, high = sorted(10 ** rng.uniform(-6, 0.3, 2))
+        low = 0.0 if rng.random() < 0.5 else low
+        start, stop = (low, high) if rng.random() < 0.5 else (high, low)
+        if value(c, 6, start) > 0:
+            c = [-x for x in c]
+        roots = np.roots(c[::-1])
+        roots = np.sort(roots[np.abs(roots.imag) < 1e-12 * np.abs(roots)].real)
+        roots = roots[(roots > low * (1 + 1e-12)) & (roots < high * (1 - 1e-12))]
+        expected = -1.0 if not len(roots) else roots[0] if start < stop else roots[-1]
+        found += len(roots) > 0
+        assert first(c, start, stop) == pytest.approx(expected, rel=1e-6)
+    assert found > 500
+
+
+def test_bernstein_coefficients_bound_a_polynomial():
+    rng = np.random.default_rng(1)
+    for _ in range(200):
+        c, (low, high) = list(rng.standard_normal(7)), sorted(rng.uniform(0, 3, 2))
+        b = [0.0] * 7
+        bernstein(c, 6, low, high, b)
+        values = np.polyval(c[::-1], np.linspace(low, high, 50))
+        slack = 1e-12 * np.abs(values).max()
+        assert min(b) - slack <= values.min()
+        assert values.max() <= max(b) + slack
+        assert (b[0], b[6]) == pytest.approx((values[0], values[-1]), abs=slack + 1e-12)
+
+
+@pytest.mark.parametrize("degree", [1, 3, 6, 23, 24])
+def test_horner_in_four_strands(degree):
+    c, x = list(np.random.default_rng(degree).standard_normal(degree + 1)), 0.7
+    exact = np.polynomial.Polynomial(c)
+    assert value(c, degree, x) == pytest.approx(exact(x), rel=1e-13)
+    assert value_and_slope(c, degree, x) == pytest.approx((exact(x), exact.deriv()(x)), rel=1e-12)
