@@ -142,7 +142,8 @@ def _weights(points: Any, bristles: Any, spacing: float, brush: bool) -> tuple[A
         inside, outside = (i, i + 1) if gap[i] < 0 else (i + 1, i)
         way = outside - inside
         inner = inside - way
-        if 0 <= inner < total and not points.last[min(inner, inside)]:
+        # a brush pulls nothing at its edges, and is held to the pressure, which ends on a straight gap
+        if not brush and 0 <= inner < total and not points.last[min(inner, inside)]:
             f, f_in, f_out, f_inner = edge_of_patch(gap[inside], gap[outside], gap[inner])
         else:
             d = gap[outside] - gap[inside]

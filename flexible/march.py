@@ -8,15 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from .contact import BRISTLE_ENERGY, BRUSH, FRICTION, NORMAL, STICK
+from .contact import BRISTLE_ENERGY, BRUSH, ELASTIC, FRICTION, NORMAL, STICK
 from .state import Books, Model, Record, State, record
 from .trial import MarchError, Trial, attempt, restart
 
 
 def _excess(model: Model, state: State) -> float:
     """Positive when the patch can no longer go on as it does."""
-    if state.mode == STICK:
-        return abs(state.res[FRICTION]) - model.mu_s * state.res[NORMAL] if state.res[NORMAL] > 0 else -1.0
+    if state.mode == STICK:  # a damper may take all of N while the bristles still pull
+        return abs(state.res[FRICTION]) - model.mu_s * state.res[NORMAL] if state.res[ELASTIC] > 0 else -1.0
     if state.mode == BRUSH or state.res[NORMAL] == 0 or model.mu_s == 0:
         return -1.0
     return state.mode * state.slip_velocity

@@ -98,11 +98,11 @@ def _gap(hoop: RimContact, state: State, theta: Array) -> Array:
 def _beyond(gap: Array, held: Array, end: int, way: int, mode: int) -> tuple[Array, Array]:
     """Where, in spacings beyond the last touching point, pressure and then friction end (twice), and friction there.
 
-    The pressure's edge is that of :mod:`flexible.foundation`, on a straight gap, and so is that of a sliding patch;
-    that of bristles lies on the parabola of :mod:`flexible.friction`.
+    The pressure's edge is that of :mod:`flexible.foundation`, on a straight gap, and so is that of whatever slides;
+    that of a sticking patch lies on the parabola of :mod:`flexible.friction`.
     """
     straight = curved = gap[end] / (gap[end] - gap[end + way])
-    if mode in (STICK, BRUSH) and 0 <= end - way < len(gap):
+    if mode == STICK and 0 <= end - way < len(gap):
         curved = max(straight, edge_of_patch(gap[end], gap[end + way], gap[end - way])[0])
     share = np.array([straight, curved, curved])
     if mode == STICK and not np.isnan(held[end + way]):  # points leave here, stretched

@@ -60,7 +60,10 @@ def numbers(motion: Motion) -> Iterator[float]:
     for turn in motion.turns:
         yield from (turn.t, turn.phi, turn.slip_velocity, turn.energy)
     for pulse in motion.pulses:
-        yield from (value for value in pulse.to_dict().values() if isinstance(value, float))
+        values = pulse.to_dict()
+        if pulse.normal_impulse == 0:  # a flexible hoop may fly through all of it: then there is no ratio
+            del values["impulse_ratio"]
+        yield from (value for value in values.values() if isinstance(value, float))
 
 
 def listed(motion: Motion) -> Margins:
