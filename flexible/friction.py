@@ -185,8 +185,8 @@ def rub(
             share[i] = mode * mu * foundation.force[i]
             force[i] = eta * share[i]
             force_by_gaps(by_gap[i, 1:4], eta * mode * mu, foundation, before, i, behind)
-            # what a damper adds to the pressure is no spring: bristles that hold it would give it back when they stick
-            stretch[i] = -mode * mu * pressure / eps_t
+            # what a damper adds to the pressure is no spring: bristles that held it would give it back when they stick
+            stretch[i] = -min(eta, 1.0) * mode * mu * pressure / eps_t
             energy += weight[i] * eps_t * stretch[i] ** 2 / 2
         elif weight[i] != 0:
             limit = (mu if sliding[i] != 0 else mu_s) * eta * pressure

@@ -7,8 +7,9 @@ for each level of fidelity.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
-from .contact import BRISTLE_ENERGY, BRUSH, ELASTIC, FRICTION, NORMAL, STICK
+from .contact import BRISTLE_ENERGY, BRUSH, ELASTIC, FRICTION, NORMAL, SLIDE_LEFT, SLIDE_RIGHT, STICK
 from .state import Books, Model, Record, State, record
 from .trial import MarchError, Trial, attempt, restart
 
@@ -20,6 +21,13 @@ def _excess(model: Model, state: State) -> float:
     if state.mode == BRUSH or state.res[NORMAL] == 0 or model.mu_s == 0:
         return -1.0
     return state.mode * state.slip_velocity
+
+
+def _free(state: State) -> State:
+    """A patch off the floor comes down sliding, the way it moves: one that stuck would break as it touches."""
+    if state.mode == BRUSH or state.res[ELASTIC] > 0 or state.slip_velocity == 0:
+        return state
+    return replace(state, mode=SLIDE_LEFT if state.slip_velocity > 0 else SLIDE_RIGHT)
 
 
 def march(
@@ -87,7 +95,7 @@ def march(
         books.friction_loss -= trial.friction_work + stored
         books.damping_loss += trial.damped
         books.off_floor += trial.off_floor
-        state = trial.state
+        state = _free(trial.state)
         note(state)
         asked = progress is not None and progress(state)
         if done(state) >= 0:

@@ -61,7 +61,7 @@ def profile(hoop: RimContact, state: State) -> Profile:
         held, flags = np.full(len(around), np.nan), np.zeros(len(around))
         held[1:-1], flags[1:-1] = -eps_t * state.bristles[part, 1], state.flags[part]
         if state.mode in (SLIDE_RIGHT, SLIDE_LEFT):
-            held *= state.res[ETA]
+            held *= max(float(state.res[ETA]), 1.0)
         elastic = -eps_n * np.minimum(gap, 0.0)
         if state.res[ELASTIC] > 0:
             held += state.res[DRAG] * elastic / state.res[ELASTIC]
