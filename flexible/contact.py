@@ -12,7 +12,8 @@ sticks or slides is decided on the resultants, by the caller.
 
 Damping, if any, is that of the patch as a whole, N = N_el + theta dN_el/dt, and while it sticks
 F = F_el - theta k_t v with v the mean slip of the patch: it damps the approach and the slip, and not a material point's
-own gap rate, which under rolling would be a rolling resistance.
+own gap rate, which under rolling would be a rolling resistance. The slip of a point is all of its motion along the
+floor, rolling included: at the rim of a wide patch that alone is phidot psi^2/2.
 """
 
 from __future__ import annotations
@@ -29,12 +30,12 @@ from .points import element_at, gather, vertex_angle
 
 # positions in the array of contact parameters
 SPACING, EPS_N, EPS_T, MU_S, MU = range(5)
-# positions in the array of resultants: forces, energies, length of the patch and how much of it sticks, mean move in
-# the step, angles psi of its ends, whether it left the window, elastic normal force, damping factor, damping drag,
-# mean way along the floor in the step, and the work of the bristles beyond their mean force times that
+# positions in the array of resultants: forces, energies, length of the patch and how much of it sticks, mean way along
+# the floor in the step, angles psi of its ends, whether it left the window, elastic normal force, damping factor,
+# damping drag, and the work of the bristles beyond their mean force times the mean way
 NORMAL, FRICTION, NORMAL_ENERGY, BRISTLE_ENERGY, LENGTH, STUCK, SLIP, LOW, HIGH, OUTSIDE, ELASTIC, ETA, DRAG = range(13)
-WAY, BEYOND = 13, 14
-RESULTANTS = 15
+BEYOND = 13
+RESULTANTS = 14
 
 UNDAMPED = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 1.0])
 
@@ -187,7 +188,7 @@ def _gathered(points: Any, values: Any, directions: Any, nodes: int) -> Any:
 
 
 @njit(cache=True, error_model="numpy")
-def _slip_by_gaps(points: Any, foundation: Any, slip: float, elastic: float, up: Any, nodes: int) -> Any:
+def _slip_by_gaps(points: Any, ways: Any, foundation: Any, slip: float, elastic: float, up: Any, nodes: int) -> Any:
     """Derivative of the mean slip by the gaps, through the normal forces that weigh it."""
     result = np.zeros(2 + nodes)
     around = np.zeros(3)
@@ -196,7 +197,7 @@ def _slip_by_gaps(points: Any, foundation: Any, slip: float, elastic: float, up:
         before = i - 1 if i > 0 and not points.last[i - 1] else -1
         behind = i + 1 if i + 1 < total and not points.last[i] else -1
         around[:] = 0.0
-        force_by_gaps(around, (points.move[i] - slip) / elastic, foundation, before, i, behind)
+        force_by_gaps(around, (ways[i] - slip) / elastic, foundation, before, i, behind)
         for side in range(3):
             near = i - 1 + side
             if around[side] != 0:
@@ -237,9 +238,9 @@ def contact_forces(
         Number, stretch and force of each point in contact at the beginning of the step, ascending; sliding or not.
     damper : (6,) array
         (rho, N_0, eta_0, c, x_0, r): pressures are eta times the elastic ones, eta = eta_0 + rho (N_el - N_0)/N_el, at
-        least 0; a sticking patch drags with -c (x - x_0), shared like the pressure, x its mean move in the step.
+        least 0; a sticking patch drags with -c (x - x_0), shared like the pressure, x its mean way in the step.
         rho is the damper's relaxation time over the step's beta; N_0, x_0 are what N_el, x were without a rate.
-        A point's slip velocity at the end of the stage is r (move - x_0) over the stage's length.
+        The slip velocity at the end of the stage is r (x - x_0) over the stage's length.
 
     Returns
     -------
@@ -273,16 +274,19 @@ def contact_forces(
         eta_rate = damper[0] * damper[1] / elastic**2
         if eta < 0:
             eta, eta_rate = 0.0, 0.0
-    carried = carry(points, bristles, flags, phi - old_pose[2], damper[5], damper[4], mode == BRUSH)
+    dphi = phi - old_pose[2]
+    lift = 2 * np.sin(points.psi / 2) ** 2
+    moved, slip = 0.0, 0.0
+    if elastic > 0:
+        moved = (foundation.force * points.move).sum() / elastic
+        slip = moved + dphi * (foundation.force * lift).sum() / elastic
+    start = damper[4] - (slip - moved) * (1 - 1 / damper[5])
+    carried = carry(points, bristles, flags, dphi, damper[5], start, mode == BRUSH)
     tractions = rub(points, foundation, carried, mode, eta, spacing, eps_n, eps_t, law[MU_S], law[MU])
 
     along, up = _directions(points)
     s, c = sin(phi), cos(phi)
-    slip = (foundation.force * points.move).sum() / elastic if elastic > 0 else 0.0
     held = tractions.force.copy()
-    mean_way = slip
-    if elastic > 0:
-        mean_way += (phi - old_pose[2]) * (foundation.force * 2 * np.sin(points.psi / 2) ** 2).sum() / elastic
     dragging = mode == STICK and elastic > 0 and damper[3] > 0
     drag = 0.0
     if dragging:  # shared over the patch like the pressure
@@ -307,9 +311,9 @@ def contact_forces(
         _add_outer(tangent, pushes, share_by)
         if dragging:
             slip_by = _spread(_gathered(points, foundation.force / elastic, along, nodes), X, s, c)
-            for i in range(total):  # the mean slip leaves out what rolling alone moves
-                slip_by[2] -= foundation.force[i] / elastic * 2 * sin(points.psi[i] / 2) ** 2
-            slip_by += _spread(_slip_by_gaps(points, foundation, slip, elastic, up, nodes), Y, s, c)
+            slip_by[2] += dphi * (foundation.force * np.sin(points.psi)).sum() / elastic
+            ways = points.move + dphi * lift
+            slip_by += _spread(_slip_by_gaps(points, ways, foundation, slip, elastic, up, nodes), Y, s, c)
             share_by = -damper[3] * slip_by - drag / elastic * elastic_by
         _add_outer(tangent, _spread(_gathered(points, tractions.share, along, nodes), X, s, c), share_by)
 
@@ -332,8 +336,7 @@ def contact_forces(
     res[LENGTH] = foundation.length
     res[STUCK] = tractions.stuck / foundation.length if foundation.length > 0 else 0.0
     res[SLIP], res[ELASTIC], res[ETA], res[DRAG] = slip, elastic, eta, drag
-    res[WAY] = mean_way
-    res[BEYOND] = ((carried.pull + held) * (carried.way - carried.part * mean_way)).sum() / 2
+    res[BEYOND] = ((carried.pull + held) * (carried.way - carried.part * slip)).sum() / 2
     active = 0
     for i in range(total):
         if points.gap[i] < 0:

@@ -174,6 +174,9 @@ def rub(
     total = points.gap.shape[0]
     stretch, sliding = bristles.stretch, bristles.sliding
     weight, weight_by = _weights(points, bristles, spacing, mode == BRUSH)
+    # friction that slides is shared like the foundation's forces; bristles that take it over pull as much in all
+    lumped = -eps_n * (weight * np.minimum(points.gap, 0.0)).sum()
+    even = foundation.force.sum() / lumped if lumped > 0 else 1.0
     force, share = np.zeros(total), np.zeros(total)
     by_abscissa, by_phi, by_gap = np.zeros(total), np.zeros(total), np.zeros((total, 5))
     energy, stuck = 0.0, 0.0
@@ -186,7 +189,7 @@ def rub(
             force[i] = eta * share[i]
             force_by_gaps(by_gap[i, 1:4], eta * mode * mu, foundation, before, i, behind)
             # what a damper adds to the pressure is no spring: bristles that held it would give it back when they stick
-            stretch[i] = -min(eta, 1.0) * mode * mu * pressure / eps_t
+            stretch[i] = -min(eta, 1.0) * even * mode * mu * pressure / eps_t
             energy += weight[i] * eps_t * stretch[i] ** 2 / 2
         elif weight[i] != 0:
             limit = (mu if sliding[i] != 0 else mu_s) * eta * pressure

@@ -64,6 +64,7 @@ def march(
         if keep is not None:
             keep(state)
 
+    state = _free(state)
     note(state)
     attempts, accepted = 0, 0
     tolerance = 3.0 * rtol**1.5  # second order: the error over a pulse goes as its power 2/3

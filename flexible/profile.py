@@ -8,7 +8,7 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact import BRUSH, DRAG, ELASTIC, EPS_N, EPS_T, ETA, SPACING, STICK
+from .contact import BRUSH, DRAG, ELASTIC, EPS_N, EPS_T, ETA, MU, SPACING, STICK
 from .friction import SLIDE_LEFT, SLIDE_RIGHT, edge_of_patch
 from .state import State
 from .touch import RimContact
@@ -61,7 +61,7 @@ def profile(hoop: RimContact, state: State) -> Profile:
         held, flags = np.full(len(around), np.nan), np.zeros(len(around))
         held[1:-1], flags[1:-1] = -eps_t * state.bristles[part, 1], state.flags[part]
         if state.mode in (SLIDE_RIGHT, SLIDE_LEFT):
-            held *= max(float(state.res[ETA]), 1.0)
+            held = -state.mode * hoop.law[MU] * eps_n * np.minimum(gap, 0.0) * state.res[ETA]
         elastic = -eps_n * np.minimum(gap, 0.0)
         if state.res[ELASTIC] > 0:
             held += state.res[DRAG] * elastic / state.res[ELASTIC]

@@ -177,7 +177,7 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, law: str) -> State:
             way = psi - res[LOW] if pose.omega > 0 else res[HIGH] - psi
             bristles[:, 1] = -friction * way / (eps_t * length**2 / 2)
             creep = -friction * abs(pose.omega) / (eps_t * length**2 / 2)
-    vel[0] = pose.slip_velocity + creep - u_rate
+    vel[0] = pose.slip_velocity + creep - u_rate - pose.omega * _lift(hoop, state)
     flags = np.zeros(len(bristles), np.int8)
     if law == "brush" and not rolls:
         flags[:] = 1 if friction > 0 else -1
@@ -220,6 +220,15 @@ def _balanced(hoop: Hoop, state: State, mode: int, pose: Pose) -> State:
         step = -inverse @ off
         change = change + step
     return best
+
+
+def _lift(hoop: Hoop, state: State) -> float:
+    """Mean height of the undeformed rim over its lowest point, weighted by the load: the rolling slip over phidot."""
+    first, count = state.window
+    psi = state.pos[2] + hoop.rim_angle(np.arange(2 * first, 2 * (first + count) + 1)) - pi
+    load = state.nodal[:, 0] * cos(state.pos[2]) - state.nodal[:, 1] * sin(state.pos[2])
+    total = load.sum()
+    return float(load @ (2 * np.sin(psi / 2) ** 2) / total) if total > 0 else 0.0
 
 
 def _abscissa(hoop: Hoop, state: State, reference: State) -> float:

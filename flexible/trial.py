@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact import BEYOND, DRAG, ELASTIC, ETA, FRICTION, NORMAL, NORMAL_ENERGY, SLIP, WAY
+from .contact import BEYOND, DRAG, ELASTIC, ETA, FRICTION, NORMAL, NORMAL_ENERGY, SLIP
 from .state import Model, State
 from .step import BETA, ERROR_WEIGHTS, TAU
 
@@ -69,7 +69,7 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
     forces = (old.res, res_mid, res)
     impulses = [h * sum(w * r[i] for w, r in zip(_QUADRATURE, forces, strict=True)) for i in (NORMAL, FRICTION)]
     work, damped = float(res[BEYOND]), 0.0
-    for a, b, moved in ((old.res, res_mid, res_mid[WAY]), (res_mid, res, res[WAY] - res_mid[WAY])):
+    for a, b, moved in ((old.res, res_mid, slip_mid), (res_mid, res, slip - slip_mid)):
         work += (a[FRICTION] - a[DRAG] + b[FRICTION] - b[DRAG]) / 2 * moved
         damped -= (a[DRAG] + b[DRAG]) / 2 * moved
         damped += (_eta(a, b) - 1) * (b[NORMAL_ENERGY] - a[NORMAL_ENERGY])

@@ -13,6 +13,7 @@ from rigid import Kind, Release, Scene
 
 from .checks import NO, Margins, in_si, listed, mirrored
 
+OUT_OF_RANGE = ("too far for a linear ring", "well above 1.3/k")
 _LOOSE = 30.0  # times rtol: what the error control, which works on the impulses step by step, may leave at the end
 
 
@@ -35,8 +36,9 @@ def _history(motion: FlexibleMotion) -> Margins:
         "N >= 0": float(-normal.min()) / most / 1e-10,
         "in order": 0.0 if (np.diff(steps.t) >= 0).all() else NO,
     }
-    # Newton meets the forces to 1e-9 of the weight, or of themselves
-    margins["|F| <= mu_s N"] = float((np.abs(friction) - bound).max()) / (1e-6 * most)
+    # Newton meets the forces to 1e-9 of the weight, or of themselves; a motion that has left its range says so
+    if not any(words in motion.ended for words in OUT_OF_RANGE):
+        margins["|F| <= mu_s N"] = float((np.abs(friction) - bound).max()) / (1e-6 * most)
     return margins
 
 
@@ -53,7 +55,8 @@ def _ledger(motion: FlexibleMotion) -> Margins:
     return {
         "ledger closed": abs(held + lost - books.initial - books.hand_over) / scale / 1e-9,
         "numerical loss": abs(books.numerical_loss) / allowed,
-        "losses >= 0": -min(books.friction_loss, books.damping_loss, 0.0) / allowed,
+        # the bristles of a sliding patch hold mu p before they slip as far; friction gives it to them in advance
+        "losses >= 0": -min(books.friction_loss + books.contact_spring, books.damping_loss, 0.0) / allowed,
     }
 
 

@@ -15,9 +15,9 @@ from flexible.contact import (
     NORMAL_ENERGY,
     SLIDE_LEFT,
     SLIDE_RIGHT,
+    SLIP,
     STICK,
     UNDAMPED,
-    WAY,
     contact_forces,
 )
 from flexible.points import element_at
@@ -77,7 +77,7 @@ def test_steady_rolling_of_a_sticking_patch(points, way):
     exact = -0.8 * EPS * creep * (2 * a) ** 2 / 2
     assert friction[-8 * points :] == pytest.approx(exact, rel=1e-5)
     assert np.ptp(friction[-8 * points :]) < 1e-8 * abs(exact)
-    moved, stored = (np.array([res[i] for res in found]) for i in (WAY, BRISTLE_ENERGY))
+    moved, stored = (np.array([res[i] for res in found]) for i in (SLIP, BRISTLE_ENERGY))
     work = (friction[1:] + friction[:-1]) / 2 * moved[1:] + np.array([res[BEYOND] for res in found])[1:]
     lost = -work - np.diff(stored)
     assert lost[-8 * points :].mean() == pytest.approx(-exact * creep * step, rel=2e-5)
