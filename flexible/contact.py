@@ -281,7 +281,7 @@ def contact_forces(
         moved = (foundation.force * points.move).sum() / elastic
         slip = moved + dphi * (foundation.force * lift).sum() / elastic
     start = damper[4] - (slip - moved) * (1 - 1 / damper[5])
-    carried = carry(points, bristles, flags, dphi, damper[5], start, mode == BRUSH)
+    carried = carry(points, bristles, flags, dphi, damper[5], start, slip, damper[4], mode == BRUSH)
     tractions = rub(points, foundation, carried, mode, eta, spacing, eps_n, eps_t, law[MU_S], law[MU])
 
     along, up = _directions(points)
@@ -336,7 +336,7 @@ def contact_forces(
     res[LENGTH] = foundation.length
     res[STUCK] = tractions.stuck / foundation.length if foundation.length > 0 else 0.0
     res[SLIP], res[ELASTIC], res[ETA], res[DRAG] = slip, elastic, eta, drag
-    res[BEYOND] = ((carried.pull + held) * (carried.way - carried.part * slip)).sum() / 2
+    res[BEYOND] = ((carried.pull + held) * (carried.way - carried.mean)).sum() / 2
     active = 0
     for i in range(total):
         if points.gap[i] < 0:

@@ -29,7 +29,7 @@ Bristles = namedtuple(
         "touched",  # whether the point has touched the floor in this visit
         "sliding",  # direction in which friction pushes a sliding point, 0 while it sticks
         "way",  # along the floor since the step began or the point touched, rolling included
-        "part",  # of the step, for which it has done so
+        "mean",  # what the patch as a whole has slipped in that time
         "pull",  # tangential force on the point when the step began
     ],
 )
@@ -68,18 +68,29 @@ def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, floa
 
 
 @njit(cache=True, error_model="numpy")
-def carry(points: Any, kept: Any, flags: Any, dphi: float, ratio: float, start: float, brush: bool) -> Any:
+def carry(
+    points: Any,
+    kept: Any,
+    flags: Any,
+    dphi: float,
+    ratio: float,
+    start: float,
+    slip: float,
+    slip_start: float,
+    brush: bool,
+) -> Any:
     """Bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered since.
 
     The way of a point that entered is that of rolling, plus a parabola in time that ends with the velocity of the
     stage, ``ratio (move - start)`` over the stage's length: a long step then sees the slip at its end and not its mean,
-    which would leave the friction of a short patch undamped.
+    which would leave the friction of a short patch undamped. ``slip`` and ``slip_start`` are those of the whole patch.
     """
     total = points.gap.shape[0]
     stretch, rate = np.zeros(total), np.zeros(total)
     by_gap, by_phi = np.zeros(total), np.zeros(total)
     touched, sliding = np.zeros(total, np.bool_), np.zeros(total, np.int8)
-    way, part, pull = np.zeros(total), np.zeros(total), np.zeros(total)
+    way, mean, pull = np.zeros(total), np.zeros(total), np.zeros(total)
+    slip_ending = ratio * (slip - slip_start)
     p = 0
     for i in range(total):
         j, move = points.number[i], points.move[i]
@@ -87,7 +98,7 @@ def carry(points: Any, kept: Any, flags: Any, dphi: float, ratio: float, start: 
             p += 1
         if p < kept.shape[0] and kept[p, 0] == j:
             touched[i] = True
-            way[i], part[i], pull[i] = move + points.rolled[i], 1.0, kept[p, 2]
+            way[i], mean[i], pull[i] = move + points.rolled[i], slip, kept[p, 2]
             stretch[i] = kept[p, 1] + way[i]
             rate[i] = 1.0
             sliding[i] = flags[p]
@@ -102,14 +113,14 @@ def carry(points: Any, kept: Any, flags: Any, dphi: float, ratio: float, start: 
             lift, lift_in = 2 * sin(psi / 2) ** 2, 2 * sin(psi_in / 2) ** 2
             rolled = rest * dphi - 2 * cos((psi + psi_in) / 2) * sin(rest * dphi / 2)
             way[i] = stretch[i] = rolled + rest * (ending - (ending - move) * rest)
-            part[i] = rest
+            mean[i] = rest * (slip_ending - (slip_ending - slip) * rest)
             rate[i] = rest * (ratio - (ratio - 1) * rest)
             by_fraction = -(ending - 2 * (ending - move) * rest) - lift_in * dphi
             by_gap[i] = by_fraction * d_gap
             by_phi[i] = by_fraction * d_sweep * 2 * dphi + (1 - rate[i]) * lift - (1 - rest) * lift_in
             if brush and flags.shape[0] > 0:  # a point that enters behind a sliding edge goes on sliding
                 sliding[i] = flags[0] if j < kept[0, 0] else flags[-1]
-    return Bristles(stretch, rate, by_gap, by_phi, touched, sliding, way, part, pull)
+    return Bristles(stretch, rate, by_gap, by_phi, touched, sliding, way, mean, pull)
 
 
 @njit(cache=True, error_model="numpy")
