@@ -1,13 +1,13 @@
 """The limit of a sequence y(s) as s grows, and how fast it gets there.
 
-Both need no theory of the solver: a law ``y = L + c s^-p`` is fitted, and its uncertainty says how well it
-holds.
+A law ``y = L + c s^-p`` is fitted, and its uncertainty says how well it holds. The theory of the solver enters that
+uncertainty only: as the limit with the exponent that its last term has.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf, isfinite, nan, sqrt
+from math import hypot, inf, isfinite, nan, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +18,9 @@ Array = NDArray[np.float64]
 
 CONFIDENCE = 0.95
 """Level of every interval here."""
+
+LEADING = 1 / 3
+"""The rate of the last term in the end: the half-width of the contact patch, s^(-1/3)."""
 
 _RATES = (0.05, 3.0)
 
@@ -48,7 +51,7 @@ class Limit:
     """Extrapolated limit L of L + c s^-p."""
     uncertainty: float
     """Half width of its interval: scatter about the fit, choice of the fitted points, numerical error of the
-    cases."""
+    cases, and the change of the limit with the exponent ``LEADING`` for the fitted one."""
     exponent: float
     """The exponent p of that fit, found without knowing the rigid value (or given, where theory knows it)."""
     rigid: float
@@ -221,6 +224,9 @@ def limit_of(
     """The limit of a measure over a ladder of stiffness beside the rigid value it should have."""
     values = np.asarray(y, float)
     value, uncertainty, fitted = richardson(s, values, error, exponent)
+    if exponent is None:
+        # a rate fitted where two terms of opposite sign still compete is not that of the last one
+        uncertainty = hypot(uncertainty, value - richardson(s, values, error, LEADING)[0])
     rate = observed_rate(s, values - rigid, error)
     return Limit(
         value,
