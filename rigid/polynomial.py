@@ -111,9 +111,8 @@ def first_positive(c, n, start, stop, b):
     """First x on the way from ``start`` to ``stop`` (both >= 0, either order) beyond which the polynomial is
     positive; ``b`` is room for n + 1 numbers.
 
-    -1 if there is none; an interval in which it only falls from a positive start has none. An interval is decided when
-    its Bernstein coefficients change sign once at most; else it is halved, geometrically over several orders of
-    magnitude, so that all scales are seen.
+    -1 if there is none. An interval is decided when its Bernstein coefficients change sign once at most; else it is
+    halved, geometrically over several orders of magnitude, so that all scales are seen.
     """
     here = start
     there = stop
@@ -127,8 +126,10 @@ def first_positive(c, n, start, stop, b):
         clear = False
         if changes <= 1 or high - low <= 1e-14 * high:
             first, last = (b[0], b[n]) if here < there else (b[n], b[0])
+            if first > 0.0 or (last > 0.0 and changes > 1):
+                return here
             if last > 0.0:
-                return here if first > 0.0 or changes > 1 else polish(c, n, here, there)
+                return polish(c, n, here, there)
             clear = True
         if clear:
             width = there - here

@@ -27,6 +27,7 @@ def test_a_root_behind_a_near_miss():
     assert first(MARGIN, 0.6087, 0.0) == pytest.approx(0.43010775, abs=1e-8)
     assert first(MARGIN, 0.0, 0.6087) == pytest.approx(0.16787563, abs=1e-8)
     assert first(MARGIN, 0.6087, 0.45) == -1
+    assert first(MARGIN, 0.4, 0.0) == 0.4  # positive from the start, though not to the end
 
 
 def test_any_polynomial():
