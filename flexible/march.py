@@ -105,6 +105,8 @@ def march(
             return state, records, attempts, f"stopped at t = {state.t:.6g}, as asked"
         if event is not None:
             mode = STICK if state.mode != STICK else (1 if state.res[FRICTION] > 0 else -1)
+            if mode == STICK:  # to the last digit, which a step that was cut short may not have
+                state = replace(state, slip_velocity=0.0)
             try:
                 state = restart(model, state, mode)
             except MarchError as error:

@@ -84,5 +84,5 @@ def test_quick_stress(hoop, tmp_path):
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2])
 def test_other_sequences(seed):
-    report = run.run_stress(scenes=600, seed=seed)
+    report = run.run_stress(scenes=300, seed=seed)
     assert not report.failures, report.text()
