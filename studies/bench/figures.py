@@ -11,6 +11,7 @@ import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullFormatter
 
 from ..figures import OKABE_ITO, STYLE, save
 from .race import Result, Row
@@ -45,6 +46,7 @@ def work_precision(rows: Sequence[Row], title: str) -> Figure:
                     label=name, capsize=2, markersize=5,
                 )  # fmt: skip
             axes.set(xscale="log", yscale="log", xlabel="error", title=scene)
+            axes.xaxis.set_minor_formatter(NullFormatter())
         panels[0].set_ylabel("seconds")
         handles: dict[str, Any] = {}
         for axes in panels:
