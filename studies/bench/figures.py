@@ -59,21 +59,26 @@ def work_precision(rows: Sequence[Row], title: str) -> Figure:
 
 def cost(rows: Sequence[Row], exponents: dict[str, float]) -> Figure:
     """Cost against size, one panel for each thing that grows, with the fitted exponent."""
-    scenes = list(dict.fromkeys(row.scene for row in rows if "size" in row.more))
+    grown = {
+        scene: [row for row in rows if row.scene == scene and "size" in row.more and row.seconds] for scene in exponents
+    }
+    across = min(3, len(grown))
+    down = -(-len(grown) // across)
     with matplotlib.rc_context(STYLE):
-        figure = Figure(figsize=(3.2 * len(scenes) + 0.4, 3.6), layout="constrained")
+        figure = Figure(figsize=(3.6 * across, 3.0 * down), layout="constrained")
         FigureCanvasAgg(figure)
-        for axes, scene in zip(np.atleast_1d(figure.subplots(1, len(scenes))), scenes, strict=True):
-            mine = [row for row in rows if row.scene == scene and "size" in row.more and row.seconds]
+        panels = np.atleast_1d(figure.subplots(down, across)).ravel()
+        for axes, (scene, mine) in zip(panels, grown.items(), strict=False):
             x, y = [row.more["size"] for row in mine], np.array([row.median for row in mine])
             spread = [y - [row.least for row in mine], np.array([max(row.seconds) for row in mine]) - y]
             axes.errorbar(x, y, yerr=spread, marker="o", color="black", capsize=2)
-            power = exponents.get(scene)
-            axes.set(xscale="log", yscale="log", xlabel=scene)
+            axes.set(xscale="log", yscale="log", xlabel=scene, ylabel="seconds")
             axes.set_ylim(y.min() / 3, y.max() * 3)
-            if power is not None:
-                axes.set_title(f"exponent {power:.2f}", fontsize=10)
-        figure.axes[0].set_ylabel("seconds")
+            axes.xaxis.set_minor_formatter(NullFormatter())
+            axes.yaxis.set_minor_formatter(NullFormatter())
+            axes.set_title(f"exponent {exponents[scene]:.2f}", fontsize=10)
+        for axes in panels[len(grown) :]:
+            axes.set_axis_off()
         return figure
 
 
