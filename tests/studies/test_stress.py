@@ -82,7 +82,6 @@ def test_quick_stress(hoop, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", [1, 2])
-def test_other_sequences(seed):
-    report = run.run_stress(scenes=300, seed=seed)
+def test_another_sequence():
+    report = run.run_stress(scenes=300, seed=1)
     assert not report.failures, report.text()
