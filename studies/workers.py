@@ -231,10 +231,17 @@ def _one_thread() -> Iterator[None]:
 
 @contextmanager
 def _deaf_to_interrupts() -> Iterator[None]:
-    """Workers started meanwhile ignore Ctrl-C from their first instruction, before their initializer could
-    say so."""
+    """Workers started meanwhile are deaf to Ctrl-C from their first instruction, before their initializer could
+    say so; for this process it waits until they are started."""
     if threading.current_thread() is not threading.main_thread():
         yield
+        return
+    if hasattr(signal, "pthread_sigmask"):
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+        try:
+            yield
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         return
     before: Callable[..., object] | int | None = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:

@@ -49,7 +49,7 @@ def unfinished(scene: Scene, *, history: bool = False, progress: object = None) 
 
 def slow(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
     """The same, slowly enough to be interrupted."""
-    time.sleep(0.4)
+    time.sleep(0.7)
     return softened(scene)
 
 
