@@ -204,11 +204,18 @@ def test_a_full_disk_is_one_sentence_and_the_rest_is_kept(tmp_path):
     assert len(Store(out).done()) >= 60
 
 
+def _hears_interrupts() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(tmp_path):
     file = sweep_file(tmp_path, "['third_solver:slow']")
     out = tmp_path / "out"
     line = command("study", "sweep", file, "--out", out, "--workers", 2)
-    running = subprocess.Popen(line, env=environment(), stderr=subprocess.PIPE, text=True, start_new_session=True)
+    # tests that were started in the background hand down a Ctrl-C that is ignored
+    running = subprocess.Popen(
+        line, env=environment(), stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=_hears_interrupts
+    )
     wait_for_rows(out, 1)
     os.killpg(running.pid, signal.SIGINT)  # as a terminal does: to the workers too
     _, err = running.communicate(timeout=30)
