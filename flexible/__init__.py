@@ -13,7 +13,8 @@ In the order in which they build on each other:
 the ring       ``ring`` its elasticity, ``reduction`` to modes and static compliance, ``nodal`` all nodes
 the frame      ``frame`` inertia in axes that float on the disk
 the contact    ``points`` of the rim near the floor, ``foundation`` under them, ``friction`` along it,
-               ``contact`` the three together, ``touch`` the law and the window of a scene
+               ``tangent`` from points to unknowns, ``contact`` all of it together, ``touch`` the law and the window
+               of a scene
 the levels     ``reduced``, ``full``, ``exact`` hoops behind one interface, ``levels`` which a scene gets
 time           ``step`` one implicit stage, ``state`` an instant and what is kept of it, ``trial`` one step,
                ``march`` adaptive steps and located events

@@ -3,23 +3,18 @@
 from __future__ import annotations
 
 import tomllib
-from math import pi
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from strategies import scenes
 
 from rigid import (
     Contact,
-    Friction,
-    Hoop,
     Kind,
-    Landing,
     Release,
     Ring,
-    Run,
-    Scene,
     Solve,
     scene_from_dict,
     simulate,
@@ -28,20 +23,6 @@ from rigid import (
 from studies.stress import checks
 
 fractions = st.floats(0, 1)
-
-
-@st.composite
-def scenes(draw):
-    """Anything a user can type, with a disk of at least 1e-5: below, stress tests keep the books."""
-    k = draw(st.one_of(st.floats(0.01, 0.95), st.floats(-5, -2).map(lambda x: 10**x)))
-    r = draw(st.one_of(st.just(1.0), st.floats(1, 2)))
-    mass = draw(st.one_of(st.just(0.0), st.floats(-4, 2).map(lambda x: 10**x)))
-    mu = draw(st.one_of(st.just(0.0), st.floats(0, 3)))
-    mu_s = mu * draw(st.one_of(st.just(1.0), st.floats(1, 5)))
-    slip = draw(st.one_of(st.just(0.0), st.floats(-2, 2)))
-    release = Release(draw(st.floats(-pi, pi)), draw(st.floats(-5, 5)), slip)
-    run = draw(st.sampled_from([Run(turns=2), Run(turns=4), Run(until="pulse"), Run(until="rest"), Run(t_end=10.0)]))
-    return Scene(Hoop(k, r, mass), Friction(mu_s, mu), release, run, Landing(draw(fractions)))
 
 
 @settings(max_examples=80, deadline=None)
@@ -112,7 +93,7 @@ def test_a_batch_is_its_scenes(many):
         motion = simulate(scene)
         mine = [turn.phi for turn in motion.turns]
         found = [phi for phi in batch.turn_phi[i] if np.isfinite(phi)]
-        if checks._apart(np.array(mine), np.array(found)) > 1e-9:
+        if checks.apart(np.array(mine), np.array(found)) > 1e-9:
             assert checks.sensitivity(motion) > 1e3
 
 

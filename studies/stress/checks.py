@@ -118,11 +118,13 @@ def _turns(motion: Motion) -> np.ndarray:
     return np.array([(t.t, t.phi, t.energy) for t in motion.turns[:2]]).reshape(-1, 3)
 
 
-def _impulses(motion: Motion) -> np.ndarray:
+def impulses(motion: Motion) -> np.ndarray:
+    """J_N and J_F of the first two pulses, (n, 2)."""
     return np.array([(p.normal_impulse, p.friction_impulse) for p in motion.pulses[:2]]).reshape(-1, 2)
 
 
-def _apart(a: np.ndarray, b: np.ndarray) -> float:
+def apart(a: np.ndarray, b: np.ndarray) -> float:
+    """Largest difference over the largest value, or one; plainly wrong where the shapes differ."""
     if a.shape != b.shape:
         return NO
     return float(np.abs(a - b).max(initial=0.0) / max(1.0, np.abs(a).max(initial=0.0)))
@@ -130,7 +132,7 @@ def _apart(a: np.ndarray, b: np.ndarray) -> float:
 
 def _results(motion: Motion) -> np.ndarray:
     """Turns and impulses in one row."""
-    return np.concatenate([_turns(motion).ravel(), _impulses(motion).ravel()])
+    return np.concatenate([_turns(motion).ravel(), impulses(motion).ravel()])
 
 
 def sensitivity(motion: Motion) -> float:
@@ -140,38 +142,38 @@ def sensitivity(motion: Motion) -> float:
     for signs in ((1, 1, 1), (-1, -1, -1), (1, -1, 1), (-1, 1, -1)):
         values = dataclasses.astuple(scene.release)
         release = Release(*(value + sign * nudge for value, sign in zip(values, signs, strict=True)))
-        apart = _apart(_results(motion), _results(simulate(scene.replace(release=release))))
-        worst = max(worst, inf if apart > MOST_GROWTH * nudge else apart / nudge)
+        change = apart(_results(motion), _results(simulate(scene.replace(release=release))))
+        worst = max(worst, inf if change > MOST_GROWTH * nudge else change / nudge)
     return worst
 
 
-def _margin(motion: Motion, apart: float) -> float | None:
-    """``apart`` over what round-off may grow to: by 1/k in a pulse, otherwise by the motion's own sensitivity.
+def _margin(motion: Motion, difference: float) -> float | None:
+    """``difference`` over what round-off may grow to: by 1/k in a pulse, otherwise by the motion's own sensitivity.
 
     None where a motion depends on its last digits, so that there is nothing to compare.
     """
     allowed = 1e-8 + 1e-13 / motion.scene.hoop.k
-    if apart <= allowed:
-        return apart / allowed
+    if difference <= allowed:
+        return difference / allowed
     grown = sensitivity(motion)
-    return None if grown == inf else apart / (allowed + 1e-12 * grown)
+    return None if grown == inf else difference / (allowed + 1e-12 * grown)
 
 
 def repeated(motion: Motion) -> Margins:
     """The same answer mirrored, in SI units, and restarted from the middle of a phase."""
     scene = motion.scene
-    turns, impulses = _turns(motion), _impulses(motion)
+    turns, pushes = _turns(motion), impulses(motion)
     other = simulate(mirrored(scene))
     margins = {
         "mirrored": _margin(
-            motion, max(_apart(turns, _turns(other) * (1, -1, 1)), _apart(impulses, _impulses(other) * (1, -1)))
+            motion, max(apart(turns, _turns(other) * (1, -1, 1)), apart(pushes, impulses(other) * (1, -1)))
         )
     }
     si = in_si(scene)
     other = simulate(si)
     units = np.array([si.time_unit, 1.0, si.energy_unit])
     margins["in SI units"] = _margin(
-        motion, max(_apart(turns, _turns(other) / units), _apart(impulses, _impulses(other) / si.impulse_unit))
+        motion, max(apart(turns, _turns(other) / units), apart(pushes, impulses(other) / si.impulse_unit))
     )
     margins["restarted"] = restarted(motion)
     return {name: value for name, value in margins.items() if value is not None}
@@ -190,7 +192,7 @@ def restarted(motion: Motion) -> float | None:
     state = motion.at(t)
     release = Release(float(state.phi), float(state.omega), float(state.slip_velocity))
     again = simulate(motion.scene.replace(release=release, run={"turns": len(later)}))
-    return _margin(again, _apart(np.array([turn.phi for turn in later]), np.array([turn.phi for turn in again.turns])))
+    return _margin(again, apart(np.array([turn.phi for turn in later]), np.array([turn.phi for turn in again.turns])))
 
 
 def right_hand_side(scene: Scene, mu_hat: float | None) -> Any:

@@ -11,7 +11,7 @@ import numpy as np
 from flexible import FlexibleMotion, simulate
 from rigid import Kind, Release, Scene
 
-from .checks import NO, Margins, in_si, listed, mirrored
+from .checks import NO, Margins, apart, impulses, in_si, listed, mirrored
 
 OUT_OF_RANGE = ("too far for a linear ring", "well above 1.3/k")
 _LOOSE = 30.0  # times rtol: what the error control, which works on the impulses step by step, may leave at the end
@@ -60,16 +60,6 @@ def _ledger(motion: FlexibleMotion) -> Margins:
     }
 
 
-def _measures(motion: FlexibleMotion) -> np.ndarray:
-    return np.array([(p.normal_impulse, p.friction_impulse) for p in motion.pulses[:1]]).reshape(-1, 2)
-
-
-def _apart(a: np.ndarray, b: np.ndarray) -> float:
-    if a.shape != b.shape:
-        return NO
-    return float(np.abs(a - b).max(initial=0.0) / max(1.0, np.abs(a).max(initial=0.0)))
-
-
 def _again(motion: FlexibleMotion, watch: Callable[[float], bool]) -> Margins:
     """Mirrored, in SI units and restarted, as long as there is time.
 
@@ -86,7 +76,7 @@ def _again(motion: FlexibleMotion, watch: Callable[[float], bool]) -> Margins:
         again = simulate(other, progress=watch)
         if watch(0.0):
             break
-        margins[name] = _apart(_measures(motion), _measures(again) * units) / _allowed(scene)
+        margins[name] = apart(impulses(motion)[:1], impulses(again)[:1] * units) / _allowed(scene)
     return margins
 
 
@@ -121,4 +111,4 @@ def against_all_nodes(scene: Scene, watch: Callable[[float], bool]) -> Margins:
     reduced, full = (simulate(scene.replace(solve={"level": level}), progress=watch) for level in ("reduced", "full"))
     if watch(0.0):
         return {}
-    return {"all nodes": _apart(_measures(reduced), _measures(full)) / (_allowed(scene) + 3e-3)}
+    return {"all nodes": apart(impulses(reduced)[:1], impulses(full)[:1]) / (_allowed(scene) + 3e-3)}

@@ -246,6 +246,7 @@ def test_a_motion_ends_where_progress_asks_it_to():
     held = books.kinetic + books.gravity + books.ring_strain + books.contact_spring
     lost = books.friction_loss + books.damping_loss + books.numerical_loss
     assert held + lost == pytest.approx(books.initial + books.hand_over, abs=1e-12)
+    assert abs(books.numerical_loss) < 1e-2 * books.initial  # rtol
 
 
 @pytest.mark.parametrize("mass", [0.0, 0.1])

@@ -6,26 +6,14 @@ import pickle
 import subprocess
 import sys
 from itertools import pairwise
-from math import isfinite, pi, radians
+from math import isfinite, radians
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
+from strategies import scenes
 
-from rigid import Friction, Hoop, Landing, Release, Run, Scene, load_scene, simulate, simulate_batch, solve
-
-
-@st.composite
-def scenes(draw):
-    """Anything a user can type, small disks and heavy hoops alike."""
-    k = draw(st.one_of(st.floats(0.01, 0.95), st.floats(-8, -2).map(lambda x: 10**x)))
-    r = draw(st.one_of(st.just(1.0), st.floats(1, 2)))
-    mass_ratio = draw(st.one_of(st.just(0.0), st.floats(-4, 2).map(lambda x: 10**x)))
-    mu = draw(st.one_of(st.just(0.0), st.floats(0, 3)))
-    mu_s = mu * draw(st.one_of(st.just(1.0), st.floats(1, 5)))
-    release = Release(draw(st.floats(-pi, pi)), draw(st.floats(-5, 5)), draw(st.one_of(st.just(0.0), st.floats(-2, 2))))
-    return Scene(Hoop(k, r, mass_ratio), Friction(mu_s, mu), release, Run(turns=2), Landing(draw(st.floats(0, 1))))
+from rigid import Friction, Hoop, Release, Run, Scene, load_scene, simulate, simulate_batch, solve
 
 
 @settings(max_examples=60, deadline=None)
