@@ -11,9 +11,8 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Hoop, Kind, Phase, Pulse, States, Turn
+from rigid import Hoop, Kind, Phase, States, Turn
 
-from .contact.forces import BRUSH, STICK
 from .models.state import Record
 from .motion import FlexiblePulse
 
@@ -72,12 +71,11 @@ class Stretch:
     def kinds(self) -> list[Kind]:
         """What the patch does from each record to the next."""
         kinds = []
-        for mode, normal, friction, stuck in zip(
-            self["mode"], self["normal_force"], self["friction_force"], self["stick_fraction"], strict=True
-        ):
+        columns = (self["normal_force"], self["friction_force"], self["stick_fraction"])
+        for normal, friction, stuck in zip(*columns, strict=True):
             if normal == 0:
                 kinds.append(Kind.FLIGHT)
-            elif mode == STICK or (mode == BRUSH and stuck > 0):
+            elif stuck > 0:
                 kinds.append(Kind.ROLL)
             else:
                 kinds.append(Kind.SPIN if friction > 0 else Kind.SKID)
@@ -181,8 +179,3 @@ class Stretch:
             numerical_loss=float(held[0] - held[1]) - sum(losses),
             phases=tuple(self.phases(first, last)),
         )
-
-
-def pulse_windows(pulses: tuple[Pulse, ...]) -> list[tuple[float, float]]:
-    """The phi-intervals over which the pulses of a rigid motion are measured, in the order of the sweep."""
-    return [(pulse.phi_start, pulse.phi_end) for pulse in pulses]

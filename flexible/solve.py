@@ -2,7 +2,7 @@
 
 ``resolve = "pulses"`` runs the rigid closed form between pulses and the flexible hoop only inside them: each
 flexible stretch begins a little before the rigid hoop's pulse, in quasi-static equilibrium, and ends with it. The
-rigid hoop is always the one that the contact law tends to (:mod:`flexible.limit`).
+rigid hoop is always the one that the contact law tends to (:mod:`flexible.contact.laws`).
 ``resolve = "all"`` is flexible from the release on.
 """
 
@@ -17,9 +17,8 @@ import rigid
 from rigid import Kind, Release, Run, Scene
 
 from .builder import Builder
-from .contact.forces import STICK
+from .contact.laws.listing import rigid_limit
 from .handover import hand_over
-from .limit import rigid_limit
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
@@ -97,7 +96,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             return _last_turn(scene.run.turns or 0) if over else motion.ended
         start = max(0.0, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
         try:
-            state = hand_over(hoop, motion, start, scene.contact.law)
+            state = hand_over(hoop, motion, start)
         except MarchError as error:
             builder.add_rigid(motion, start)
             builder.completed = False
@@ -128,8 +127,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         rest = _rest_of(scene.run, builder)
         if rest is None:
             return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
-        slip = 0.0 if state.mode == STICK else state.slip_velocity
-        release = Release(float(state.pos[2]), float(state.vel[2]), float(slip))
+        release = Release(float(state.pos[2]), float(state.vel[2]), float(hoop.law.handed_back(state)))
         current = dataclasses.replace(scene, release=release, run=rest)
 
 
@@ -164,7 +162,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
     """Flexible from the release on; pulses are measured over the rigid hoop's intervals."""
     reference = rigid.simulate(rigid_limit(scene))
     try:
-        state = hand_over(hoop, reference, 0.0, scene.contact.law)
+        state = hand_over(hoop, reference, 0.0)
     except MarchError as error:
         builder.completed = False
         return str(error) + _too_soft(scene)

@@ -8,7 +8,9 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..contact.forces import BRISTLE_ENERGY, FRICTION, LENGTH, NORMAL, NORMAL_ENERGY, STUCK
+from ..contact.laws.law import Law
+from ..contact.points.data import Bristles, Damper, Resultants
+from .stage import Predictor
 
 Array = NDArray[np.float64]
 
@@ -26,25 +28,39 @@ class State:
     window: tuple[int, int]  # first rim element and number of elements
     u: Array
     nodal: Array
-    res: Array
-    bristles: Array
-    flags: NDArray[np.int8]
+    res: Resultants
+    bristles: Bristles
     slip_velocity: float
     elastic_rate: float = 0.0  # of N_el
 
     @property
     def normal_force(self) -> float:
-        return float(self.res[NORMAL])
+        return self.res.normal
 
     @property
     def friction_force(self) -> float:
-        return float(self.res[FRICTION])
+        return self.res.friction
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Stage:
+    """An implicit stage as a model has solved it."""
+
+    ok: bool
+    d: Array
+    acc: Array
+    matrix: Any  # Newton's last; the model's own business
+    window: tuple[int, int]
+    u: Array
+    nodal: Array
+    res: Resultants
+    bristles: Bristles
 
 
 class Model(Protocol):
     """What the march needs of a level of fidelity."""
 
-    mu_s: float
+    law: Law
     relaxation: float
 
     def patch_damping(self, state: State) -> float:
@@ -54,17 +70,11 @@ class Model(Protocol):
         self,
         old: State,
         mode: int,
-        damper: Array,
-        pos_pred: Array,
-        vel_pred: Array,
-        beta: float,
-        guess: Array,
-        near: tuple[tuple[int, int], Array] | None = None,
-    ) -> Any:
-        """Solve one stage: (ok, d, acc, matrix, window, u, nodal, res, bristles, flags).
-
-        ``guess`` starts the increment, ``near`` (a window and its displacement) the ring.
-        """
+        damper: Damper,
+        predictor: Predictor,
+        near: Stage | None = None,
+    ) -> Stage:
+        """Solve one stage; the ring starts from the stage ``near``, if that had the same window."""
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity, ring strain."""
@@ -123,14 +133,14 @@ def record(model: Model, state: State, books: Books) -> Record:
         y_C=1 + float(state.pos[1]),
         slip_velocity=state.slip_velocity,
         approach_velocity=float(state.vel[1]),
-        normal_force=float(res[NORMAL]),
-        friction_force=float(res[FRICTION]),
-        patch_length=float(res[LENGTH]),
-        stick_fraction=float(res[STUCK]),
+        normal_force=res.normal,
+        friction_force=res.friction,
+        patch_length=res.length,
+        stick_fraction=res.stuck,
         kinetic=kinetic,
         gravity=gravity,
         ring_strain=strain,
-        contact_spring=float(res[NORMAL_ENERGY] + res[BRISTLE_ENERGY]),
+        contact_spring=res.normal_energy + res.bristle_energy,
         normal_impulse=books.normal_impulse,
         friction_impulse=books.friction_impulse,
         friction_loss=books.friction_loss,

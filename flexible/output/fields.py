@@ -274,9 +274,10 @@ class _Painter:
         ring = replace(ring, field_data={"display_factor": self.factor})
         blocks = {"ring": ring}
         if self.asked & set(RIM_FIELDS):
-            hoop = None if instant.kept is None else instant.kept.hoop
+            kept, state = instant.kept, instant.state
+            contact = None if kept is None or state is None else (kept.hoop, state)
             on_rim: dict[str, Array] = {n: nodal[n] for n in ("displacement", "velocity") if n in nodal}
-            blocks["rim"] = rim_of(mesh, points, on_rim, hoop, instant.state, place, self.asked, self.stress, R)
+            blocks["rim"] = rim_of(mesh, points, on_rim, contact, place, self.asked, self.stress, R)
         inner = 1 - self.scene.wall
         radius = max(self.scene.hoop.k * inner, 0.025)  # a point mass has to be seen too
         centre = R * place.points(np.array([[inner - radius, 0.0]]))[0]

@@ -9,25 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from ..contact.forces import BRISTLE_ENERGY, BRUSH, ELASTIC, FRICTION, NORMAL, SLIDE_LEFT, SLIDE_RIGHT, STICK
 from ..models.state import Books, Model, Record, State, record
 from .tr_bdf2 import MarchError, Trial, attempt, restart
 
 
-def _excess(model: Model, state: State) -> float:
-    """Positive when the patch can no longer go on as it does."""
-    if state.mode == STICK:  # a damper may take all of N while the bristles still pull
-        return abs(state.res[FRICTION]) - model.mu_s * state.res[NORMAL] if state.res[ELASTIC] > 0 else -1.0
-    if state.mode == BRUSH or state.res[NORMAL] == 0 or model.mu_s == 0:
-        return -1.0
-    return state.mode * state.slip_velocity
-
-
-def _free(state: State) -> State:
-    """A patch off the floor comes down sliding, the way it moves: one that stuck would break as it touches."""
-    if state.mode == BRUSH or state.res[ELASTIC] > 0 or state.slip_velocity == 0:
-        return state
-    return replace(state, mode=SLIDE_LEFT if state.slip_velocity > 0 else SLIDE_RIGHT)
+def _free(model: Model, state: State) -> State:
+    """The state in the mode in which a patch that is off the floor comes down."""
+    mode = model.law.free(state)
+    return state if mode == state.mode else replace(state, mode=mode)
 
 
 def march(
@@ -64,7 +53,7 @@ def march(
         if keep is not None:
             keep(state)
 
-    state = _free(state)
+    state = _free(model, state)
     note(state)
     attempts, accepted = 0, 0
     tolerance = 3.0 * rtol**1.5  # second order: the error over a pulse goes as its power 2/3
@@ -83,7 +72,7 @@ def march(
             continue
         grown = min(h * min(3.0, 0.9 * (tolerance / max(trial.error, 1e-300)) ** (1 / 3)), largest_step)
         event: Callable[[State], float] | None = None
-        for watch in (lambda s: _excess(model, s), done):
+        for watch in (model.law.excess, done):
             if watch(trial.state) > 0:
                 located = _locate(model, state, trial, watch)
                 attempts += located[1]
@@ -92,11 +81,11 @@ def march(
         accepted += 1
         books.normal_impulse += trial.impulses[0]
         books.friction_impulse += trial.impulses[1]
-        stored = trial.state.res[BRISTLE_ENERGY] - state.res[BRISTLE_ENERGY]
+        stored = trial.state.res.bristle_energy - state.res.bristle_energy
         books.friction_loss -= trial.friction_work + stored
         books.damping_loss += trial.damped
         books.off_floor += trial.off_floor
-        state = _free(trial.state)
+        state = _free(model, trial.state)
         note(state)
         asked = progress is not None and progress(state)
         if done(state) >= 0:
@@ -104,8 +93,8 @@ def march(
         if asked:
             return state, records, attempts, f"stopped at t = {state.t:.6g}, as asked"
         if event is not None:
-            mode = STICK if state.mode != STICK else (1 if state.res[FRICTION] > 0 else -1)
-            if mode == STICK:  # to the last digit, which a step that was cut short may not have
+            mode = model.law.successor(state)
+            if model.law.sticks(mode):  # to the last digit, which a step that was cut short may not have
                 state = replace(state, slip_velocity=0.0)
             try:
                 state = restart(model, state, mode)

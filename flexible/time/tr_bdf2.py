@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..contact.forces import BEYOND, DRAG, ELASTIC, ETA, FRICTION, NORMAL, NORMAL_ENERGY, SLIP
-from ..models.stage import BETA, ERROR_WEIGHTS, TAU
+from ..contact.points.data import Damper, Resultants
+from ..models.stage import BETA, ERROR_WEIGHTS, TAU, Predictor
 from ..models.state import Model, State
 
 Array = NDArray[np.float64]
@@ -43,71 +44,72 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
     beta = BETA * h
     rho, drag = model.relaxation / beta, model.patch_damping(old) / beta
     pos0, vel0, acc0 = old.pos, old.vel, old.acc
-    elastic0 = old.res[ELASTIC]
+    elastic0 = old.res.elastic
     elastic_pred = elastic0 + beta * old.elastic_rate
     pos_pred, vel_pred = pos0 + 2 * beta * vel0 + beta**2 * acc0, vel0 + beta * acc0
-    damper = np.array([rho, elastic_pred, 1.0, drag, beta * old.slip_velocity, TAU / BETA])
-    first = model.stage(old, old.mode, damper, pos_pred, vel_pred, beta, beta**2 * acc0)
-    if not first[0]:
+    damper = Damper(rho, elastic_pred, 1.0, drag, beta * old.slip_velocity, TAU / BETA, 1 / beta, 0.0)
+    first = model.stage(old, old.mode, damper, Predictor(pos_pred, vel_pred, beta, beta**2 * acc0))
+    if not first.ok:
         return None
-    d, acc_mid, res_mid = first[1], first[2], first[7]
-    pos_mid, vel_mid = pos_pred + d, vel_pred + d / beta
+    acc_mid, res_mid = first.acc, first.res
+    pos_mid, vel_mid = pos_pred + first.d, vel_pred + first.d / beta
     c_mid, c_old = 1 / (TAU * (2 - TAU)), -((1 - TAU) ** 2) / (TAU * (2 - TAU))
     vel_pred = c_mid * vel_mid + c_old * vel0
     pos_pred = c_mid * pos_mid + c_old * pos0 + beta * vel_pred
-    elastic_pred = c_mid * res_mid[ELASTIC] + c_old * elastic0
-    damper = np.array([rho, elastic_pred, 1.0, drag, c_mid * res_mid[SLIP], 1 / BETA])
+    elastic_pred = c_mid * res_mid.elastic + c_old * elastic0
+    damper = Damper(rho, elastic_pred, 1.0, drag, c_mid * res_mid.way, 1 / BETA, 1 / beta, 0.0)
     guess = beta**2 * (acc_mid + (acc_mid - acc0) * (1 - TAU) / TAU)
-    second = model.stage(old, old.mode, damper, pos_pred, vel_pred, beta, guess, (first[4], first[5]))
-    if not second[0]:
+    second = model.stage(old, old.mode, damper, Predictor(pos_pred, vel_pred, beta, guess), first)
+    if not second.ok:
         return None
-    _, d, acc, matrix, window, u, nodal, res, bristles, flags = second
-    pos, vel = pos_pred + d, vel_pred + d / beta
+    acc, res = second.acc, second.res
+    pos, vel = pos_pred + second.d, vel_pred + second.d / beta
     error = h * (ERROR_WEIGHTS[0] * acc0 + ERROR_WEIGHTS[1] * acc_mid + ERROR_WEIGHTS[2] * acc)
-    slip_mid, slip = (r[SLIP] if r[NORMAL] > 0 else p[0] for r, p in ((res_mid, pos_mid), (res, pos)))
+    slip_mid, slip = (r.way if r.normal > 0 else p[0] for r, p in ((res_mid, pos_mid), (res, pos)))
     bend = (slip - slip_mid / TAU) / (1 - TAU)
     forces = (old.res, res_mid, res)
-    impulses = [h * sum(w * r[i] for w, r in zip(_QUADRATURE, forces, strict=True)) for i in (NORMAL, FRICTION)]
-    work, damped = float(res[BEYOND]), 0.0
+    normal_impulse = h * sum(w * r.normal for w, r in zip(_QUADRATURE, forces, strict=True))
+    friction_impulse = h * sum(w * r.friction for w, r in zip(_QUADRATURE, forces, strict=True))
+    work, damped = res.beyond, 0.0
     for a, b, moved in ((old.res, res_mid, slip_mid), (res_mid, res, slip - slip_mid)):
-        work += (a[FRICTION] - a[DRAG] + b[FRICTION] - b[DRAG]) / 2 * moved
-        damped -= (a[DRAG] + b[DRAG]) / 2 * moved
-        damped += (_eta(a, b) - 1) * (b[NORMAL_ENERGY] - a[NORMAL_ENERGY])
-    off = h * sum(w for w, r in zip(_QUADRATURE, forces, strict=True) if r[NORMAL] == 0)
+        work += (a.friction - a.damping + b.friction - b.damping) / 2 * moved
+        damped -= (a.damping + b.damping) / 2 * moved
+        damped += (_eta(a, b) - 1) * (b.normal_energy - a.normal_energy)
+    off = h * sum(w for w, r in zip(_QUADRATURE, forces, strict=True) if r.normal == 0)
     x_C = old.x_C + pos[0] + (pos[2] - pos0[2])
     pos = pos.copy()
     pos[0] = 0.0
-    elastic_rate = float(res[ELASTIC] - elastic_pred) / beta
+    elastic_rate = float(res.elastic - elastic_pred) / beta
     state = State(
-        old.t + h, x_C, pos, vel, acc, old.mode, window, u, nodal, res, bristles, flags,
+        old.t + h, x_C, pos, vel, acc, old.mode, second.window, second.u, second.nodal, res, second.bristles,
         float((slip + bend) / h), elastic_rate,
     )  # fmt: skip
-    size = model.momentum_error(state, beta, matrix, error)
-    return Trial(state, size, (impulses[0], impulses[1]), work, damped, off)
+    size = model.momentum_error(state, beta, second.matrix, error)
+    return Trial(state, size, (normal_impulse, friction_impulse), float(work), float(damped), off)
 
 
-def _eta(first: Array, second: Array) -> float:
+def _eta(first: Resultants, second: Resultants) -> float:
     """Mean damping factor between two instants, of those in contact."""
-    factors = [float(res[ETA]) for res in (first, second) if res[ELASTIC] > 0]
+    factors = [res.eta for res in (first, second) if res.elastic > 0]
     return sum(factors) / len(factors) if factors else 1.0
 
 
 def restart(model: Model, state: State, mode: int) -> State:
     """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
     beta = 1e-7
-    damper = np.array([0.0, 0.0, state.res[ETA] if state.res[ELASTIC] > 0 else 1.0, 0.0, 0.0, 1.0])
-    try:
-        solved = model.stage(state, mode, damper, state.pos, state.vel, beta, beta**2 * state.acc)
-    except np.linalg.LinAlgError:
-        solved = (False,) * 10
-    ok, d, acc, _, window, u, nodal, res, bristles, flags = solved
-    if not ok:
+    eta = state.res.eta if state.res.elastic > 0 else 1.0
+    damper = Damper(0.0, 0.0, eta, 0.0, 0.0, 1.0, 0.0, state.slip_velocity)
+    solved = None
+    with suppress(np.linalg.LinAlgError):
+        solved = model.stage(state, mode, damper, Predictor(state.pos, state.vel, beta, beta**2 * state.acc))
+    if solved is None or not solved.ok:
         raise MarchError(f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved")
     pos = state.pos.copy()
-    pos[3:] += d[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
+    pos[3:] += solved.d[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
     return replace(
-        state, pos=pos, acc=acc, mode=mode, window=window, u=u, nodal=nodal, res=res, bristles=bristles, flags=flags
-    )
+        state, pos=pos, acc=solved.acc, mode=mode, window=solved.window, u=solved.u, nodal=solved.nodal,
+        res=solved.res, bristles=solved.bristles,
+    )  # fmt: skip
 
 
 def advanced(model: Model, state: State, t: float) -> State | None:

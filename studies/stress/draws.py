@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from math import log10, pi
 
 from rigid import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, Solve
+from rigid.elastic import LAWS
 
 RIGID_NUMBERS, FLEXIBLE_NUMBERS = 10, 8
 
@@ -72,7 +73,7 @@ def flexible_scene(x: list[float], y: list[float]) -> Scene:
         run=Run(until="pulse") if y[5] < 0.7 else Run(t_end=0.5 + 2 * x[9]),
         ring=Ring(bending_stiffness=_power(y[0], 1e1, 1e8)),
         contact=Contact(
-            "patch" if y[6] < 0.6 else "brush",
+            LAWS[min(int(y[6] * len(LAWS)), len(LAWS) - 1)],
             stiffness=_power(y[1], 1e1, 1e14),
             damping=0.0 if share is None else 2 * share,
         ),

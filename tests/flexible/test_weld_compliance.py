@@ -63,7 +63,9 @@ def test_modes_and_residual_add_up_to_the_static_compliance():
     for count in (1, 7, 24):
         reduced = reduce(SCENE, count)
         every = np.arange(len(exact))
-        held = (reduced.rim_shapes / reduced.modal[:, 0]) @ reduced.rim_shapes.T + reduced.compliance(every, every)
+        held = (reduced.rim_shapes / reduced.frame.modal[:, 0]) @ reduced.rim_shapes.T + reduced.compliance(
+            every, every
+        )
         assert np.abs(held - exact).max() < 1e-10 * np.abs(exact).max()
 
 
@@ -87,7 +89,7 @@ def test_dynamic_compliance_converges_with_the_modes():
         reduced = reduce(SCENE, int(count))
         shape = reduced.rim_shapes[2 * 300]
         here = np.array([2 * 300])
-        found = (shape**2 / (reduced.modal[:, 0] - square)).sum() + float(reduced.compliance(here, here)[0, 0])
+        found = (shape**2 / (reduced.frame.modal[:, 0] - square)).sum() + float(reduced.compliance(here, here)[0, 0])
         errors.append(abs(found / exact - 1))
     slope = np.polyfit(np.log(counts), np.log(errors), 1)[0]
     assert slope == pytest.approx(-7, abs=1)

@@ -95,7 +95,7 @@ def run_hoop(scene: Scene, hoop: Any) -> Measured:
     from flexible.time.adaptive import march
     from rigid import simulate
 
-    state = hand_over(hoop, simulate(scene), 0.0, scene.contact.law)
+    state = hand_over(hoop, simulate(scene), 0.0)
     end = scene.run.t_end
     assert end is not None
     _, records, _, trouble = march(hoop, state, lambda now: now.t - end, scene.solve.rtol)
