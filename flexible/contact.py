@@ -22,7 +22,8 @@ from math import cos, sin
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel import jit
 
 from .foundation import force_by_gaps, press
 from .friction import BRUSH, SLIDE_LEFT, SLIDE_RIGHT, STICK, carry, rub
@@ -41,7 +42,7 @@ RESULTANTS = 14
 UNDAMPED = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 1.0])
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def contact_forces(
     pose: Any,
     u: Any,
