@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel import jit
+from rigid.kernel.compile import jit
 
 from .normal import force_by_gaps
 
@@ -93,8 +93,8 @@ def directions(points: Any) -> tuple[Any, Any]:
     along, up = np.ones((total, 5)), np.ones((total, 5))
     for i in range(total):
         along[i, 1], up[i, 1] = points.arm_y[i], points.arm_x[i]
-        along[i, 2:] = points.shape[i]
-        up[i, 2:] = points.shape[i]
+        for q in range(3):  # an assignment of slices would compile numpy's broadcasting with all its messages
+            along[i, 2 + q] = up[i, 2 + q] = points.shape[i, q]
     return along, up
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel import jit
+from rigid.kernel.compile import jit
 
 
 @jit

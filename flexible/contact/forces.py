@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel import jit
+from rigid.kernel.compile import jit
 
 from .assembly import X, Y, add_outer, add_spread, directions, gathered, slip_by_gaps, spread, tangents
 from .detection import element_at, gather, vertex_angle

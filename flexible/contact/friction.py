@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel import jit
+from rigid.kernel.compile import jit
 
 from .normal import force_by_gaps
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel import jit
+from rigid.kernel.compile import jit
 
 Foundation = namedtuple(
     "Foundation",

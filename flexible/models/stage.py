@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel import jit
+from rigid.kernel.compile import jit
 
 from ..contact.forces import ELASTIC, EPS_N, EPS_T, LENGTH, NORMAL, OUTSIDE, SLIP, contact_forces
 from ..ring.frame import inertia
@@ -22,6 +22,17 @@ BETA = TAU / 2
 # weights of the step minus those of its third-order companion (Hosea and Shampine 1996)
 _W = sqrt(2) / 4
 ERROR_WEIGHTS = (_W - (1 - _W) / 3, _W - (3 * _W + 1) / 3, BETA - BETA / 3)
+
+
+@jit
+def add_block(matrix: Any, row: int, column: int, factor: float, block: Any) -> None:
+    """Add ``factor`` times a block whose first entry belongs at (row, column).
+
+    In loops: an assignment to slices would compile numpy's broadcasting with all its messages.
+    """
+    for i in range(block.shape[0]):
+        for j in range(block.shape[1]):
+            matrix[row + i, column + j] += factor * block[i, j]
 
 
 @jit
@@ -80,8 +91,8 @@ def solve_stage(
         )
         own, own_tangent = inertia(body, modal, gyro, pos, vel, acc, beta)
         flat = nodal.copy().reshape(2 * nodes)
-        t_uu = tangent[3:, 3:].copy()
-        t_ux = tangent[3:, :3].copy()
+        t_xx, t_xu = tangent[:3, :3].copy(), tangent[:3, 3:].copy()
+        t_ux, t_uu = tangent[3:, :3].copy(), tangent[3:, 3:].copy()
         scale = 1.0 + (law[EPS_N] + law[EPS_T]) * res[LENGTH]  # turns an error of u into one of the forces
         moved = compliance @ flat
         worst, astray = 0.0, 0.0  # of forces, and of displacements as forces on the foundation
@@ -111,16 +122,17 @@ def solve_stage(
         worst = max(worst, astray)
         if not np.isfinite(worst):
             break
-        matrix[:m, :m] = own_tangent
-        matrix[:3, :3] -= tangent[:3, :3]
-        matrix[:3, m:] = -tangent[:3, 3:]
+        matrix[:] = 0.0
+        add_block(matrix, 0, 0, 1.0, own_tangent)
+        add_block(matrix, 0, 0, -1.0, t_xx)
+        add_block(matrix, 0, m, -1.0, t_xu)
         if n > 0:
             columns = shapes.T.copy()
-            matrix[3:m, :3] -= columns @ t_ux
-            matrix[3:m, m:] = -(columns @ t_uu)
-            matrix[m:, 3:m] = -scale * shapes
-        matrix[m:, :3] = -scale * (compliance @ t_ux)
-        matrix[m:, m:] = -scale * (compliance @ t_uu)
+            add_block(matrix, 3, 0, -1.0, columns @ t_ux)
+            add_block(matrix, 3, m, -1.0, columns @ t_uu)
+            add_block(matrix, m, 3, -scale, shapes)
+        add_block(matrix, m, 0, -scale, compliance @ t_ux)
+        add_block(matrix, m, m, -scale, compliance @ t_uu)
         for k in range(2 * nodes):
             matrix[m + k, m + k] += scale
         update = np.linalg.solve(matrix, residual)

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel import jit
+from rigid.kernel.compile import jit
 
 # positions in the array of body constants
 OFFSET, DISK_INERTIA, RING_MASS, RING_INERTIA = range(4)

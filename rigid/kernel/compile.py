@@ -5,7 +5,7 @@ on lists and numba on arrays, to the same numbers. A first call therefore waits 
 even import numba; :func:`compiled` builds (or loads from the cache on disk) the fast twins of all of them at
 once. A function marked :func:`jit` is compiled always.
 
-Where the compiled code is kept is said in :mod:`rigid.kernel_cache`, who is told in :mod:`rigid.compiling`.
+Where the compiled code is kept is said in :mod:`rigid.kernel.store`, who is told in :mod:`rigid.kernel.announce`.
 """
 
 from __future__ import annotations
@@ -35,15 +35,15 @@ def compiled() -> dict[str, Callable[..., Any]]:
 
     Only the functions named ``entry_*`` are cached on disk (the others become part of them).
     """
-    from . import kernel_cache
+    from .store import fingerprint, home, moved
 
-    stamp = kernel_cache.fingerprint({function.__code__.co_filename for function in _REGISTER.values()})
-    place = kernel_cache.home("rigid", stamp)
+    stamp = fingerprint({function.__code__.co_filename for function in _REGISTER.values()})
+    place = home("rigid", stamp)
     twins: dict[str, Any] = {}
     scopes: list[dict[str, Any]] = []
     for name, function in _REGISTER.items():
         scopes.append(dict(function.__globals__))
-        twin = kernel_cache.moved(function, place, scopes[-1])
+        twin = moved(function, place, scopes[-1])
         twins[name] = _compiler(twin, keep=name.startswith("entry_"), nogil=True)
     for scope in scopes:
         scope.update(twins)
@@ -52,20 +52,25 @@ def compiled() -> dict[str, Callable[..., Any]]:
 
 def jit(function: F) -> F:
     """Mark a function for compilation at its first call, with a cache on disk."""
-    from . import kernel_cache
+    from .store import moved
 
     assert isinstance(function, FunctionType)
-    file = Path(function.__code__.co_filename)
-    place = kernel_cache.home(function.__module__, kernel_cache.fingerprint([file]))
-    return _compiler(kernel_cache.moved(function, place), keep=True)
+    return _compiler(moved(function, _home_of(function.__module__, function.__code__.co_filename)), keep=True)
+
+
+@cache
+def _home_of(module: str, file: str) -> Path:
+    from .store import fingerprint, home
+
+    return home(module, fingerprint([file]))
 
 
 def _compiler(function: FunctionType, keep: bool, nogil: bool = False) -> Any:
     """Compiled lazily, with a cache on disk if ``keep``."""
     import numba
 
-    from .compiling import tell
-    from .kernel_cache import beside_the_source
+    from .announce import tell
+    from .store import beside_the_source
 
     tell()
     with beside_the_source():

@@ -111,12 +111,11 @@ def flexible(
 
 
 def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, wishes: dict[str, Any] | None = None) -> None:
-    from ..running.progress import bar, first_time
+    from ..running.progress import bar
     from ..running.solvers import solver
 
     target = folder(out) if out is not None else None
-    compiling = first_time() if name == "flexible" else ""
-    with bar(f"{name} hoop{compiling}") as progress:
+    with bar(f"{name} hoop") as progress:
         motion = solver(name)(scene, history=target is not None, progress=progress)
     if target is not None:
         from .output import write_fields, write_motion
@@ -154,6 +153,18 @@ def mesh(scene: str, file: Path) -> None:
     from .output import write_mesh
 
     click.echo(write_mesh(load_scene(scene), file))
+
+
+@hoop.command("compile")
+@click.option("--shared", is_flag=True, help="Keep it beside the installation too, for all who use that.")
+def compile_(shared: bool) -> None:
+    """Compile both solvers for this machine now, not at their first use."""
+    from rigid.kernel.store import share
+
+    from ..running.solvers import prepare
+
+    place = prepare("rigid", "flexible")
+    click.echo(f"Both solvers are compiled, in {share() if shared else place}.")
 
 
 hoop.add_command(study)

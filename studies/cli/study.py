@@ -92,7 +92,7 @@ def stiffness(
     scheduler: str | None,
 ) -> None:
     """The flexible hoop against the rigid one as stiffness grows."""
-    from ..running.progress import bar, first_time
+    from ..running.progress import bar
     from ..running.solvers import solver
     from ..running.workers import pool
     from ..stiffness.ladder import Ladder
@@ -104,8 +104,7 @@ def stiffness(
     ladder = Ladder.around(described, along, low, high, count)
     solver(solver_name)
     target = folder(out) if out is not None else None
-    compiling = first_time() if solver_name == "flexible" else ""
-    with bar(f"{ladder.count} cases{compiling}") as progress, pool(workers, scheduler) as place:
+    with bar(f"{ladder.count} cases") as progress, pool(workers, scheduler) as place:
         found = stiffness_study(
             described,
             ladder,
@@ -176,15 +175,14 @@ def sweep(
     FILE is a scene in which any value may be a list. A table [sweep] may name the `solvers` ("rigid",
     "flexible"; both by default), a `scene` from which all starts, and ask for `histories = true`.
     """
-    from ..running.progress import bar, first_time
+    from ..running.progress import bar
     from ..running.workers import pool
     from ..sweep import load_sweep, run_sweep
 
     asked = load_sweep(file)
     target = folder(out if out is not None else file.with_suffix("") if file.suffix else Path(f"{file}-results"))
-    compiling = first_time() if "flexible" in asked.solvers else ""
     with (
-        bar(f"{len(asked.points) * len(asked.solvers)} cases{compiling}") as progress,
+        bar(f"{len(asked.points) * len(asked.solvers)} cases") as progress,
         pool(workers, scheduler) as place,
     ):
         table = run_sweep(asked, place, target, progress)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import json
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import inf
 from typing import Any
 
 from rigid import Motion, Scene, scene_to_dict
+from rigid.kernel.announce import running_clock
 
 from .files import plain
 from .history import Columns, through
@@ -105,7 +105,7 @@ class Outcome:
     ended: str = ""
     """Why the motion stopped, in words."""
     seconds: float = 0.0
-    """Wall time of all runs of the case."""
+    """Wall time of all runs of the case, without that of compiling."""
     rtol: float = 0.0
     """Tolerance of the run that is reported."""
     resolved: bool = True
@@ -125,7 +125,7 @@ class Outcome:
 
 def run_case(case: Case) -> Outcome:
     """Run a case; whatever goes wrong in it is told in the outcome, never raised."""
-    start = time.perf_counter()
+    start = running_clock()
     known = {
         "key": case.key,
         "solver": case.solver,
@@ -136,8 +136,8 @@ def run_case(case: Case) -> Outcome:
         found = _resolved(case) if case.against else _once(case, case.scene)
     except Exception as error:  # a failing case is a row of the table, whatever it failed of
         kind = type(error).__name__
-        return Outcome(**known, failure=f"{kind}: {error}".rstrip(": "), seconds=time.perf_counter() - start)
-    return Outcome(**known, **found, seconds=time.perf_counter() - start)
+        return Outcome(**known, failure=f"{kind}: {error}".rstrip(": "), seconds=running_clock() - start)
+    return Outcome(**known, **found, seconds=running_clock() - start)
 
 
 class Unfinished(RuntimeError):

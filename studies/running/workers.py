@@ -15,10 +15,11 @@ from multiprocessing.connection import wait as wait_for_end
 from typing import Protocol
 
 from rigid import scene_to_dict
+from rigid.kernel.store import is_cold
 
 from .case import Case, Outcome, run_case
 from .files import StudyError, plain
-from .solvers import version
+from .solvers import prepare, version
 
 _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
 
@@ -65,6 +66,7 @@ class Processes:
 
     def __init__(self, workers: int) -> None:
         self.workers = workers
+        self.ready = False
         self.executor = self._start()
 
     def _start(self) -> ProcessPoolExecutor:
@@ -75,6 +77,12 @@ class Processes:
         return executor
 
     def submit(self, case: Case) -> Future[Outcome]:
+        if case.solver == "flexible" and not self.ready:
+            import flexible  # noqa: F401  whose kernels are meant
+
+            if is_cold("flexible"):  # one process compiles for all
+                self.executor.submit(prepare, "flexible").result()
+            self.ready = True
         return self.executor.submit(run_case, case)
 
     def room(self) -> int:

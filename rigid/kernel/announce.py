@@ -12,7 +12,7 @@ import time
 from functools import cache
 from typing import Any
 
-PACKAGES = {"rigid": "rigid", "flexible": "flexible"}
+SOLVERS = ("rigid", "flexible")
 
 _logger = logging.getLogger("hoop-pulse")
 _told: set[str] = set()
@@ -41,11 +41,11 @@ def _begin(package: str) -> None:
     depth = getattr(_thread, "depth", 0)
     ours = getattr(_thread, "ours", False)
     if depth == 0:
-        _thread.ours = ours = package in PACKAGES
+        _thread.ours = ours = package in SOLVERS
         _thread.start = time.perf_counter()
     _thread.depth = depth + 1
     if depth == 0 and ours and package not in _told:
-        from .kernel_cache import user_cache
+        from .store import user_cache
 
         _told.add(package)
         folder, trouble = user_cache()

@@ -3,13 +3,13 @@
 numba keeps compiled code beside the source file of a function and looks at that file alone. Here each function is
 compiled from a copy of its source that stands in a folder of its own,
 
-    <cache of the user>/<version, numba, Python, CPU>/<module>-<fingerprint>/<module>.py
+    <cache of the user>/<version, numba, Python, CPU>/<module>-<fingerprint>/
 
 so numba's own, documented cache puts the code there: never into the package, where it would outlive an uninstallation,
 and never under the fingerprint of other sources, the callees' included. Installations of the same sources share a
 folder, wherever they are. The cache is ``NUMBA_CACHE_DIR`` where that is set, else the platform's. What an installation
-has beside its packages (``hoop compile --shared``), or what a folder that cannot be written holds, is copied from there
-instead of compiled again.
+has beside its packages (``hoop compile --shared``), or what a ``NUMBA_CACHE_DIR`` that cannot be written holds, is
+copied from there instead of compiled again. What nothing has used for two months is removed.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ from types import FunctionType
 from typing import Any
 
 NAME = "hoop-pulse"
+PACKAGES = ("rigid", "meshes", "flexible", "studies")
 SHARED = ".hoop-pulse-kernels"  # beside the packages, and no name that could be imported
 UNUSED_DAYS = 60  # after which the kernels of other sources or versions are removed
 
@@ -61,7 +62,8 @@ def _imports(file: Path) -> tuple[Path, ...]:
         else:
             continue
         for module in modules:
-            found += [path for path in (module.with_suffix(".py"), module / "__init__.py") if path.is_file()]
+            if module != root and module.relative_to(root).parts[0] in PACKAGES:
+                found += [path for path in (module.with_suffix(".py"), module / "__init__.py") if path.is_file()]
     return tuple(found)
 
 
@@ -77,7 +79,7 @@ def fingerprint(files: Iterable[str | Path]) -> str:
     """Of the contents of files and of all that they import."""
     digest = hashlib.sha256()
     for file in sources(files):
-        digest.update(file.name.encode() + b"\0" + file.read_bytes() + b"\0")
+        digest.update(str(file.relative_to(_root(file))).encode() + b"\0" + file.read_bytes() + b"\0")
     return digest.hexdigest()[:16]
 
 
@@ -143,50 +145,56 @@ def _own(folder: Path) -> bool:
     return status.st_uid == os.getuid() and not status.st_mode & 0o022
 
 
+_homes: list[Path] = []
+
+
 def home(name: str, stamp: str) -> Path:
     """The folder of the kernels ``name`` with that fingerprint, with what is known of them already."""
     cache_folder, trouble = user_cache()
     place = cache_folder / machine() / f"{name}-{stamp}"
-    if not place.is_dir():
-        others = [shared_cache(), *([_wanted_cache()] if trouble else [])]
-        for other in others:
-            ready = other / machine() / place.name
-            if ready.is_dir():
-                _copy(ready, place)
-                break
-        else:
-            place.mkdir(parents=True, exist_ok=True)
+    if not is_compiled(place):
+        for other in (shared_cache(), *([_wanted_cache()] if trouble else [])):
+            _copy(other / machine() / place.name, place)
+        if not place.is_dir():
+            place.mkdir(parents=True)
             prune(cache_folder)
-    _mark_used(place)
+    with contextlib.suppress(OSError):
+        os.utime(place)
+    _homes.append(place)
     return place
 
 
+def is_compiled(place: Path) -> bool:
+    """Whether there is compiled code in a folder."""
+    return any(place.glob("__pycache__/*.nbc"))
+
+
+def is_cold(package: str) -> bool:
+    """Whether some module of a package that has been imported waits for its kernels to be compiled."""
+    return not all(is_compiled(place) for place in _homes if place.name.startswith(package))
+
+
 def _copy(ready: Path, place: Path) -> None:
-    """Copy a folder so that nobody ever sees a part of it; who comes second keeps what is there."""
-    place.parent.mkdir(parents=True, exist_ok=True)
-    part = Path(tempfile.mkdtemp(prefix=place.name, dir=place.parent))
-    # contents alone: the folder copied from may be one that nobody can write
-    shutil.copytree(ready, part, dirs_exist_ok=True, copy_function=shutil.copyfile)
-    for folder in (part, *(path for path in part.rglob("*") if path.is_dir())):
-        folder.chmod(0o755)
-    try:
-        part.rename(place)
-    except OSError:
-        shutil.rmtree(part, ignore_errors=True)
+    """Copy the files of a folder that ``place`` does not have, each of them whole or not at all."""
+    for file in sorted(ready.rglob("*")):  # code before the index that names it
+        copy = place / file.relative_to(ready)
+        if file.is_file() and not copy.exists():
+            _write(copy, file.read_bytes())
+
+
+def _write(file: Path, content: bytes) -> None:
+    file.parent.mkdir(parents=True, exist_ok=True)
+    part = file.with_name(f"{file.name}.{os.getpid()}.part")
+    part.write_bytes(content)
+    os.replace(part, file)
 
 
 def share() -> Path:
-    """Copy the kernels of this machine that are known to the cache beside the packages."""
+    """Copy the kernels that this process knows to the cache beside the packages, and say where that is."""
     target = shared_cache() / machine()
-    for place in sorted((user_cache()[0] / machine()).iterdir()):
-        if place.is_dir() and not (target / place.name).exists():
-            _copy(place, target / place.name)
+    for place in _homes:
+        _copy(place, target / place.name)
     return target
-
-
-def _mark_used(place: Path) -> None:
-    with contextlib.suppress(OSError):
-        os.utime(place)
 
 
 def prune(cache_folder: Path, now: float | None = None) -> None:
@@ -204,12 +212,9 @@ def prune(cache_folder: Path, now: float | None = None) -> None:
 def moved(function: FunctionType, place: Path, scope: dict[str, object] | None = None) -> FunctionType:
     """The same function, as if defined in a copy of its file that stands in ``place``."""
     original = Path(function.__code__.co_filename)
-    copy = place / original.name
+    copy = place / f"{function.__module__}.py"  # two rooms may have modules of one name
     if not copy.exists():
-        handle, part = tempfile.mkstemp(dir=place)
-        with open(handle, "wb") as stream:
-            stream.write(original.read_bytes())
-        os.replace(part, copy)
+        _write(copy, original.read_bytes())
     code = function.__code__.replace(co_filename=str(copy))
     scope = function.__globals__ if scope is None else scope
     twin = FunctionType(code, scope, function.__name__, function.__defaults__, function.__closure__)

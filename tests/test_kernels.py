@@ -1,0 +1,156 @@
+"""Compiled kernels: kept outside the package, never stale, compiled once, and told."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import flexible
+import rigid
+from rigid.kernel import store
+
+ROOT = Path(__file__).parent.parent
+CALLEE = "flexible/contact/normal.py"
+
+# A kernel of flexible.contact.assembly and the one that it calls in flexible.contact.normal: one point on the floor
+# whose own gap alone moves its force, so that the result is -(way - slip)/elastic times the diagonal: -0.5*3 = -1.5.
+PROGRAM = """
+import numpy as np
+from flexible.contact.assembly import slip_by_gaps
+from flexible.contact.detection import Points
+from flexible.contact.normal import Foundation
+from rigid.kernel.announce import compile_seconds
+whole, real = np.zeros(1, np.int64), np.zeros(1)
+kinds = {"number": whole, "last": np.ones(1, np.bool_), "local": whole, "shape": np.zeros((1, 3))}
+points = Points(*[kinds.get(name, real) for name in Points._fields])
+foundation = Foundation(np.ones(1), np.full(1, 3.0), real, 0.0, 1.0)
+up = np.zeros((1, 5))
+up[0, 0] = 1.0
+print(slip_by_gaps(points, np.ones(1), foundation, 0.0, 2.0, up, 3)[0], compile_seconds() > 0)
+"""
+
+
+def copy_of_the_packages(folder: Path) -> Path:
+    """The two solvers, as if installed into ``folder``; without the face of ``flexible``, for nothing but kernels."""
+    for package in ("rigid", "flexible"):
+        shutil.copytree(ROOT / package, folder / package, ignore=shutil.ignore_patterns("__pycache__"))
+    (folder / "flexible" / "__init__.py").write_text("")
+    (folder / "flexible" / "contact" / "__init__.py").write_text("")
+    return folder
+
+
+def run(installation: Path, cache: Path, **environment: str) -> tuple[float, bool, str]:
+    """The kernel's result, whether something was compiled for it, and what stderr says; from another folder."""
+    variables = {"PYTHONPATH": str(installation), "NUMBA_CACHE_DIR": str(cache), **environment}
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM],
+        cwd=cache.parent,
+        env={**os.environ, **variables},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    number, compiled = done.stdout.split()
+    return float(number), compiled == "True", done.stderr
+
+
+def files(folder: Path) -> set[Path]:
+    return {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
+
+
+def test_a_changed_callee_is_never_served_from_the_cache(tmp_path):
+    installation, cache = copy_of_the_packages(tmp_path / "one"), tmp_path / "cache"
+    assert run(installation, cache)[:2] == (-1.5, True)
+    assert run(installation, cache)[:2] == (-1.5, False)
+    text = (installation / CALLEE).read_text(encoding="utf-8")
+    edited = text.replace("row[1] -= factor * foundation.diagonal", "row[1] -= 2 * factor * foundation.diagonal")
+    assert edited != text
+    (installation / CALLEE).write_text(edited, encoding="utf-8")
+    assert run(installation, cache)[:2] == (-3.0, True)
+    (installation / CALLEE).write_text(text, encoding="utf-8")
+    assert run(installation, cache)[:2] == (-1.5, False)
+
+
+def test_compiled_once_told_once_and_outside_the_package(tmp_path):
+    one, two, cache = copy_of_the_packages(tmp_path / "one"), copy_of_the_packages(tmp_path / "two"), tmp_path / "cache"
+    before = files(one)
+    _, compiled, said = run(one, cache, PYTHONDONTWRITEBYTECODE="1")
+    assert compiled
+    assert files(one) == before
+    assert said.count("\n") == 1
+    assert said.startswith("hoop: compiling the flexible solver")
+    # the same sources in another place are the same kernels
+    assert run(two, cache)[1:] == (False, "")
+
+    # an administrator's kernels beside the packages, and a user who has none
+    shutil.copytree(cache / store.NAME, two / store.SHARED)
+    assert run(two, tmp_path / "empty")[1:] == (False, "")
+
+    # a cache that cannot be written is left alone, with a word; what an installation has is used still
+    (tmp_path / "file").write_text("")
+    home = {"HOME": str(tmp_path / "home"), "XDG_CACHE_HOME": str(tmp_path / "home"), "LOCALAPPDATA": str(tmp_path)}
+    assert run(two, tmp_path / "file" / "cache", **home)[1:] == (False, "")
+    shutil.rmtree(two / store.SHARED)
+    _, compiled, said = run(one, tmp_path / "file" / "cache", **home | {"XDG_CACHE_HOME": str(tmp_path / "other")})
+    assert compiled
+    assert "cannot be written" in said
+
+
+def test_the_fingerprint_covers_every_source_and_nothing_else(tmp_path):
+    stage = ROOT / "flexible" / "models" / "stage.py"
+    covered = store.sources([stage])
+    assert ROOT / CALLEE in covered
+    assert ROOT / "flexible" / "solve.py" not in covered
+    assert all(path.is_relative_to(ROOT) for path in covered)
+    # constants enter a kernel too
+    assert ROOT / "rigid" / "kernel" / "layout.py" in store.sources([ROOT / "rigid" / "phases" / "choice.py"])
+    installation = copy_of_the_packages(tmp_path)
+    moved = [installation / "flexible" / "models" / "stage.py"]
+    assert store.fingerprint([stage]) == store.fingerprint(moved)
+
+
+def test_every_kernel_stands_outside_the_packages():
+    packages = [Path(package.__file__).parent for package in (rigid, flexible)]
+    for module in [module for name, module in sys.modules.items() if name.startswith("flexible.")]:
+        for value in vars(module).values():
+            if hasattr(value, "py_func"):
+                source = Path(value.py_func.__code__.co_filename)
+                assert not any(source.is_relative_to(package) for package in packages)
+
+
+def test_folders_are_named_by_all_that_compiled_code_depends_on():
+    import numba
+
+    name = store.machine()
+    assert f"numba{numba.__version__}" in name
+    assert sys.implementation.cache_tag in name
+    assert re.fullmatch(r"[\w.+-]+", name)
+
+
+def test_unused_kernels_are_removed_and_others_kept(tmp_path):
+    day = 86400.0
+    now = 1000 * day
+    for name, age in (("old", 61), ("new", 59)):
+        place = tmp_path / f"{name}-numba0-cp-cpu" / "flexible.contact.forces-0123"
+        (place / "__pycache__").mkdir(parents=True)
+        os.utime(place, (now - age * day, now - age * day))
+    (tmp_path / "something else").mkdir()
+    store.prune(tmp_path, now)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["new-numba0-cp-cpu", "something else"]
+
+
+@pytest.mark.parametrize("variable", ["", "~/kernels"])
+def test_the_environment_says_where(monkeypatch, tmp_path, variable):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv("USERPROFILE", str(tmp_path))
+    monkeypatch.setenv("NUMBA_CACHE_DIR", variable)
+    if variable:
+        assert store._wanted_cache() == tmp_path / "kernels" / store.NAME
+    else:
+        assert store.NAME in store._wanted_cache().parts
