@@ -25,17 +25,6 @@ ERROR_WEIGHTS = (_W - (1 - _W) / 3, _W - (3 * _W + 1) / 3, BETA - BETA / 3)
 
 
 @jit
-def add_block(matrix: Any, row: int, column: int, factor: float, block: Any) -> None:
-    """Add ``factor`` times a block whose first entry belongs at (row, column).
-
-    In loops: an assignment to slices would compile numpy's broadcasting with all its messages.
-    """
-    for i in range(block.shape[0]):
-        for j in range(block.shape[1]):
-            matrix[row + i, column + j] += factor * block[i, j]
-
-
-@jit
 def solve_stage(
     body: Any,
     modal: Any,
@@ -91,8 +80,8 @@ def solve_stage(
         )
         own, own_tangent = inertia(body, modal, gyro, pos, vel, acc, beta)
         flat = nodal.copy().reshape(2 * nodes)
-        t_xx, t_xu = tangent[:3, :3].copy(), tangent[:3, 3:].copy()
-        t_ux, t_uu = tangent[3:, :3].copy(), tangent[3:, 3:].copy()
+        t_uu = tangent[3:, 3:].copy()
+        t_ux = tangent[3:, :3].copy()
         scale = 1.0 + (law[EPS_N] + law[EPS_T]) * res[LENGTH]  # turns an error of u into one of the forces
         moved = compliance @ flat
         worst, astray = 0.0, 0.0  # of forces, and of displacements as forces on the foundation
@@ -122,17 +111,16 @@ def solve_stage(
         worst = max(worst, astray)
         if not np.isfinite(worst):
             break
-        matrix[:] = 0.0
-        add_block(matrix, 0, 0, 1.0, own_tangent)
-        add_block(matrix, 0, 0, -1.0, t_xx)
-        add_block(matrix, 0, m, -1.0, t_xu)
+        matrix[:m, :m] = own_tangent
+        matrix[:3, :3] -= tangent[:3, :3]
+        matrix[:3, m:] = -tangent[:3, 3:]
         if n > 0:
             columns = shapes.T.copy()
-            add_block(matrix, 3, 0, -1.0, columns @ t_ux)
-            add_block(matrix, 3, m, -1.0, columns @ t_uu)
-            add_block(matrix, m, 3, -scale, shapes)
-        add_block(matrix, m, 0, -scale, compliance @ t_ux)
-        add_block(matrix, m, m, -scale, compliance @ t_uu)
+            matrix[3:m, :3] -= columns @ t_ux
+            matrix[3:m, m:] = -(columns @ t_uu)
+            matrix[m:, 3:m] = -scale * shapes
+        matrix[m:, :3] = -scale * (compliance @ t_ux)
+        matrix[m:, m:] = -scale * (compliance @ t_uu)
         for k in range(2 * nodes):
             matrix[m + k, m + k] += scale
         update = np.linalg.solve(matrix, residual)
