@@ -50,7 +50,7 @@ def run(installation: Path, cache: Path, **environment: str) -> tuple[float, boo
     variables = {"PYTHONPATH": str(installation), "NUMBA_CACHE_DIR": str(cache), **environment}
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM],
-        cwd=cache.parent,
+        cwd=installation.parent,
         env={**os.environ, **variables},
         capture_output=True,
         text=True,

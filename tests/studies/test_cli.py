@@ -10,7 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from command_line import SCENE, command, environment, is_one_sentence, process
+from command_line import HANGS, SCENE, command, environment, is_one_sentence, process
 
 from meshes import read
 
@@ -166,7 +166,7 @@ def test_a_full_disk_under_stdout_is_one_sentence():
 
 def test_a_reader_that_leaves_early_is_no_trouble():
     line = " ".join(f"'{word}'" for word in command("rigid", "paper-3.1", "--json"))
-    done = subprocess.run(["sh", "-c", f"{line} | head -c 10"], env=environment(), capture_output=True, timeout=60)
+    done = subprocess.run(["sh", "-c", f"{line} | head -c 10"], env=environment(), capture_output=True, timeout=HANGS)
     assert done.stderr == b""
 
 
@@ -175,7 +175,9 @@ def test_the_rigid_command_imports_nothing_heavy():
         "import sys; from studies.cli import run; run(['rigid', 'paper-3.1', '--json']); "
         f"print([name for name in {HEAVY!r} if name in sys.modules], file=sys.stderr)"
     )
-    done = subprocess.run([sys.executable, "-c", code], env=environment(), capture_output=True, text=True, timeout=60)
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=environment(), capture_output=True, text=True, timeout=HANGS
+    )
     assert done.stderr.strip() == "[]"
 
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from command_line import SCENE, command, environment, is_one_sentence, process
+from command_line import HANGS, SCENE, command, environment, is_one_sentence, process
 
 from rigid import SceneError, load_scene, scene_from_dict, scene_to_dict
 from studies.running.case import Case, run_case
@@ -218,7 +218,7 @@ def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(tmp_path):
     )
     wait_for_rows(out, 1)
     os.killpg(running.pid, signal.SIGINT)  # as a terminal does: to the workers too
-    _, err = running.communicate(timeout=30)
+    _, err = running.communicate(timeout=HANGS)
     assert running.returncode == 130
     assert is_one_sentence(err)
     assert 1 <= len(Store(out).done()) < 6
@@ -247,8 +247,8 @@ def test_kill_9_loses_no_finished_case_and_leaves_no_worker_behind(tmp_path):
     running = subprocess.Popen(line, env=environment(), start_new_session=True)
     wait_for_rows(out, 2)
     running.kill()
-    running.wait(timeout=30)
-    deadline = time.monotonic() + 20
+    running.wait(timeout=HANGS)
+    deadline = time.monotonic() + HANGS
     while alive(running.pid):
         assert time.monotonic() < deadline, "a worker outlived the sweep"
         time.sleep(0.1)
@@ -281,7 +281,7 @@ def test_two_runs_in_one_folder_agree(tmp_path):
     line = command("study", "sweep", file, "--out", out, "--workers", 1)
     both = [subprocess.Popen(line, env=environment(), stderr=subprocess.PIPE, text=True) for _ in range(2)]
     for running in both:
-        _, err = running.communicate(timeout=60)
+        _, err = running.communicate(timeout=HANGS)
         assert (running.returncode, err) == (0, "")
     with sqlite3.connect(out / "study.sqlite") as connection:
         assert connection.execute("PRAGMA integrity_check").fetchone() == ("ok",)
