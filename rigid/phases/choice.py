@@ -21,6 +21,7 @@ from math import inf
 from ..kernel.angle import trig
 from ..kernel.compile import kernel
 from ..kernel.layout import (  # fmt: skip
+    A_EVENT,
     ANGLE,
     CHOOSE,
     ECC,
@@ -67,6 +68,7 @@ from ..kernel.layout import (  # fmt: skip
     YDOT,
     T,
 )
+from ..record.cycle import NEVER
 from ..record.log import ROOM, begin, turn
 from ..record.pulse import energy, released, watch
 from .flight import fly, lifts, settle, touch_down
@@ -135,6 +137,7 @@ def choose(par, state, tape):
 @kernel
 def soar(par, state, tape):
     """Fly to the next touch-down and strike the floor."""
+    state[A_EVENT] = NEVER  # whatever came round does so no more
     if watch(par, state, 0.0, tape) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
     time = touch_down(par[ECC], state[GAP], state[UN], state[OMEGA], state[ANGLE], state[TOP])
