@@ -12,7 +12,7 @@ CYCLES = 1000
 HOOPS = {
     # rolls for ever: the turns are multiples of one period
     "rolling": Scene(Hoop(0.75), Friction(0.35, 0.3), Release(radians(10)), Run(turns=2 * CYCLES)),
-    # a smooth floor: every half cycle is a Taylor series of its own
+    # a smooth floor: one cycle is integrated
     "smooth floor": Scene(Hoop(0.1), Friction(0.0, 0.0), Release(radians(10)), Run(turns=2 * CYCLES)),
     "heavy hoop, smooth floor": Scene(Hoop(0.3, 1.1, 2.0), Friction(0.0, 0.0), Release(2.0), Run(turns=2 * CYCLES)),
 }
