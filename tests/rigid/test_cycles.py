@@ -97,7 +97,7 @@ def test_lists_that_repeat_are_sequences():
     turns = motion.turns
     assert turns[:3] == tuple(turns)[:3]
     assert turns[-1] == tuple(turns)[-1]
-    assert list(reversed(turns))[0] == turns[-1]
+    assert next(reversed(turns)) == turns[-1]
     assert turns[10] in turns
     with pytest.raises(IndexError):
         turns[50]
