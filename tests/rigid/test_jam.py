@@ -54,7 +54,7 @@ def extrapolated(stiffnesses, values):
     return float(np.linalg.solve(powers, values)[0])
 
 
-SOFT = (1e6, 1e7, 1e8, 1e9)
+SOFT = (3e6, 3e7, 3e8, 3e9)
 JAMS = {
     # skid with c > 0 and omega s < 0: D decays 96 times faster than b, N -> infinity on the way to b = D = 0
     "leaves with b < 0": (Hoop(0.1), 0.5, Release(radians(-60), 1.0, 2.0)),
@@ -81,10 +81,11 @@ def test_limit_of_a_stiff_floor(name):
     values = [skid_on_compliant_floor(hoop, mu, release, kappa) for kappa in SOFT]
     distance = np.abs(np.array(values) - ours)
     assert (np.diff(distance) < 0).all()
-    # the last term that extrapolation adds bounds what the next would
+    # the softest floor's part in the extrapolation is its error, but for a factor; other exits (at b = 0, or where a
+    # strict solution would turn round) lie ten times as far off as the stiffest floor
     limit, before = extrapolated(SOFT, values), extrapolated(SOFT[1:], values[1:])
     allowed = 3 * abs(limit - before)
-    assert allowed < 0.05 * distance[-1]
+    assert allowed < 0.2 * distance[-1]
     assert abs(ours - limit) < allowed
 
 
@@ -103,4 +104,5 @@ def test_where_b_decays_faster_than_d_the_hoop_lifts_off():
     e, s, c = hoop.e, sin(state.phi), cos(state.phi)
     assert 0 < (hoop.K + e * s * (e * s + mu * (1 + e * c))) / hoop.K < 0.01, "on the brink of a jam"
     assert 0 < (e * s) ** 2 * (c - mu * s) / (2 * c * hoop.K) - 0.5 < 1
-    assert float(motion.at(skid.t_end * np.linspace(0, 1, 50)).normal_force.max()) < 2
+    normal = motion.at(skid.t_end * np.linspace(0, 1, 50)).normal_force
+    assert np.diff(normal).max() < 0, "N falls all the way to 0, where D -> 0 alone would make it grow"
