@@ -12,10 +12,12 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
 ``scenefile``  TOML to scene and back, the paper's scenes by name
 ``motion``     the vocabulary that both solvers speak
 ``solve``      one scene to its motion; ``batch`` many at once; ``thresholds`` where rolling ends
-``history``    any instant of a motion
-``phases``     the mechanics of each kind of phase, and which one is next
+``lists``      the records of a run as phases, turns and pulses
+``phases``     the mechanics of each kind of phase, which one is next, and any instant of them
 ``record``     what a phase leaves behind; the measures of a pulse
 ``kernel``     what phases are computed with, and why all of this runs both interpreted and compiled
+
+The theory, with the choices that Coulomb's law leaves open, is README.md beside this file.
 """
 
 from .allowed import SceneError

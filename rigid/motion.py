@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 from bisect import bisect_right
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import nan
@@ -62,6 +62,9 @@ class Pulse:
     ``friction_loss`` is the integral of |F v|. Restitution compares the velocity of the mass centre G before
     and after: Newton's -ydot+/ydot-, Poisson's impulse of restitution over that of compression (split where
     ydot_G = 0), and the square root of Stronge's -W_r/W_c.
+
+    ``cut`` marks a pulse in which the run begins or ends: its measures are those of the part that was run, its
+    restitutions NaN.
     """
 
     t_start: float
@@ -75,6 +78,7 @@ class Pulse:
     newton_restitution: float
     poisson_restitution: float
     energetic_restitution: float
+    cut: bool = False
 
     @property
     def impulse_ratio(self) -> float:
@@ -110,13 +114,14 @@ class Motion:
     """What a solver returns: phases, turns and pulses as plain values, and any instant between on demand.
 
     ``ended`` says in words why the motion stops; ``period`` is that of a motion that will roll for ever.
-    ``completed`` is False when the solver gave up before what was asked.
+    ``completed`` is False when the solver gave up before what was asked. The sequences are tuples, or make their items
+    on demand where a motion without loss comes round many times.
     """
 
     scene: Scene
-    phases: tuple[Phase, ...]
-    turns: tuple[Turn, ...]
-    pulses: tuple[Pulse, ...]
+    phases: Sequence[Phase]
+    turns: Sequence[Turn]
+    pulses: Sequence[Pulse]
     ended: str
     sample: Callable[[Array], States] = field(repr=False, compare=False)
     period: float | None = None

@@ -1,7 +1,7 @@
 """The command line: parse, call, print. What is computed lives elsewhere and is imported only when asked for.
 
-Exit status: 0 done; 1 done, but some case of a sweep failed; 2 something the user can mend, in one sentence;
-130 interrupted.
+Exit status: 0 done; 1 done, but a motion stopped before what was asked or some case of a sweep failed; 2 something
+the user can mend, in one sentence; 130 interrupted.
 """
 
 from __future__ import annotations
@@ -73,9 +73,9 @@ out_folder = click.option(
 @click.argument("scene")
 @as_json
 @out_folder
-def rigid(scene: str, as_json: bool, out: Path | None) -> None:
+def rigid(scene: str, as_json: bool, out: Path | None) -> int:
     """Motion of the rigid hoop: phases, turns, pulses."""
-    _one_motion(load_scene(scene), "rigid", as_json, out)
+    return _one_motion(load_scene(scene), "rigid", as_json, out)
 
 
 @hoop.command()
@@ -98,7 +98,7 @@ def flexible(
     frames: int | None,
     times: str | None,
     only: str | None,
-) -> None:
+) -> int:
     """Motion of the flexible hoop, measured like the rigid one, and where the energy went."""
     from .output import field_wishes
 
@@ -107,10 +107,11 @@ def flexible(
     if not fields and (frames or times or only):
         raise StudyError("--frames, --times and --only need --fields, which writes the frames.")
     wishes = field_wishes(frames, times, only) if fields else None
-    _one_motion(load_scene(scene), "flexible", as_json, out, wishes)
+    return _one_motion(load_scene(scene), "flexible", as_json, out, wishes)
 
 
-def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, wishes: dict[str, Any] | None = None) -> None:
+def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, wishes: dict[str, Any] | None = None) -> int:
+    """Run, write, print; 1 for a motion that stops before what was asked."""
     from ..running.progress import bar
     from ..running.solvers import solver
 
@@ -125,6 +126,7 @@ def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, wishes
             with bar("fields") as progress:
                 write_fields(motion, target, progress, **wishes)
     _print_motion(motion, as_json)
+    return 0 if motion.completed else _say(f"{motion.ended}.", 1)
 
 
 def _print_motion(motion: Motion, as_json: bool) -> None:

@@ -62,12 +62,14 @@ def motion_tables(motion: Motion) -> list[Any]:
         shown.append(
             pulse_table(
                 [
-                    (f"pulse {i}", measures(motion, pulse), phase_sequence(motion, pulse))
+                    (f"pulse {i}{', cut' if pulse.cut else ''}", measures(motion, pulse), phase_sequence(motion, pulse))
                     for i, pulse in enumerate(motion.pulses, 1)
                 ],
                 motion.scene,
             )
         )
+    if any(pulse.cut for pulse in motion.pulses):
+        shown.append("cut: the run begins or ends inside this pulse; the measures are those of the part that was run.")
     books = motion.to_dict().get("energy_ledger")
     if books:
         ledger = Table("where the energy went", title="Energy ledger", title_justify="left")

@@ -111,7 +111,7 @@ class Outcome:
     resolved: bool = True
     """Whether the numerical error is as small as was asked."""
     pulses: tuple[dict[str, float], ...] = ()
-    """Measures of each pulse."""
+    """Measures of each whole pulse; those in which the run begins or ends are listed in ``motion`` alone."""
     phases: tuple[list[str], ...] = ()
     """What the contact does in each pulse, in order."""
     numerical_error: tuple[dict[str, float], ...] = ()
@@ -161,12 +161,13 @@ def _once(case: Case, scene: Scene, most: float = inf) -> dict[str, Any]:
 
 
 def _described(motion: Motion, histories: bool) -> dict[str, Any]:
+    whole = [pulse for pulse in motion.pulses if not pulse.cut]
     return {
         "ended": motion.ended,
-        "pulses": tuple(measures(motion, pulse) for pulse in motion.pulses),
-        "phases": tuple(phase_sequence(motion, pulse) for pulse in motion.pulses),
+        "pulses": tuple(measures(motion, pulse) for pulse in whole),
+        "phases": tuple(phase_sequence(motion, pulse) for pulse in whole),
         "motion": plain(motion.to_dict()),
-        "histories": tuple(through(motion, pulse) for pulse in motion.pulses) if histories else (),
+        "histories": tuple(through(motion, pulse) for pulse in whole) if histories else (),
     }
 
 

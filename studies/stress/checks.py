@@ -63,11 +63,13 @@ def numbers(motion: Motion) -> Iterator[float]:
         values = pulse.to_dict()
         if pulse.normal_impulse == 0:  # a flexible hoop may fly through all of it: then there is no ratio
             del values["impulse_ratio"]
+        if pulse.cut:  # what is split at the bottom is unknown
+            values = {name: value for name, value in values.items() if "restitution" not in name}
         yield from (value for value in values.values() if isinstance(value, float))
 
 
 def listed(motion: Motion) -> Margins:
-    """Finite, in order, joined without gaps, nothing gained in a pulse."""
+    """Finite, in order, joined without gaps."""
     # a march that cannot take its first step says so, and has nothing to list
     told = bool(motion.phases) or not motion.completed
     fine = all(map(isfinite, numbers(motion))) and bool(motion.ended) and told
@@ -78,6 +80,12 @@ def listed(motion: Motion) -> Margins:
         "in order": 0.0 if ordered else NO,
         "angle joined": max(jumps, default=0.0) / 1e-9,
     }
+
+
+def gained(motion: Motion) -> Margins:
+    """No pulse of a rigid hoop gives energy back."""
+    scale = max(motion.scene.energy_unit, abs(float(motion.at(0.0).energy)))
+    return {"gained in a pulse": max((-p.friction_loss for p in motion.pulses), default=0.0) / scale / ENERGY}
 
 
 def instants(motion: Motion, spread: int = 60) -> np.ndarray:
@@ -260,6 +268,7 @@ def rigid_margins(scene: Scene, thorough: bool) -> tuple[Margins, str]:
     motion = simulate(scene)
     margins = listed(motion)
     if not any(margins.values()):
+        margins |= gained(motion)
         margins |= sampled(motion)
         margins |= repeated(motion)
         if thorough:
