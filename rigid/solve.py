@@ -9,13 +9,14 @@ from math import floor, inf, pi
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import history
 from . import layout as at
 from .angle import PI_LOW, angle_of, chart
 from .kernel import compiled
 from .machine import MOST_STALLS, entry_run
-from .motion import Array, Kind, Motion, Phase, Pulse, States, Turn
+from .motion import Array, Kind, Motion, Phase, Pulse, Side, States, Turn
 from .scene import Scene
 from .slipping import ORDER, SERIES
 from .swing import LISTED_PERIODS
@@ -260,22 +261,26 @@ class Sampler:
     starts: tuple[tuple[float, ...], ...]
     scene: Scene
 
-    def __call__(self, t: Array) -> States:
+    def __call__(self, t: Array, side: Side) -> States:
         """States at times of any shape, in the units of the scene."""
         scene = self.scene
         order = np.argsort(t, axis=None, kind="stable")
-        times = t.ravel()[order] / scene.time_unit
-        rows = self._rows(times)
+        told = t.ravel()[order]
+        # compared as the phases state their times: a division could put an instant on the wrong side of a boundary
+        starts = np.array([row[1 + at.T] for row in self.starts])
+        owner = np.maximum(np.searchsorted(starts * scene.time_unit, told, side) - 1, 0)
+        rows = self._rows(np.maximum(told / scene.time_unit, starts[owner]), owner)
         table = np.empty_like(rows)
         table[order] = rows
         columns = [column.reshape(t.shape) for column in table.T]
-        phi, omega, x, gap, slip, normal, friction, energy = columns
+        phi, omega, x, gap, slip, normal, friction, energy, alpha = columns
         hoop = scene.hoop
         mass = 1 + hoop.mass_ratio
         return States(
             t=t,
             phi=phi,
             omega=omega / scene.time_unit,
+            alpha=alpha / scene.time_unit**2,
             x_C=x * hoop.R,
             y_C=(1 + gap) * hoop.R,
             slip_velocity=slip * scene.velocity_unit,
@@ -284,7 +289,8 @@ class Sampler:
             energy=energy * mass * scene.energy_unit,
         )
 
-    def _rows(self, times: Array) -> Array:
+    def _rows(self, times: Array, owner: NDArray[np.int64]) -> Array:
+        """A row of the kernel's columns for each time, in the phase of the number ``owner``."""
         width = history.COLUMNS
         padded = [list(row) + [0.0] * (at.WIDTH - len(row)) for row in self.starts]
         flat = [number for row in padded for number in row]
@@ -293,14 +299,14 @@ class Sampler:
             work: Any = [[0.0] * (ORDER + 1) for _ in range(SERIES)]
             tape = [0.0] * (16 * at.WIDTH)
             state = [0.0] * at.STATE
-            history.entry_sample(list(self.par), flat, len(padded), times.tolist(), out, work, state, tape)
+            history.entry_sample(list(self.par), flat, owner.tolist(), times.tolist(), out, work, state, tape)
             return np.array(out, dtype=float).reshape(len(times), width)
         out = np.zeros(len(times) * width)
         work = np.zeros((SERIES, ORDER + 1))
         compiled()["entry_sample"](
             np.array(self.par),
             np.array(flat),
-            len(padded),
+            owner,
             times,
             out,
             work,
