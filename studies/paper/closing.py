@@ -47,7 +47,7 @@ def screen(verdicts: Sequence[Verdict]) -> list[Table | str]:
         box=box.SIMPLE_HEAD,
         padding=(0, 1, 0, 0),
     )
-    for heading, width in (("where", 12), ("what", 33), ("paper", 9), ("ours", 14)):
+    for heading, width in (("where", 12), ("what", 31), ("paper", 9), ("ours", 14)):
         table.add_column(heading, width=width, justify="left" if width > 9 else "right")
     table.add_column("agrees", width=6)
     for verdict in verdicts:
