@@ -91,18 +91,20 @@ def pose_at(motion: Motion, t: float, side: Side = "right") -> Pose:
 def instants_around(motion: Motion, t: float) -> tuple[tuple[float, Side, float], ...]:
     """Instants (time, side, weight) of the phase at ``t``: the weighted sum of a quantity over them is its rate.
 
-    The forces of the rigid hoop are functions of zeta + 2 (1 + cos phi), whose root over phidot is therefore the time
-    in which they change: k^2 in the pulse of a small disk. Across an end of the phase they jump, which is no rate, so
-    there the parabola through three instants leans to one side.
+    The forces of the rigid hoop are functions of the angle, by way of zeta + 2 (1 + cos phi), and of 1 + phidot^2: they
+    change in the time in which the root of the first or the second one do, k^2 in the pulse of a small disk. Across an
+    end of the phase they jump, which is no rate, so there the parabola through three instants leans to one side.
     """
     phase, now = motion.phase_at(t), motion.at(t)
+    unit = motion.scene.time_unit
+    omega, alpha = float(now.omega) * unit, float(now.alpha) * unit**2
     width = sqrt(motion.scene.hoop.zeta + 4 * cos(float(now.phi) / 2) ** 2)
-    step = SPAN * min(motion.scene.time_unit, width / max(abs(float(now.omega)), 1e-300))
-    step = min(step, (phase.t_end - phase.t_start) / 2)
+    fastest = max(1.0, abs(omega) / width, 2 * abs(omega * alpha) / (1 + omega**2))
+    step = min(SPAN * unit / fastest, (phase.t_end - phase.t_start) / 2)
     if not 0 < step < inf:
         return ()
     middle = min(max(t, phase.t_start + step), phase.t_end - step)
-    x, rate = (t - middle) / step, motion.scene.time_unit / step
+    x, rate = (t - middle) / step, unit / step
     around: tuple[tuple[float, Side, float], ...] = (
         (max(middle - step, phase.t_start), "right", (x - 0.5) * rate),
         (middle, "right", -2 * x * rate),

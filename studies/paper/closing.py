@@ -28,14 +28,17 @@ def reasons(verdicts: Sequence[Verdict]) -> list[str]:
 
 
 def _agrees(verdict: Verdict, why: Sequence[str]) -> str:
+    if verdict.agrees is None:
+        return "-"
     return "yes" if verdict.agrees else f"no ({why.index(verdict.why) + 1})"
 
 
 def summary(verdicts: Sequence[Verdict]) -> str:
     """How many agree, in a sentence."""
-    agree = sum(verdict.agrees for verdict in verdicts)
-    rest = len(verdicts) - agree
-    return f"{agree} of {len(verdicts)} agree" + (f"; for the other {rest} the reasons are:" if rest else ".")
+    compared = [verdict.agrees for verdict in verdicts if verdict.agrees is not None]
+    agree = sum(compared)
+    rest = len(compared) - agree
+    return f"{agree} of {len(compared)} agree" + (f"; for the other {rest} the reasons are:" if rest else ".")
 
 
 def screen(verdicts: Sequence[Verdict]) -> list[Table | str]:
@@ -45,7 +48,8 @@ def screen(verdicts: Sequence[Verdict]) -> list[Table | str]:
         title="The paper's figures and numbers, and ours",
         title_justify="left",
         box=box.SIMPLE_HEAD,
-        padding=(0, 1, 0, 0),
+        padding=0,
+        pad_edge=False,
     )
     for heading, width in (("where", 12), ("what", 31), ("paper", 9), ("ours", 14)):
         table.add_column(heading, width=width, justify="left" if width > 9 else "right")

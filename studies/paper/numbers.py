@@ -27,7 +27,8 @@ class Verdict:
     what: str
     paper: str
     ours: str
-    agrees: bool
+    agrees: bool | None
+    """None where the paper has nothing to compare with."""
     why: str = ""
     """Where they do not: what is known about it."""
     difference: float | None = None

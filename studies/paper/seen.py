@@ -95,7 +95,7 @@ def figure_5() -> Iterator[Verdict]:
     """Angular velocity and acceleration: the text states nothing of them."""
     largest = [float(np.abs(_only(paper.FIGURE_5, side).y).max()) for side in ("left", "right")]
     ours = f"to {largest[0]:.4g} and {largest[1]:.4g}"
-    yield Verdict("fig. 5", "phidot and phiddot of three cycles: drawn, no number printed", "-", ours, True)
+    yield Verdict("fig. 5", "phidot and phiddot of three cycles: drawn, no number printed", "-", ours, None)
 
 
 def figure_8() -> Iterator[Verdict]:

@@ -1,8 +1,8 @@
 """The figures of `hoop paper` show what the paper's figures of those numbers show.
 
-``paper_figures.json`` describes every panel of V. A. Lubarda, J. Mech. Mater. Struct. 4(6), 2009, as read off the printed
-figures and their captions: quantity, abscissa, scenes, extent, line styles, and what the text says must be seen. The
-points are those of the CSV files; ``paper_figures.json`` is the only source of what is expected of them here.
+``paper_figures.json`` describes every panel of V. A. Lubarda, J. Mech. Mater. Struct. 4(6), 2009, as read off the
+printed figures and their captions: quantity, abscissa, scenes, extent, line styles, and what the text says must be seen.
+It is the only source of what is expected here; the points are those of the CSV files.
 """
 
 from __future__ import annotations
@@ -92,9 +92,7 @@ def test_scenes_and_styles(number):
     drawn = []
     for curve in curves:
         used = load_scene(curve.scene)
-        drawn.append(
-            (used.hoop.k, used.hoop.r, used.hoop.mass_ratio, used.friction.mu_s, used.friction.mu)
-        )
+        drawn.append((used.hoop.k, used.hoop.r, used.hoop.mass_ratio, used.friction.mu_s, used.friction.mu))
         assert used.release.phi0 == pytest.approx(radians(10))
         assert used.release.omega0 == used.release.slip0 == 0
     assert sorted(drawn) == sorted(wanted)
@@ -132,8 +130,9 @@ def test_extents(number, side):
             inside = [phase for phase in motion.phases if phase.kind == "roll" and phase.t_start > 0]
             assert all(abs(phase.phi_end - pi) < reach or labelled[label] == "paper-3.3-heavier" for phase in inside)
             assert reach < 20 * max(motion.scene.hoop.zeta, 1e-300) ** 0.5
-        assert (x[0], x[-1]) == pytest.approx((first, last), abs=1e-12)
-        assert (x.min(), x.max()) == pytest.approx((first, last), abs=1e-12)
+        # an instant is known to 1e-15, which at k = 1e-5 is 2e-11 of an angle
+        assert (x[0], x[-1]) == pytest.approx((first, last), abs=1e-10)
+        assert (x.min(), x.max()) == (x[0], x[-1])
 
 
 @pytest.mark.parametrize(("number", "side"), PANELS)
@@ -143,7 +142,7 @@ def test_both_sides_of_every_jump(number, side):
     for phase, x, _ in curves.values():
         change = np.flatnonzero(phase[1:] != phase[:-1])
         assert (x[change] == x[change + 1]).all() or PRINTED[number][side]["x"] == "phi"
-        assert np.allclose(x[change], x[change + 1], rtol=0, atol=1e-12)
+        assert np.allclose(x[change], x[change + 1], rtol=0, atol=1e-10)  # as above
 
 
 @pytest.mark.parametrize(("number", "side"), PANELS)

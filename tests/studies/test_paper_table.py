@@ -19,7 +19,7 @@ def verdicts():
 
 def test_every_printed_number(verdicts):
     """All but five hold to their last printed digit (rounded or cut off); those five say why."""
-    failing = [verdict for verdict in verdicts if not verdict.agrees]
+    failing = [verdict for verdict in verdicts if verdict.agrees is False]
     assert all(verdict.why for verdict in failing)
     assert sorted({verdict.place[:3] for verdict in failing}) == ["2.2", "2.4", "3.4"]
     assert len(failing) == 5
