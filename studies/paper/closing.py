@@ -9,8 +9,8 @@ from pathlib import Path
 from rich import box
 from rich.table import Table
 
-from ..files import write_text
-from ..history import rows_to_csv
+from ..running.files import write_text
+from ..running.history import rows_to_csv
 from .numbers import Verdict, numbers
 from .seen import statements
 

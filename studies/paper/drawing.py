@@ -12,9 +12,9 @@ import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure as Sheet
 
-from ..files import write_text, write_whole
-from ..history import rows_to_csv
-from ..style import STYLE
+from ..plots.style import STYLE
+from ..running.files import write_text, write_whole
+from ..running.history import rows_to_csv
 from .panels import QUANTITIES, Figure, Panel, Part
 from .sampling import Line, lines
 

@@ -14,8 +14,8 @@ from matplotlib.figure import Figure as Sheet
 from rigid import Hoop
 from rigid.thresholds import inception_mu_s
 
-from ..files import write_text
-from ..history import rows_to_csv
+from ..running.files import write_text
+from ..running.history import rows_to_csv
 from .drawing import LOOK, draw_panel, panel_csv, save_sheet, two_panels
 from .figures import FIGURE_10, FIGURE_11
 from .panels import Panel, Part

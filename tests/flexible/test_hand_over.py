@@ -7,8 +7,8 @@ import pytest
 
 import flexible
 import rigid
-from flexible.reduced import ReducedHoop
-from flexible.start import hand_over, pose_at
+from flexible.handover import hand_over, pose_at
+from flexible.models.reduced import ReducedHoop
 from rigid import Friction, Hoop, Kind, Release, Run, Scene
 
 

@@ -1,8 +1,8 @@
 """The figures of `hoop paper` show what the paper's figures of those numbers show.
 
 ``paper_figures.json`` describes every panel of V. A. Lubarda, J. Mech. Mater. Struct. 4(6), 2009, as read off the
-printed figures and their captions: quantity, abscissa, scenes, extent, line styles, and what the text says must be seen.
-It is the only source of what is expected here; the points are those of the CSV files.
+printed figures and their captions: quantity, abscissa, scenes, extent, line styles, and what the text says must be
+seen. It is the only source of what is expected here; the points are those of the CSV files.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+from itertools import pairwise
 from math import pi, radians
 from pathlib import Path
 
@@ -220,7 +221,7 @@ def test_figure_5():
     phase, t, omega = only(5, "left")
     _, _, alpha = only(5, "right")
     edges = [0, *(np.flatnonzero(phase[1:] != phase[:-1]) + 1), len(t)]
-    for a, b in zip(edges[:-1], edges[1:], strict=True):
+    for a, b in pairwise(edges):
         assert np.trapezoid(alpha[a:b], t[a:b]) == pytest.approx(omega[b - 1] - omega[a], abs=1e-3 * omega.max())
 
 
