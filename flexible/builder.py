@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Hoop, Kind, Motion, Phase, Scene, States, Turn
+from rigid import Hoop, Kind, Motion, Phase, Scene, Side, States, Turn
 
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range
@@ -33,11 +33,11 @@ class Piece:
     origin: float = 0.0
     x_C: float = 0.0  # where the hoop's centre stands at the start of ``motion``
 
-    def states(self, t: Array) -> States:
+    def states(self, t: Array, side: Side) -> States:
         if self.stretch is not None:
-            return self.stretch.states(t)
+            return self.stretch.states(t, side)
         assert self.motion is not None
-        states = self.motion.at(np.clip(t - self.origin, 0.0, self.motion.t_end))
+        states = self.motion.at(np.clip(t - self.origin, 0.0, self.motion.t_end), side)
         return replace(states, t=t, x_C=states.x_C + self.x_C)
 
 
@@ -48,14 +48,14 @@ class Sampler:
     pieces: tuple[Piece, ...]
     scene: Scene
 
-    def __call__(self, t: Array) -> States:
+    def __call__(self, t: Array, side: Side) -> States:
         flat = np.atleast_1d(np.asarray(t, dtype=float)).ravel() / self.scene.time_unit
         starts = np.array([piece.t_start for piece in self.pieces])
-        owner = np.clip(np.searchsorted(starts, flat, side="right") - 1, 0, len(starts) - 1)
+        owner = np.clip(np.searchsorted(starts, flat, side) - 1, 0, len(starts) - 1)
         columns = {field.name: np.empty_like(flat) for field in dataclasses.fields(States)}
         for i in np.unique(owner):
             mask = owner == i
-            states = self.pieces[i].states(flat[mask])
+            states = self.pieces[i].states(flat[mask], side)
             for name, column in columns.items():
                 column[mask] = getattr(states, name)
         return with_units(States(**{name: c.reshape(np.shape(t)) for name, c in columns.items()}), self.scene)

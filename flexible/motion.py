@@ -67,6 +67,7 @@ class History:
     t: Array
     phi: Array
     omega: Array
+    alpha: Array
     x_C: Array
     y_C: Array
     slip_velocity: Array  # of the patch's centre against the floor, tangential

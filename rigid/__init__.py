@@ -23,7 +23,7 @@ The theory, with the choices that Coulomb's law leaves open, is README.md beside
 from .allowed import SceneError
 from .batch import Batch, simulate_batch
 from .elastic import Contact, Ring, Solve
-from .motion import Kind, Motion, Phase, Pulse, States, Turn
+from .motion import Kind, Motion, Phase, Pulse, Side, States, Turn
 from .scene import Friction, Hoop, Landing, Release, Run, Scene
 from .scenefile import load_scene, scene_from_dict, scene_names, scene_to_dict
 from .solve import simulate
@@ -53,6 +53,7 @@ __all__ = [
     "Run",
     "Scene",
     "SceneError",
+    "Side",
     "Solve",
     "States",
     "Turn",

@@ -7,12 +7,12 @@ level.
 from __future__ import annotations
 
 import dataclasses
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import nan
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,6 +21,7 @@ from .scene import Scene
 from .scenefile import scene_to_dict
 
 Array = NDArray[np.float64]
+Side = Literal["left", "right"]
 
 
 class Kind(StrEnum):
@@ -94,13 +95,14 @@ class Pulse:
 class States:
     """A motion sampled at times ``t``; every field is an array of the shape of ``t``.
 
-    ``x_C`` and ``y_C`` are the hoop's centre, ``slip_velocity`` is that of the contact point, F is positive
-    to the right.
+    ``omega`` and ``alpha`` are phidot and phiddot, ``x_C`` and ``y_C`` the hoop's centre, ``slip_velocity`` is that
+    of the contact point, F is positive to the right. N, F and ``alpha`` jump where phases meet.
     """
 
     t: Array
     phi: Array
     omega: Array
+    alpha: Array
     x_C: Array
     y_C: Array
     slip_velocity: Array
@@ -123,7 +125,7 @@ class Motion:
     turns: Sequence[Turn]
     pulses: Sequence[Pulse]
     ended: str
-    sample: Callable[[Array], States] = field(repr=False, compare=False)
+    sample: Callable[[Array, Side], States] = field(repr=False, compare=False)
     period: float | None = None
     completed: bool = True
 
@@ -132,8 +134,15 @@ class Motion:
         """Time at which the motion stops."""
         return self.phases[-1].t_end if self.phases else 0.0
 
-    def at(self, t: ArrayLike) -> States:
+    def at(self, t: ArrayLike, side: Side = "right") -> States:
         """State at times ``t`` (any shape), computed now and not before.
+
+        Parameters
+        ----------
+        t : array_like
+        side : "right" or "left"
+            At an instant that two phases share N, F and ``alpha`` jump: "right" gives their values in the later
+            phase, "left" those at the end of the earlier one.
 
         Raises
         ------
@@ -144,13 +153,16 @@ class Motion:
         slack = 1e-12 * max(1.0, self.t_end)
         if times.size and not (times.min() >= -slack and times.max() <= self.t_end + slack):
             raise ValueError(f"times must lie in [0, {self.t_end}]")
-        return self.sample(np.clip(times, 0.0, self.t_end))
+        return self.sample(np.clip(times, 0.0, self.t_end), side)
 
-    def phase_at(self, t: float) -> Phase:
-        """The phase at a time; an instant that two phases share belongs to the later one."""
+    def phase_at(self, t: float, side: Side = "right") -> Phase:
+        """The phase at a time; an instant that two phases share belongs to the later one, or with ``side="left"`` to
+        the earlier.
+        """
         if not self.phases:
             raise ValueError("a motion without phases")
-        found = bisect_right(self.phases, t, key=lambda phase: phase.t_start)
+        search = bisect_right if side == "right" else bisect_left
+        found = search(self.phases, t, key=lambda phase: phase.t_start)
         return self.phases[max(found - 1, 0)]
 
     def to_dict(self) -> dict[str, Any]:

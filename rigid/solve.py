@@ -8,12 +8,13 @@ from math import floor, inf, pi
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .kernel import layout as at
 from .kernel.angle import PI_LOW, chart
 from .kernel.compile import compiled
 from .lists import Fold, Listing
-from .motion import Array, Motion, States
+from .motion import Array, Motion, Side, States
 from .phases import instant
 from .phases.choice import MOST_STALLS, entry_run
 from .phases.rolling_phase import LISTED_PERIODS
@@ -211,30 +212,37 @@ class Sampler:
     fold: Fold | None
     scene: Scene
 
-    def __call__(self, t: Array) -> States:
+    def __call__(self, t: Array, side: Side) -> States:
         """States at times of any shape, in the units of the scene."""
         scene = self.scene
         order = np.argsort(t, axis=None, kind="stable")
-        times = t.ravel()[order] / scene.time_unit
-        if self.fold is None:
-            rows = self._rows(times)
-        else:
-            once, again = self.fold.back(times)
-            within = np.argsort(once, kind="stable")
-            rows = np.empty((len(times), instant.COLUMNS))
-            rows[within] = self._rows(once[within])
+        told = t.ravel()[order]
+        starts = np.array([row[1 + at.T] for row in self.starts])
+        # compared as the phases state their times: a division could put an instant on the wrong side of a boundary
+        owner = np.searchsorted(starts * scene.time_unit, told, side) - 1
+        once, again = told / scene.time_unit, np.zeros(len(told))
+        if self.fold is not None:
+            once, again = self.fold.back(once)
+            owner = np.where(again > 0, np.searchsorted(starts, once, side) - 1, owner)
+        owner = np.maximum(owner, 0)
+        once = np.maximum(once, starts[owner])
+        within = np.argsort(once, kind="stable")
+        rows = np.empty((len(told), instant.COLUMNS))
+        rows[within] = self._rows(once[within], owner[within])
+        if self.fold is not None:
             rows[:, 0] += again * 2 * pi * self.fold.whole
             rows[:, 2] += again * self.fold.way
         table = np.empty_like(rows)
         table[order] = rows
         columns = [column.reshape(t.shape) for column in table.T]
-        phi, omega, x, gap, slip, normal, friction, energy = columns
+        phi, omega, x, gap, slip, normal, friction, energy, alpha = columns
         hoop = scene.hoop
         mass = 1 + hoop.mass_ratio
         return States(
             t=t,
             phi=phi,
             omega=omega / scene.time_unit,
+            alpha=alpha / scene.time_unit**2,
             x_C=x * hoop.R,
             y_C=(1 + gap) * hoop.R,
             slip_velocity=slip * scene.velocity_unit,
@@ -243,7 +251,8 @@ class Sampler:
             energy=energy * mass * scene.energy_unit,
         )
 
-    def _rows(self, times: Array) -> Array:
+    def _rows(self, times: Array, owner: NDArray[np.int64]) -> Array:
+        """A row of the kernel's columns for each time, in the phase of the number ``owner``."""
         width = instant.COLUMNS
         padded = [list(row) + [0.0] * (at.WIDTH - len(row)) for row in self.starts]
         flat = [number for row in padded for number in row]
@@ -252,14 +261,14 @@ class Sampler:
             work: Any = [[0.0] * (ORDER + 1) for _ in range(SERIES)]
             tape = [0.0] * (16 * at.WIDTH)
             state = [0.0] * at.STATE
-            instant.entry_sample(list(self.par), flat, len(padded), times.tolist(), out, work, state, tape)
+            instant.entry_sample(list(self.par), flat, owner.tolist(), times.tolist(), out, work, state, tape)
             return np.array(out, dtype=float).reshape(len(times), width)
         out = np.zeros(len(times) * width)
         work = np.zeros((SERIES, ORDER + 1))
         compiled()["entry_sample"](
             np.array(self.par),
             np.array(flat),
-            len(padded),
+            owner,
             times,
             out,
             work,

@@ -80,6 +80,7 @@ class Record:
     t: float
     phi: float
     omega: float
+    alpha: float
     x_C: float
     y_C: float
     slip_velocity: float
@@ -119,6 +120,7 @@ def record(model: Model, state: State, books: Books) -> Record:
         t=state.t,
         phi=float(state.pos[2]),
         omega=float(state.vel[2]),
+        alpha=float(state.acc[2]),
         x_C=state.x_C,
         y_C=1 + float(state.pos[1]),
         slip_velocity=state.slip_velocity,

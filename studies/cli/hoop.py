@@ -175,14 +175,28 @@ hoop.add_command(view)
 
 @hoop.command()
 @out_folder
-def paper(out: Path | None) -> None:
-    """Every figure and number of the paper, ours beside the printed one."""
-    from ..paper import reproduce
+@click.option(
+    "--format",
+    "chosen",
+    type=click.Choice(["png", "svg", "both"]),
+    default="both",
+    show_default=True,
+    help="What the figures are written as.",
+)
+def paper(out: Path | None, chosen: str) -> None:
+    """The paper's figures 2 to 12 with their points as CSV, and a table of all its numbers beside ours.
+
+    DIR is out-paper unless --out says otherwise. The same table is in table.csv and table.md.
+    """
+    from ..paper import reproduce, screen
     from ..running.progress import bar
+    from .tables import show
 
     target = folder(out if out is not None else Path("out-paper"))
+    formats = ("png", "svg") if chosen == "both" else (chosen,)
     with bar("paper") as told:
-        reproduce(target, progress=lambda done, total, _: told(done / total))
+        verdicts = reproduce(target, formats, progress=lambda done, total, _: told(done / total))
+    show(*screen(verdicts))
     click.echo(f"The paper's figures and numbers are in {target}.", err=True)
 
 

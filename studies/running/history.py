@@ -73,6 +73,7 @@ def dimensionless(columns: Columns, scene: Scene) -> Columns:
     units = {
         "t": scene.time_unit,
         "omega": 1 / scene.time_unit,
+        "alpha": 1 / scene.time_unit**2,
         "normal_impulse": scene.impulse_unit,
         "friction_impulse": scene.impulse_unit,
         **dict.fromkeys(("x_C", "y_C", "patch_length"), scene.hoop.R),
