@@ -7,13 +7,14 @@ import re
 import shutil
 import subprocess
 import sys
+from concurrent.futures import Future
 from pathlib import Path
 
 import pytest
 
 import flexible
 import rigid
-from rigid.kernel import store
+from rigid.kernel import announce, store
 
 ROOT = Path(__file__).parent.parent
 CALLEE = "flexible/contact/normal.py"
@@ -154,3 +155,44 @@ def test_the_environment_says_where(monkeypatch, tmp_path, variable):
         assert store._wanted_cache() == tmp_path / "kernels" / store.NAME
     else:
         assert store.NAME in store._wanted_cache().parts
+
+
+def test_one_worker_compiles_for_all(monkeypatch):
+    from studies.running import workers
+    from studies.running.case import Case
+    from studies.running.solvers import prepare
+
+    asked = []
+
+    class Executor:
+        def submit(self, function, *arguments):
+            asked.append(function)
+            future = Future()
+            future.set_result(None)
+            return future
+
+    monkeypatch.setattr(workers, "is_cold", lambda package: package == "flexible")
+    monkeypatch.setattr(workers.Processes, "_start", lambda self: Executor())
+    place = workers.Processes(2)
+    scene = rigid.load_scene("paper-3.3-massless")
+    for solver in ("rigid", "flexible", "flexible"):
+        place.submit(Case(solver, scene))
+    assert asked == [workers.run_case, prepare, workers.run_case, workers.run_case]
+
+
+def test_seconds_of_compiling_are_no_run_time(monkeypatch, caplog):
+    """Two kernels of five seconds, each with a part of its own, told once; what others compile is not ours to tell."""
+    now = [0.0]
+    monkeypatch.setattr(announce.time, "perf_counter", lambda: now[0])
+    monkeypatch.setattr(announce, "_told", set())
+    before, clock = announce.compile_seconds(), announce.running_clock()
+    for package in ("flexible", "flexible", "someone_else"):
+        announce._begin(package)
+        now[0] += 2.0
+        announce._begin("numba")
+        now[0] += 3.0
+        announce._end()
+        announce._end()
+    assert announce.compile_seconds() - before == 10.0
+    assert announce.running_clock() - clock == 5.0
+    assert [record.name for record in caplog.records] == ["hoop-pulse"]
