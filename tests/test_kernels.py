@@ -9,6 +9,7 @@ import subprocess
 import sys
 from concurrent.futures import Future
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
@@ -65,42 +66,63 @@ def files(folder: Path) -> set[Path]:
     return {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
 
 
-def test_a_changed_callee_is_never_served_from_the_cache(tmp_path):
-    installation, cache = copy_of_the_packages(tmp_path / "one"), tmp_path / "cache"
-    assert run(installation, cache)[:2] == (-1.5, True)
-    assert run(installation, cache)[:2] == (-1.5, False)
+class Warm(NamedTuple):
+    """An installation that has run once, and what was seen."""
+
+    installation: Path
+    cache: Path
+    compiled: bool
+    said: str
+    before: set[Path]
+
+
+@pytest.fixture(scope="module")
+def warm(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("warm")
+    installation, cache = copy_of_the_packages(folder / "installation"), folder / "cache"
+    before = files(installation)
+    number, compiled, said = run(installation, cache, PYTHONDONTWRITEBYTECODE="1")
+    assert number == -1.5
+    return Warm(installation, cache, compiled, said, before)
+
+
+def test_compiled_is_told_once_and_kept_outside_the_package(warm):
+    assert warm.compiled
+    assert warm.said.count("\n") == 1
+    assert warm.said.startswith("hoop: compiling the flexible solver")
+    assert files(warm.installation) == warm.before
+
+
+def test_a_changed_callee_is_never_served_from_the_cache(tmp_path, warm):
+    """Nor are the same sources compiled again, wherever they stand."""
+    installation, cache = copy_of_the_packages(tmp_path / "copy"), tmp_path / "cache"
+    shutil.copytree(warm.cache, cache)
+    assert run(installation, cache) == (-1.5, False, "")
     text = (installation / CALLEE).read_text(encoding="utf-8")
     edited = text.replace("row[1] -= factor * foundation.diagonal", "row[1] -= 2 * factor * foundation.diagonal")
     assert edited != text
     (installation / CALLEE).write_text(edited, encoding="utf-8")
     assert run(installation, cache)[:2] == (-3.0, True)
-    (installation / CALLEE).write_text(text, encoding="utf-8")
-    assert run(installation, cache)[:2] == (-1.5, False)
 
 
-def test_compiled_once_told_once_and_outside_the_package(tmp_path):
-    one, two, cache = copy_of_the_packages(tmp_path / "one"), copy_of_the_packages(tmp_path / "two"), tmp_path / "cache"
-    before = files(one)
-    _, compiled, said = run(one, cache, PYTHONDONTWRITEBYTECODE="1")
-    assert compiled
-    assert files(one) == before
-    assert said.count("\n") == 1
-    assert said.startswith("hoop: compiling the flexible solver")
-    # the same sources in another place are the same kernels
-    assert run(two, cache)[1:] == (False, "")
-
-    # an administrator's kernels beside the packages, and a user who has none
-    shutil.copytree(cache / store.NAME, two / store.SHARED)
-    assert run(two, tmp_path / "empty")[1:] == (False, "")
-
-    # a cache that cannot be written is left alone, with a word; what an installation has is used still
+def test_kernels_beside_a_shared_installation_are_used(tmp_path, warm):
+    """By a user whose own cache cannot be written either: a file stands where the folder should be."""
+    installation = copy_of_the_packages(tmp_path / "shared")
+    shutil.copytree(warm.cache / store.NAME, installation / store.SHARED)
     (tmp_path / "file").write_text("")
-    home = {"HOME": str(tmp_path / "home"), "XDG_CACHE_HOME": str(tmp_path / "home"), "LOCALAPPDATA": str(tmp_path)}
-    assert run(two, tmp_path / "file" / "cache", **home)[1:] == (False, "")
-    shutil.rmtree(two / store.SHARED)
-    _, compiled, said = run(one, tmp_path / "file" / "cache", **home | {"XDG_CACHE_HOME": str(tmp_path / "other")})
-    assert compiled
-    assert "cannot be written" in said
+    home = dict.fromkeys(("HOME", "XDG_CACHE_HOME", "LOCALAPPDATA", "USERPROFILE"), str(tmp_path / "home"))
+    assert run(installation, tmp_path / "file" / "cache", **home) == (-1.5, False, "")
+    assert (tmp_path / "file").read_text() == ""
+
+
+def test_another_folder_than_expected_is_told(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "file" / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setenv("HOME", str(tmp_path))
+    folder, trouble = store.user_cache.__wrapped__()
+    assert not folder.is_relative_to(tmp_path / "file")
+    assert "cannot be written" in trouble
 
 
 def test_the_fingerprint_covers_every_source_and_nothing_else(tmp_path):
