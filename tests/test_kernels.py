@@ -7,13 +7,15 @@ import re
 import shutil
 import subprocess
 import sys
+from concurrent.futures import Future
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
 import flexible
 import rigid
-from rigid.kernel import store
+from rigid.kernel import announce, store
 
 ROOT = Path(__file__).parent.parent
 CALLEE = "flexible/contact/normal.py"
@@ -64,42 +66,63 @@ def files(folder: Path) -> set[Path]:
     return {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
 
 
-def test_a_changed_callee_is_never_served_from_the_cache(tmp_path):
-    installation, cache = copy_of_the_packages(tmp_path / "one"), tmp_path / "cache"
-    assert run(installation, cache)[:2] == (-1.5, True)
-    assert run(installation, cache)[:2] == (-1.5, False)
+class Warm(NamedTuple):
+    """An installation that has run once, and what was seen."""
+
+    installation: Path
+    cache: Path
+    compiled: bool
+    said: str
+    before: set[Path]
+
+
+@pytest.fixture(scope="module")
+def warm(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("warm")
+    installation, cache = copy_of_the_packages(folder / "installation"), folder / "cache"
+    before = files(installation)
+    number, compiled, said = run(installation, cache, PYTHONDONTWRITEBYTECODE="1")
+    assert number == -1.5
+    return Warm(installation, cache, compiled, said, before)
+
+
+def test_compiled_is_told_once_and_kept_outside_the_package(warm):
+    assert warm.compiled
+    assert warm.said.count("\n") == 1
+    assert warm.said.startswith("hoop: compiling the flexible solver")
+    assert files(warm.installation) == warm.before
+
+
+def test_a_changed_callee_is_never_served_from_the_cache(tmp_path, warm):
+    """Nor are the same sources compiled again, wherever they stand."""
+    installation, cache = copy_of_the_packages(tmp_path / "copy"), tmp_path / "cache"
+    shutil.copytree(warm.cache, cache)
+    assert run(installation, cache) == (-1.5, False, "")
     text = (installation / CALLEE).read_text(encoding="utf-8")
     edited = text.replace("row[1] -= factor * foundation.diagonal", "row[1] -= 2 * factor * foundation.diagonal")
     assert edited != text
     (installation / CALLEE).write_text(edited, encoding="utf-8")
     assert run(installation, cache)[:2] == (-3.0, True)
-    (installation / CALLEE).write_text(text, encoding="utf-8")
-    assert run(installation, cache)[:2] == (-1.5, False)
 
 
-def test_compiled_once_told_once_and_outside_the_package(tmp_path):
-    one, two, cache = copy_of_the_packages(tmp_path / "one"), copy_of_the_packages(tmp_path / "two"), tmp_path / "cache"
-    before = files(one)
-    _, compiled, said = run(one, cache, PYTHONDONTWRITEBYTECODE="1")
-    assert compiled
-    assert files(one) == before
-    assert said.count("\n") == 1
-    assert said.startswith("hoop: compiling the flexible solver")
-    # the same sources in another place are the same kernels
-    assert run(two, cache)[1:] == (False, "")
-
-    # an administrator's kernels beside the packages, and a user who has none
-    shutil.copytree(cache / store.NAME, two / store.SHARED)
-    assert run(two, tmp_path / "empty")[1:] == (False, "")
-
-    # a cache that cannot be written is left alone, with a word; what an installation has is used still
+def test_kernels_beside_a_shared_installation_are_used(tmp_path, warm):
+    """By a user whose own cache cannot be written either: a file stands where the folder should be."""
+    installation = copy_of_the_packages(tmp_path / "shared")
+    shutil.copytree(warm.cache / store.NAME, installation / store.SHARED)
     (tmp_path / "file").write_text("")
-    home = {"HOME": str(tmp_path / "home"), "XDG_CACHE_HOME": str(tmp_path / "home"), "LOCALAPPDATA": str(tmp_path)}
-    assert run(two, tmp_path / "file" / "cache", **home)[1:] == (False, "")
-    shutil.rmtree(two / store.SHARED)
-    _, compiled, said = run(one, tmp_path / "file" / "cache", **home | {"XDG_CACHE_HOME": str(tmp_path / "other")})
-    assert compiled
-    assert "cannot be written" in said
+    home = dict.fromkeys(("HOME", "XDG_CACHE_HOME", "LOCALAPPDATA", "USERPROFILE"), str(tmp_path / "home"))
+    assert run(installation, tmp_path / "file" / "cache", **home) == (-1.5, False, "")
+    assert (tmp_path / "file").read_text() == ""
+
+
+def test_another_folder_than_expected_is_told(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "file" / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setenv("HOME", str(tmp_path))
+    folder, trouble = store.user_cache.__wrapped__()
+    assert not folder.is_relative_to(tmp_path / "file")
+    assert "cannot be written" in trouble
 
 
 def test_the_fingerprint_covers_every_source_and_nothing_else(tmp_path):
@@ -154,3 +177,44 @@ def test_the_environment_says_where(monkeypatch, tmp_path, variable):
         assert store._wanted_cache() == tmp_path / "kernels" / store.NAME
     else:
         assert store.NAME in store._wanted_cache().parts
+
+
+def test_one_worker_compiles_for_all(monkeypatch):
+    from studies.running import workers
+    from studies.running.case import Case
+    from studies.running.solvers import prepare
+
+    asked = []
+
+    class Executor:
+        def submit(self, function, *arguments):
+            asked.append(function)
+            future = Future()
+            future.set_result(None)
+            return future
+
+    monkeypatch.setattr(workers, "is_cold", lambda package: package == "flexible")
+    monkeypatch.setattr(workers.Processes, "_start", lambda self: Executor())
+    place = workers.Processes(2)
+    scene = rigid.load_scene("paper-3.3-massless")
+    for solver in ("rigid", "flexible", "flexible"):
+        place.submit(Case(solver, scene))
+    assert asked == [workers.run_case, prepare, workers.run_case, workers.run_case]
+
+
+def test_seconds_of_compiling_are_no_run_time(monkeypatch, caplog):
+    """Two kernels of five seconds, each with a part of its own, told once; what others compile is not ours to tell."""
+    now = [0.0]
+    monkeypatch.setattr(announce.time, "perf_counter", lambda: now[0])
+    monkeypatch.setattr(announce, "_told", set())
+    before, clock = announce.compile_seconds(), announce.running_clock()
+    for package in ("flexible", "flexible", "someone_else"):
+        announce._begin(package)
+        now[0] += 2.0
+        announce._begin("numba")
+        now[0] += 3.0
+        announce._end()
+        announce._end()
+    assert announce.compile_seconds() - before == 10.0
+    assert announce.running_clock() - clock == 5.0
+    assert [record.name for record in caplog.records] == ["hoop-pulse"]
