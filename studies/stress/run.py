@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import time
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures import TimeoutError as Late
 from dataclasses import dataclass, field
 from functools import cache
@@ -14,7 +12,7 @@ from typing import Any
 
 from rigid import Scene
 
-from ..workers import cores
+from ..processes import Processes, WorkerDied, cores
 from .checks import Margins, toml
 
 RIGID, FLEXIBLE, CYCLES = "rigid", "flexible", "cycles"
@@ -250,25 +248,23 @@ def run_stress(
         (RIGID, seed, amount.rigid, low, min(low + CHUNK, amount.rigid), amount.seconds_rigid, quick)
         for low in range(0, amount.rigid, CHUNK)
     ]
-    # spawn: nothing of this process is inherited
-    executor = ProcessPoolExecutor(cores(), multiprocessing.get_context("spawn"))
+    processes = Processes(cores())
     try:
-        futures = [executor.submit(run_chunk, *task) for task in tasks]
+        futures = [processes.submit(run_chunk, *task) for task in tasks]
         for number, (future, task) in enumerate(zip(futures, tasks, strict=True)):
             kind, _, _, low, high, seconds, _ = task
+            where = f"# {kind} scenes {low} to {high}, seed {seed}"
             try:
                 # a chunk may have to wait for those before it
                 report.findings += future.result(timeout=300 + 3 * (high - low) * seconds)
+            except WorkerDied:
+                report.lost.append(f"{where}: their process died")
             except Late:
-                report.lost.append(f"# {kind} scenes {low} to {high}, seed {seed}: they hang")
+                report.lost.append(f"{where}: they hang")
                 break
             if progress is not None:
                 progress((number + 1) / len(tasks))
     finally:
-        workers = list((getattr(executor, "_processes", None) or {}).values())
-        executor.shutdown(wait=False, cancel_futures=True)
-        if report.lost:
-            for worker in workers:
-                worker.kill()
+        processes.stop()
     report.seconds = time.perf_counter() - start
     return report
