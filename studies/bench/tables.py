@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import isfinite
 from typing import Any
 
-from ..sheet import Column, Sheet
+from ..plots.sheet import Column, Sheet
 from .race import Result
 
 

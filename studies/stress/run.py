@@ -12,7 +12,7 @@ from typing import Any
 
 from rigid import Scene
 
-from ..processes import Processes, WorkerDied, cores
+from ..machine.processes import Processes, WorkerDied, cores
 from .checks import Margins, toml
 
 RIGID, FLEXIBLE, CYCLES = "rigid", "flexible", "cycles"

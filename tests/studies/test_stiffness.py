@@ -11,10 +11,10 @@ from third_solver import OFF, RATE
 from flexible.limit import effective_mu_s, rigid_limit
 from rigid import Friction as Coefficients
 from rigid import Hoop, Release, Scene, SceneError, load_scene
-from studies.case import SHARE
-from studies.files import StudyError
-from studies.ladder import Ladder
-from studies.stiffness import stiffness_study
+from studies.running.case import SHARE
+from studies.running.files import StudyError
+from studies.stiffness.ladder import Ladder
+from studies.stiffness.study import stiffness_study
 
 THIRD = "third_solver:softened"
 
@@ -66,7 +66,7 @@ def test_rate_and_limit_come_out(study):
 
 
 def test_an_unreachable_tolerance_is_told_and_not_hidden(monkeypatch):
-    monkeypatch.setattr("studies.case.TIGHTEST", 1e-4)
+    monkeypatch.setattr("studies.running.case.TIGHTEST", 1e-4)
     scene = load_scene("paper-3.3-massless").replace(solve={"rtol": 1e-3})
     study = stiffness_study(scene, Ladder("contact", 1e9, 1e14, 6), solver=THIRD)
     assert not study.rungs[-1].outcome.resolved
@@ -137,6 +137,18 @@ def test_the_table_names_every_rung_and_the_limit(hoop):
     assert status == 0
     for word in ("1e+07", "1e+13", "rigid", "Limit", "mu_eff = 0.30247"):
         assert word in out
+
+
+@pytest.mark.parametrize("count", [3, 4])
+def test_three_or_four_rungs_are_too_few_for_an_interval(hoop, count):
+    line = ["study", "stiffness", "paper-3.3-massless", "--solver", THIRD, "--workers", 1, "--count", count]
+    status, out, _ = hoop(*line)
+    assert status == 0
+    words = " ".join(out.split())
+    assert words.count("too few rungs for an interval") == 2  # J_F/J_N and the loss
+    assert "inside that interval" not in words
+    limit = json.loads(hoop(*line, "--json")[1])["limit"]
+    assert all(entry["rigid_inside"] is None and entry["uncertainty"] is None for entry in limit.values())
 
 
 @pytest.mark.parametrize("how", ["failing", "unfinished"])

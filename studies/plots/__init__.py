@@ -1,0 +1,1 @@
+"""What all output shares: the ``style`` of figures, the curves through a ``pulse``, the ``sheet`` that fits a screen."""

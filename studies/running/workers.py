@@ -1,0 +1,147 @@
+"""Cases run side by side: on this machine's cores, or on a Dask cluster, through the same futures."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Iterator
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
+from contextlib import contextmanager
+from typing import Protocol
+
+from rigid import scene_to_dict
+
+from ..machine.processes import Processes, WorkerDied, cores
+from .case import Case, OtherBuild, Outcome, run_case
+from .files import StudyError, plain
+from .solvers import version
+
+_DEATHS = 3
+"""A case whose worker has died this often is not tried again."""
+
+
+class Pool(Protocol):
+    """Where cases run."""
+
+    def submit(self, case: Case) -> Future[Outcome]: ...
+
+    def workers(self) -> int:
+        """How many cases run at once."""
+        ...
+
+
+class Here:
+    """In this process, one after the other."""
+
+    def submit(self, case: Case) -> Future[Outcome]:
+        future: Future[Outcome] = Future()
+        try:
+            future.set_result(run_case(case))
+        except OtherBuild as error:
+            future.set_exception(error)
+        return future
+
+    def workers(self) -> int:
+        return 1
+
+
+class Machine:
+    """In processes of this machine, each on one core."""
+
+    def __init__(self, workers: int) -> None:
+        self._count = workers
+        self._processes = Processes(workers)
+
+    def submit(self, case: Case) -> Future[Outcome]:
+        return self._processes.submit(run_case, case)
+
+    def workers(self) -> int:
+        return self._count
+
+    def stop(self) -> None:
+        self._processes.stop()
+
+
+class Cluster:
+    """On a Dask cluster, which itself moves the cases of a dead worker to another one."""
+
+    def __init__(self, address: str) -> None:
+        try:
+            from distributed import Client
+        except ImportError:
+            raise StudyError("--scheduler needs Dask: pip install 'hoop-pulse[cluster]'.") from None
+        try:
+            self.client = Client(address, timeout="20s", set_as_default=False)
+        except (OSError, ValueError, TypeError) as error:
+            raise StudyError(f"There is no Dask scheduler at {address}: {' '.join(str(error).split())}.") from None
+        self.executor: Executor = self.client.get_executor(pure=False)
+
+    def submit(self, case: Case) -> Future[Outcome]:
+        return self.executor.submit(run_case, case)
+
+    def workers(self) -> int:
+        return max(1, sum(self.client.nthreads().values()))
+
+    def stop(self) -> None:
+        self.executor.shutdown(wait=False)
+        self.client.close()
+
+
+@contextmanager
+def pool(workers: int | None = None, scheduler: str | None = None) -> Iterator[Pool]:
+    """Where cases run: the cluster at ``scheduler``, else ``workers`` processes, else (one worker) here."""
+    place: Machine | Cluster
+    if scheduler is not None:
+        place = Cluster(scheduler)
+    elif (workers or cores()) == 1:
+        yield Here()
+        return
+    else:
+        place = Machine(workers or cores())
+    try:
+        yield place
+    finally:
+        place.stop()
+
+
+def run_all(cases: Iterable[Case], pool: Pool) -> Iterator[tuple[Case, Outcome]]:
+    """Run cases as room allows and hand each back as it is done, in whatever order that is.
+
+    A worker that dies takes only its own case with it. The case is tried again after all others, alone, as it may
+    have died of want of memory beside them.
+
+    Raises
+    ------
+    StudyError
+        The workers have other sources than this process: their results are not ours.
+    """
+    waiting = deque(cases)
+    again: deque[Case] = deque()
+    deaths: dict[Case, int] = {}
+    flying: dict[Future[Outcome], Case] = {}
+    while waiting or again or flying:
+        # one case here at once; elsewhere one more waits for each worker
+        while waiting and len(flying) < (1 if isinstance(pool, Here) else 2 * pool.workers()):
+            case = waiting.popleft()
+            flying[pool.submit(case)] = case
+        if again and not flying:
+            case = again.popleft()
+            flying[pool.submit(case)] = case
+        for future in wait(flying, return_when=FIRST_COMPLETED).done:
+            case = flying.pop(future)
+            try:
+                yield case, future.result()
+            except WorkerDied as death:
+                deaths[case] = deaths.get(case, 0) + 1
+                if deaths[case] < _DEATHS:
+                    again.append(case)
+                else:
+                    yield case, failed(case, f"{death}, {_DEATHS} times: out of memory perhaps")
+            except OtherBuild as error:
+                raise StudyError(f"{error}.") from None
+            except (Exception, CancelledError) as error:
+                yield case, failed(case, f"{type(error).__name__}: {' '.join(str(error).split())}")
+
+
+def failed(case: Case, reason: str) -> Outcome:
+    """The row of a case that never came back."""
+    return Outcome(case.key, case.solver, plain(scene_to_dict(case.scene)), version(), failure=reason)
