@@ -1,1 +1,3 @@
-"""What all output shares: the ``style`` of figures, the curves through a ``pulse``, the ``sheet`` that fits a screen."""
+"""What all output shares: the ``style`` of figures, the curves through a ``pulse``, and the ``sheet``: a table that fits
+the screen.
+"""

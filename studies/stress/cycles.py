@@ -6,7 +6,7 @@ from math import radians
 
 from rigid import Friction, Hoop, Release, Run, Scene, simulate
 
-from .checks import Margins
+from .checks import Checked
 
 CYCLES = 1000
 HOOPS = {
@@ -18,15 +18,16 @@ HOOPS = {
 }
 
 
-def drift(scene: Scene) -> tuple[Margins, str]:
+def drift(scene: Scene) -> Checked:
     """Angle, energy and half-period of the last cycle against those of the first."""
     motion = simulate(scene)
     first, last = motion.turns[1], motion.turns[-1]
     half = motion.turns[1].t - motion.turns[0].t
     expected = first.t + (len(motion.turns) - 2) * half
-    return {
+    margins = {
         "all cycles": abs(len(motion.turns) - 2 * CYCLES) * 1e9,
         "angle drifts": abs(last.phi - first.phi) / 1e-10,
         "energy drifts": abs(last.energy / first.energy - 1) / 1e-11,
         "period drifts": abs(last.t / expected - 1) / 1e-11,
-    }, motion.ended
+    }
+    return Checked(margins, motion.ended, motion.completed)
