@@ -19,7 +19,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -233,7 +233,7 @@ def make(pictures: Sequence[Picture], bench: Bench, into: Path = IMAGES) -> None
         made = bench.folder / picture.made
         if not made.is_file():
             raise StudyError(f"{picture.commands[-1]} left no {picture.made}.")
-        write_whole(into / picture.name, lambda part, made=made: shutil.copyfile(made, part))
+        write_whole(into / picture.name, partial(shutil.copyfile, made))
         click.echo(f"{picture.name}: made")
 
 

@@ -5,14 +5,18 @@ from __future__ import annotations
 import re
 
 import pytest
-from command_line import SCENE
 
+from rigid import Run, load_scene, simulate
+from studies.cli.tables import motion_tables, show, study_tables, sweep_tables
 from studies.plots.sheet import Column, Sheet
 from studies.running.measures import MEASURES
+from studies.running.workers import Here
+from studies.stiffness.ladder import Ladder
+from studies.stiffness.study import stiffness_study
+from studies.sweep import run_sweep, sweep_from_dict
 
-THIRD = ("--solver", "third_solver:softened", "--workers", 1)
 WIDTHS = (60, 80, 200)
-SI = SCENE.format(k=0.25).replace("r = 1.02", "r = 1.02\nR = 0.3\nm = 2.0\ng = 9.81")
+NUMBER = r"-|-?\d+(\.\d+)?(e[-+]\d+)?"
 
 
 def table_of(out: str) -> dict[str, list[str]]:
@@ -32,69 +36,87 @@ def table_of(out: str) -> dict[str, list[str]]:
     return columns
 
 
-def fits(out: str, width: int) -> None:
-    assert "…" not in out
-    assert max(map(len, out.splitlines())) <= width
+@pytest.fixture
+def screen(monkeypatch, capsys):
+    """What stands on a screen of some width."""
+
+    def shown(width: int, things) -> str:
+        monkeypatch.setenv("COLUMNS", str(width))
+        capsys.readouterr()
+        show(*things)
+        out = capsys.readouterr().out
+        assert "…" not in out
+        assert max(map(len, out.splitlines())) <= width
+        return out
+
+    return shown
+
+
+@pytest.fixture(scope="module", params=[False, True], ids=["R = m = g = 1", "SI"])
+def scene(request):
+    scene = load_scene("paper-3.2-k0.25").replace(contact={"stiffness": 1e9})
+    return request.param, scene.replace(hoop={"R": 0.3, "m": 2.0, "g": 9.81}) if request.param else scene
+
+
+@pytest.fixture(scope="module")
+def study(scene):
+    return stiffness_study(scene[1], Ladder("contact", 1e7, 1e13, 5), solver="third_solver:softened")
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_the_ladder_keeps_every_number(hoop, monkeypatch, width):
-    monkeypatch.setenv("COLUMNS", str(width))
-    _, out, _ = hoop("study", "stiffness", "paper-3.3-massless", *THIRD, "--count", 5)
-    fits(out, width)
+def test_the_ladder_keeps_every_number(study, scene, screen, width):
+    out = screen(width, study_tables(study))
     found = table_of(out)
     assert found["foundation εR²/(mg)"][:5] == ["1e+07", "3.16e+08", "1e+10", "3.16e+11", "1e+13"]
     ratio = [float(cell) for cell in found["J_F/J_N"][:5]]
     assert ratio == sorted(ratio, reverse=True)
     assert all(float(cell) < 1e-3 for cell in found["±"][:5])
-    for heading in ("friction loss [mgR]", "J_N [m sqrt(gR)]", "peak N [mg]", "off the floor [sqrt(R/g)]", "run [s]"):
-        assert all(float(cell) >= 0 for cell in found[heading][:6])
-    # the first screen holds the name, the ratio and its uncertainty side by side
-    assert re.search(r"│ +1e\+07 │.* 0\.\d{5} │ +[\d.e-]+ │", out)
+    energy, impulse, force, time = ("J", "N s", "N", "s") if scene[0] else ("mgR", "m sqrt(gR)", "mg", "sqrt(R/g)")
+    for name in (f"friction loss [{energy}]", f"J_N [{impulse}]", f"peak N [{force}]", f"off the floor [{time}]"):
+        assert all(float(cell) >= 0 for cell in found[name][:6])
+    assert all(re.fullmatch(r"[\d.e-]+( \*)?", cell) for cell in found["run [s]"])
+    # the first table holds the name, the ratio and its uncertainty side by side
+    assert re.search(r"│ +1e\+07 │.* \d\.\d{5} │ +[\d.e-]+ │", out)
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_the_ladder_in_si_units(hoop, monkeypatch, tmp_path, width):
-    monkeypatch.setenv("COLUMNS", str(width))
-    (tmp_path / "si.toml").write_text(SI)
-    _, out, _ = hoop("study", "stiffness", tmp_path / "si.toml", *THIRD, "--count", 5)
-    fits(out, width)
-    assert {"friction loss [J]", "J_N [N s]", "peak N [N]", "off the floor [s]"} <= set(table_of(out))
-
-
-@pytest.mark.parametrize("width", WIDTHS)
-@pytest.mark.parametrize("si", [False, True])
-def test_a_motion_has_units_everywhere(hoop, monkeypatch, tmp_path, width, si):
-    monkeypatch.setenv("COLUMNS", str(width))
-    (tmp_path / "scene.toml").write_text((SI if si else SCENE.format(k=0.25)).replace('until = "pulse"', "turns = 4"))
-    _, out, _ = hoop("rigid", tmp_path / "scene.toml")
-    fits(out, width)
-    found = table_of(out)
-    time, speed, energy = ("s", "m/s", "J") if si else ("sqrt(R/g)", "sqrt(gR)", "mgR")
+def test_a_motion_has_units_everywhere(scene, screen, width):
+    found = table_of(screen(width, motion_tables(simulate(scene[1].replace(run=Run(turns=4))))))
+    time, speed, energy = ("s", "m/s", "J") if scene[0] else ("sqrt(R/g)", "sqrt(gR)", "mgR")
     asked = {f"from t [{time}]", f"to t [{time}]", f"slip velocity [{speed}]", f"energy [{energy}]", "pulse 4"}
     assert asked <= set(found)
     names = " ".join(found["measure"])
-    for entry in MEASURES.values():
-        assert entry.symbol in names
-    assert all(cell == "-" or float(cell) is not None for cell in found["pulse 4"])
+    assert all(entry.heading(scene[1]).replace("\n", " ") in names for entry in MEASURES.values())
+    assert all(re.fullmatch(NUMBER, cell) for cell in found["pulse 4"])
+
+
+@pytest.fixture(scope="module")
+def sweep():
+    """24 scenes of four keys, of which one in three cannot be: mu is more than mu_s."""
+    return run_sweep(
+        sweep_from_dict(
+            {
+                "sweep": {"scene": "paper-3.2-k0.25", "solvers": "rigid"},
+                "hoop": {"r": [1.0, 1.02], "mass_ratio": [0.0, 0.1]},
+                "friction": {"mu": [0.3, 0.2, 0.5]},
+                "contact": {"stiffness": [1e8, 1e9]},
+                "run": {"until": "pulse"},
+            }
+        ),
+        Here(),
+    )
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_a_sweep_over_many_keys_keeps_its_numbers(hoop, monkeypatch, tmp_path, width):
-    monkeypatch.setenv("COLUMNS", str(width))
-    text = SCENE.format(k="[0.1, 0.25]").replace("r = 1.02", "r = [1.0, 1.02]\nmass_ratio = [0.0, 0.1]")
-    text = text.replace("mu = 0.3", "mu = [0.3, 0.2, 0.5]")
-    (tmp_path / "many.toml").write_text(text + "[contact]\nstiffness = [1e8, 1e9]\n[sweep]\nsolvers = 'rigid'\n")
-    status, out, _ = hoop("study", "sweep", tmp_path / "many.toml", "--workers", 1)
-    assert status == 1  # mu = 0.5 is more than mu_s
-    fits(re.sub(r"The table is in .*", "", out, flags=re.DOTALL), width)
+def test_a_sweep_over_many_keys_keeps_its_numbers(sweep, screen, width):
+    out = screen(width, sweep_tables(sweep))
     found = table_of(out)
     ratios = found["J_F/J_N"]
-    assert len(ratios) == 40
-    assert sum(cell != "-" for cell in ratios) == 27  # of every three rows one cannot be
-    assert all(re.fullmatch(r"-|-?\d+(\.\d+)?(e[-+]\d+)?", cell) for cell in ratios)
+    assert len(ratios) == 24
+    assert sum(cell == "-" for cell in ratios) == 8
+    assert all(re.fullmatch(NUMBER, cell) for cell in ratios)
     assert "friction loss [mgR]" in found
-    assert len(found["hoop. k"]) == 40
+    assert found["contact. stiffness"] == ["100000000.0", "1000000000.0"] * 12
     assert "friction.mu = 0.5" in " ".join(out.split())
 
 
