@@ -65,7 +65,11 @@ class Case:
     scene: Scene
     against: tuple[tuple[str, float], ...] = ()
     histories: bool = False
-    build: str = field(default_factory=build)
+    build: str = ""
+
+    def __post_init__(self) -> None:
+        if not self.build:
+            object.__setattr__(self, "build", build(self.solver))
 
     @property
     def key(self) -> str:
@@ -123,8 +127,20 @@ class Outcome:
     """Forces and the rest through each pulse, if asked for."""
 
 
+class OtherBuild(RuntimeError):
+    """A case came to a process whose sources are not those it is meant for."""
+
+
 def run_case(case: Case) -> Outcome:
-    """Run a case; whatever goes wrong in it is told in the outcome, never raised."""
+    """Run a case; whatever goes wrong in it, a solver that wants to end the process too, is told in the outcome.
+
+    Raises
+    ------
+    OtherBuild
+        It is meant for other sources than this process has: the result would be filed under a wrong key.
+    """
+    if case.build != (ours := build(case.solver)):
+        raise OtherBuild(f"The workers run hoop-pulse {ours}, the sweep is one of {case.build}: they must agree")
     start = running_clock()
     known = {
         "key": case.key,
@@ -134,7 +150,9 @@ def run_case(case: Case) -> Outcome:
     }
     try:
         found = _resolved(case) if case.against else _once(case, case.scene)
-    except Exception as error:  # a failing case is a row of the table, whatever it failed of
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # a failing case is a row of the table, whatever it failed of: SystemExit too
         kind = type(error).__name__
         return Outcome(**known, failure=f"{kind}: {error}".rstrip(": "), seconds=running_clock() - start)
     return Outcome(**known, **found, seconds=running_clock() - start)

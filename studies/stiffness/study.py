@@ -101,6 +101,11 @@ class StiffnessStudy:
         """The rungs that have no result."""
         return [rung for rung in self.rungs if rung.outcome.failure]
 
+    @property
+    def rungs_through(self) -> list[Rung]:
+        """The rungs that have one."""
+        return [rung for rung in self.rungs if not rung.outcome.failure]
+
     def to_dict(self) -> dict[str, Any]:
         """The study as JSON prints it."""
         return {

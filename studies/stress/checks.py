@@ -9,13 +9,24 @@ import json
 from collections.abc import Iterator
 from itertools import pairwise
 from math import inf, isfinite, isnan
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from rigid import Kind, Motion, Release, Run, Scene, scene_to_dict, simulate
 
 Margins = dict[str, float]
+
+
+class Checked(NamedTuple):
+    """What the checks of a scene found."""
+
+    margins: Margins
+    ended: str
+    completed: bool = True
+    cut: bool = False
+
+
 METRE, KILOGRAM, GRAVITY = 0.3, 0.7, 9.81  # any units that are no powers of two
 MOST_GROWTH = 1e6  # of a change of the release: each hop multiplies it, and after many a motion does not repeat
 RESOLVED = 1e-9
@@ -263,7 +274,7 @@ def integrated(motion: Motion) -> Margins:
     return {"integrated in time": worst}
 
 
-def rigid_margins(scene: Scene, thorough: bool) -> tuple[Margins, str]:
+def rigid_margins(scene: Scene, thorough: bool) -> Checked:
     """All checks of a rigid scene, and how it ended."""
     motion = simulate(scene)
     margins = listed(motion)
@@ -273,4 +284,5 @@ def rigid_margins(scene: Scene, thorough: bool) -> tuple[Margins, str]:
         margins |= repeated(motion)
         if thorough:
             margins |= integrated(motion)
-    return {name: NO if isnan(value) else max(value, 0.0) for name, value in margins.items()}, motion.ended
+    margins = {name: NO if isnan(value) else max(value, 0.0) for name, value in margins.items()}
+    return Checked(margins, motion.ended, motion.completed)

@@ -7,7 +7,7 @@ from math import radians
 
 from rigid import Friction, Hoop, Release, Run, Scene, simulate
 
-from .checks import Margins
+from .checks import Checked
 
 CYCLES = 1000
 HOOPS = {
@@ -17,7 +17,7 @@ HOOPS = {
 }
 
 
-def drift(scene: Scene) -> tuple[Margins, str]:
+def drift(scene: Scene) -> Checked:
     """Angle, energy and period of the last cycle against those of the first, each cycle computed anew from the turn
     that ends the one before; and the thousand in one run.
     """
@@ -30,10 +30,11 @@ def drift(scene: Scene) -> tuple[Margins, str]:
         cycle = cycle.replace(release=Release(turn.phi, 0.0, turn.slip_velocity))
     first, last = turns[0], turns[-1]
     expected = CYCLES * first.t
-    return {
+    margins = {
         "all cycles": abs(len(motion.turns) - 2 * CYCLES) * 1e9,
         "one run": abs(motion.turns[-1].t / last.t - 1) / 1e-11,
         "angle drifts": abs(last.phi - first.phi) / 1e-10,
         "energy drifts": abs(last.energy / first.energy - 1) / 1e-11,
         "period drifts": abs(last.t / expected - 1) / 1e-11,
-    }, motion.ended
+    }
+    return Checked(margins, motion.ended, motion.completed)

@@ -139,6 +139,18 @@ def test_the_table_names_every_rung_and_the_limit(hoop):
         assert word in out
 
 
+@pytest.mark.parametrize("count", [3, 4])
+def test_three_or_four_rungs_are_too_few_for_an_interval(hoop, count):
+    line = ["study", "stiffness", "paper-3.3-massless", "--solver", THIRD, "--workers", 1, "--count", count]
+    status, out, _ = hoop(*line)
+    assert status == 0
+    words = " ".join(out.split())
+    assert words.count("too few rungs for an interval") == 2  # J_F/J_N and the loss
+    assert "inside that interval" not in words
+    limit = json.loads(hoop(*line, "--json")[1])["limit"]
+    assert all(entry["rigid_inside"] is None and entry["uncertainty"] is None for entry in limit.values())
+
+
 @pytest.mark.parametrize("how", ["failing", "unfinished"])
 def test_failing_rungs_are_told_and_the_rest_is_used(hoop, how):
     line = ["study", "stiffness", "paper-3.3-massless", "--solver", f"third_solver:{how}", "--workers", 1, "--json"]
