@@ -95,6 +95,7 @@ def march(
         stored = trial.state.res[BRISTLE_ENERGY] - state.res[BRISTLE_ENERGY]
         books.friction_loss -= trial.friction_work + stored
         books.damping_loss += trial.damped
+        books.numerical_loss += trial.numerical
         books.off_floor += trial.off_floor
         state = _free(trial.state)
         note(state)

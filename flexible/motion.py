@@ -81,6 +81,7 @@ class History:
     contact_spring: Array
     friction_loss: Array
     damping_loss: Array
+    numerical_loss: Array
     normal_impulse: Array
     friction_impulse: Array
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from .contact import HIGH, LOW, NORMAL
-from .frame import energies
+from .frame import energies, inertia
 from .reduction import ReducedRing, reduce
 from .rest import RestingModes
 from .state import State
@@ -107,3 +107,13 @@ class ReducedHoop(RimContact):
         error = filtered_error(ring.body, ring.modal, ring.gyro, state.pos, state.vel, state.acc, beta, matrix, error)
         horizontal = abs(error[0] + error[2])
         return float(max(horizontal, abs(error[1]), abs(error[2]), np.abs(error[3:]).max(initial=0.0)))
+
+    def energy_error(self, state: State, beta: float, matrix: Array, error: Array, moved: Array) -> float:
+        """See :class:`flexible.march.Model`."""
+        body, modal, gyro = self.ring.body, self.ring.modal, self.ring.gyro
+        pos, vel, acc = state.pos, state.vel, state.acc
+        error, moved = (filtered_error(body, modal, gyro, pos, vel, acc, beta, matrix, x) for x in (error, moved))
+        with_error = energies(body, modal, gyro, pos + moved / 2, vel + error / 2)
+        without = energies(body, modal, gyro, pos - moved / 2, vel - error / 2)
+        forces = inertia(body, modal, gyro, pos, vel, acc, beta)[0]
+        return float(sum(with_error) - sum(without) - forces @ moved)

@@ -72,6 +72,10 @@ class Model(Protocol):
     def momentum_error(self, state: State, beta: float, matrix: Any, error: Array) -> float:
         """Size, as an impulse, of an error in the velocities after a step that ended with Newton's ``matrix``."""
 
+    def energy_error(self, state: State, beta: float, matrix: Any, error: Array, moved: Array) -> float:
+        """Energy, beyond the work of all forces of the floor, that comes with an error in the velocities and ``moved``
+        in the positions."""
+
 
 @dataclass(frozen=True, slots=True)
 class Record:
@@ -96,6 +100,7 @@ class Record:
     friction_impulse: float
     friction_loss: float
     damping_loss: float
+    numerical_loss: float
     off_floor: float
     mode: int
 
@@ -108,6 +113,7 @@ class Books:
     friction_impulse: float = 0.0
     friction_loss: float = 0.0
     damping_loss: float = 0.0
+    numerical_loss: float = 0.0
     off_floor: float = 0.0
 
 
@@ -135,6 +141,7 @@ def record(model: Model, state: State, books: Books) -> Record:
         friction_impulse=books.friction_impulse,
         friction_loss=books.friction_loss,
         damping_loss=books.damping_loss,
+        numerical_loss=books.numerical_loss,
         off_floor=books.off_floor,
         mode=state.mode,
     )
