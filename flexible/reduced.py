@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from .contact import HIGH, LOW, NORMAL
-from .frame import energies, inertia
+from .frame import RING_MASS, energies, inertia
 from .reduction import ReducedRing, reduce
 from .rest import RestingModes
 from .state import State
@@ -105,8 +105,8 @@ class ReducedHoop(RimContact):
         """See :class:`flexible.march.Model`."""
         ring = self.ring
         error = filtered_error(ring.body, ring.modal, ring.gyro, state.pos, state.vel, state.acc, beta, matrix, error)
-        horizontal = abs(error[0] + error[2])
-        return float(max(horizontal, abs(error[1]), abs(error[2]), np.abs(error[3:]).max(initial=0.0)))
+        ringing = np.abs(error[3:]).max(initial=0.0) / (1 + ring.body[RING_MASS]) ** 0.5
+        return float(max(abs(error[0] + error[2]), abs(error[1]), abs(error[2]), ringing))
 
     def energy_error(self, state: State, beta: float, matrix: Array, error: Array, moved: Array) -> float:
         """See :class:`flexible.march.Model`."""

@@ -70,7 +70,8 @@ class Model(Protocol):
         """Kinetic, gravity, ring strain."""
 
     def momentum_error(self, state: State, beta: float, matrix: Any, error: Array) -> float:
-        """Size, as an impulse, of an error in the velocities after a step that ended with Newton's ``matrix``."""
+        """Size of an error in the velocities after a step that ended with Newton's ``matrix``: an impulse over M, so
+        that a tolerance is the same share of the impulses whatever the mass of the hoop."""
 
     def energy_error(self, state: State, beta: float, matrix: Any, error: Array, moved: Array) -> float:
         """Energy, beyond the work of all forces of the floor, that comes with an error in the velocities and ``moved``

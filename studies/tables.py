@@ -12,6 +12,7 @@ from rich.table import Table
 
 from rigid import Motion, Scene
 
+from .account import HEADING, account, remarks
 from .measures import MEASURES, measures, phase_sequence
 from .summary import (
     CASE_HEADING,
@@ -68,13 +69,12 @@ def motion_tables(motion: Motion) -> list[Any]:
                 motion.scene,
             )
         )
-    books = motion.to_dict().get("energy_ledger")
-    if books:
-        ledger = Table("where the energy went", title="Energy ledger", title_justify="left")
+    if hasattr(motion, "ledger"):
+        ledger = Table("where the energy went", title=HEADING, title_justify="left")
         ledger.add_column(MEASURES["friction_loss"].unit_in(motion.scene), justify="right")
-        for name, value in books.items():
-            ledger.add_row(name.replace("_", " "), number(value))
-        shown.append(ledger)
+        for entry in account(motion):
+            ledger.add_row(*entry)
+        shown += [ledger, *remarks(motion)]
     shown.append(f"Ended: {motion.ended}")
     return shown
 
