@@ -12,10 +12,10 @@ from scenes import HOOP, flying, steps_of
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
-from flexible.reduced import ReducedHoop
-from flexible.start import Pose, equilibrium
-from flexible.touch import relaxation_time
-from flexible.trial import restart
+from flexible.handover import Pose, equilibrium
+from flexible.models.reduced import ReducedHoop
+from flexible.models.rim_contact import relaxation_time
+from flexible.time.tr_bdf2 import restart
 from rigid import Kind
 
 EPS = 1e6

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from kinematic import VERTEX, Rim
 
-from flexible.contact import (
+from flexible.contact.detection import element_at
+from flexible.contact.forces import (
     FRICTION,
     LENGTH,
     NORMAL,
@@ -15,7 +16,6 @@ from flexible.contact import (
     UNDAMPED,
     contact_forces,
 )
-from flexible.points import element_at
 
 EPS = 1e6
 WIDTH = 2 * pi / 240  # of an element
