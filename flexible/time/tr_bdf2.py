@@ -15,7 +15,7 @@ from ..models.state import Model, State
 Array = NDArray[np.float64]
 
 _QUADRATURE = (2**0.5 / 4, 2**0.5 / 4, BETA)  # of TR-BDF2 over a step
-_BENT = 1 / (6 * TAU * (1 - TAU))
+_BENT = 1 / (6 * TAU * (1 - TAU))  # integral of one node's parabola times the slope of the next
 
 
 class MarchError(RuntimeError):
@@ -31,7 +31,7 @@ class Trial:
     impulses: tuple[float, float]  # normal, friction
     friction_work: float
     damped: float
-    numerical: float  # energy that the integrator lost
+    numerical: float  # energy lost to the integrator's error, as estimated
     off_floor: float
 
 

@@ -24,16 +24,16 @@ def rate(rtol, values):
 
 @pytest.mark.parametrize(("mass", "law"), [(0.0, "patch"), (0.1, "patch"), (0.0, "brush")])
 def test_numerical_loss_and_residual_converge(mass, law):
-    """Steps are like rtol^(1/2): the loss of a second-order integrator falls like rtol, what its error estimate, of
-    third order, does not know of it like rtol^(3/2). Both in magnitude: neither may change its sign here.
+    """Steps are like rtol^(1/2): the loss of a second-order integrator falls like rtol, and what its error estimate, of
+    third order, does not know of it like rtol^(3/2), here with a factor below that of the energy. That may change its
+    sign and is held to the law alone; the loss is fitted, from where it is one-signed.
     """
-    rtol = np.array([1e-2, 1e-3, 1e-4])
+    rtol = np.array([1e-3, 3e-4, 1e-4])
     scene = PULSE.replace(hoop={"mass_ratio": mass}, contact={"law": law})
     books = [flexible.simulate(scene.replace(solve={"rtol": r})).ledger for r in rtol]
     assert rate(rtol, [b.numerical_loss for b in books]) == pytest.approx(1, abs=0.2)
-    assert rate(rtol, [b.residual for b in books]) > 1.2
     for r, b in zip(rtol, books, strict=True):
-        assert abs(b.residual) < 0.1 * abs(b.numerical_loss)
+        assert abs(b.residual) < r**1.5 * b.initial
         assert abs(b.numerical_loss) < r * b.initial
         assert sum(dataclasses.astuple(b)[1:]) == pytest.approx(b.initial, rel=1e-12)
 
@@ -42,7 +42,7 @@ def test_friction_loss_is_the_integral_of_its_power():
     """Trapezoids of -F v over the steps of a motion that slides throughout; they are short (rtol 1e-6)."""
     scene = HOOP.replace(
         hoop={"mass_ratio": 0.0}, friction={"mu_s": 0.02, "mu": 0.02}, release={"phi0": 2.4, "omega0": 1.5},
-        solve={"rtol": 1e-6},
+        solve={"rtol": 1e-6}, contact={"damping": 1.0},
     )  # fmt: skip
     motion = flexible.simulate(scene, history=True)
     steps = motion.history
@@ -87,14 +87,14 @@ def test_hand_over_tends_to_zero_with_stiffness():
 
 @pytest.mark.parametrize("mass", [0.0, 5.0])
 def test_the_tolerance_is_that_of_the_impulses_over_the_total_mass(mass):
-    """rtol M sqrt(g R) bounds the change to a hundredth of rtol, with a hoop lighter and heavier than its disk."""
+    """The change to a hundredth of rtol is below rtol of the normal impulse, whether hoop or disk is the heavier."""
     scene = HOOP.replace(hoop={"mass_ratio": mass}, release={"phi0": 2.0, "omega0": 1.5}, run={"t_end": 0.6})
     scene = scene.replace(solve={"resolve": "all"}, contact={"damping": 1.0})
     ends = []
     for rtol in (1e-3, 1e-5):
         steps = flexible.simulate(scene.replace(solve={"rtol": rtol}), history=True).history
         ends.append([steps.normal_impulse[-1], steps.friction_impulse[-1]])
-    assert np.abs(np.subtract(*ends)).max() < 1e-3 * (1 + mass)
+    assert np.abs(np.subtract(*ends)).max() < 1e-3 * ends[1][0]
 
 
 def test_the_default_contact_goes_through_the_papers_pulse_as_the_rigid_hoop_does():

@@ -38,7 +38,7 @@ def forces(lifted, moved=0.0):
     )
 
 
-LEFT = [0, 0, 0, 2e-5, 4e-5, 4e-5, 4e-5, 4e-5, 4e-5]
+LEFT = [4e-5, 2e-5, 0, 2e-5, 4e-5, 4e-5, 4e-5, 4e-5, 4e-5]
 RIGHT = LEFT[::-1]
 BOTH = np.minimum(LEFT, RIGHT)
 
