@@ -165,8 +165,6 @@ class Stretch:
         absorbed = gained[before] + part * (gained[split] - gained[before])
         returned = gained[-1] - absorbed
         phi = self.value("phi", ends)
-        held = np.interp(ends, t, self.held())
-        losses = gain("friction_loss"), gain("damping_loss")
         strain, spring = (float(np.interp(grid, t, self[name]).max()) for name in ("ring_strain", "contact_spring"))
         total = float(impulse[-1])
         return FlexiblePulse(
@@ -176,7 +174,7 @@ class Stretch:
             phi_end=float(phi[1]),
             normal_impulse=total,
             friction_impulse=gain("friction_impulse"),
-            friction_loss=losses[0],
+            friction_loss=gain("friction_loss"),
             peak_normal_force=float(normal_force.max()),
             newton_restitution=float(-velocity[-1] / velocity[0]) if velocity[0] else 0.0,
             poisson_restitution=float((total - compression) / compression) if compression > 0 else 0.0,
@@ -184,8 +182,8 @@ class Stretch:
             time_off_floor=gain("off_floor"),
             ring_energy_peak=strain,
             contact_energy_peak=spring,
-            damping_loss=losses[1],
-            numerical_loss=float(held[0] - held[1]) - sum(losses),
+            damping_loss=gain("damping_loss"),
+            numerical_loss=gain("numerical_loss"),
             phases=tuple(self.phases(first, last)),
         )
 

@@ -17,7 +17,7 @@ _DIMENSIONS = {
 }  # fmt: skip
 _ENERGIES = {
     "energy", "initial", "kinetic", "gravity", "ring_strain", "contact_spring", "friction_loss", "damping_loss",
-    "hand_over", "numerical_loss", "ring_energy_peak", "contact_energy_peak",
+    "landing_loss", "hand_over", "numerical_loss", "residual", "ring_energy_peak", "contact_energy_peak",
 }  # fmt: skip
 
 

@@ -142,7 +142,7 @@ def solve_stage(
 def filtered_error(
     body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any
 ) -> Any:
-    """The error of the velocities as the step itself would pass it on: (M + beta C + beta^2 K)^-1 M times it.
+    """An error of velocities or positions as the step itself passes it on: (M + beta C + beta^2 K)^-1 M times it.
 
     What the step does not resolve, and damps, would otherwise hold the steps down to the vibrations' periods.
     """

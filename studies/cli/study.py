@@ -65,7 +65,7 @@ def study() -> None:
     "--damping",
     type=float,
     metavar="D",
-    help="Damping ratio of the patch's approach; by default the scene's own, or 1 where that is 0.",
+    help="Damping ratio of the patch under the hoop's own weight; by default the scene's own, 0 included.",
 )
 @click.option("--all-pulses", is_flag=True, help="All pulses of the scene's run, not the first alone.")
 @click.option(

@@ -6,7 +6,7 @@ import os
 import shutil
 import sys
 from math import degrees
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from rich.console import Console
 
@@ -26,8 +26,11 @@ from ..stiffness.summary import (
     shortened,
     verdict,
 )
+from .account import HEADING, account, remarks
 
 if TYPE_CHECKING:
+    from flexible import FlexibleMotion
+
     from ..stiffness.study import StiffnessStudy
     from ..sweep import Table as SweepTable
 
@@ -88,11 +91,11 @@ def motion_tables(motion: Motion) -> list[Any]:
             shown.append(f"Phases of {heading}: {shortened(phase_sequence(motion, pulse)) or '-'}")
     if any(pulse.cut for pulse in motion.pulses):
         shown.append("cut: the run begins or ends inside this pulse; the measures are those of the part that was run.")
-    books = motion.to_dict().get("energy_ledger")
-    if books:
-        names = [name.replace("_", " ") for name in books]
-        terms = Column("where the energy went", names, words=True)
-        shown.append(Sheet("Energy ledger", [terms], [Column(energy, [number(value) for value in books.values()])]))
+    if hasattr(motion, "ledger"):
+        flexible = cast("FlexibleMotion", motion)
+        entries = account(flexible)
+        terms = Column("where the energy went", [name for name, _ in entries], words=True)
+        shown += [Sheet(HEADING, [terms], [Column(energy, [value for _, value in entries])]), *remarks(flexible)]
     shown.append(f"Ended: {motion.ended}")
     return shown
 

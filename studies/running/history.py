@@ -54,9 +54,6 @@ def through(motion: Motion, pulse: Pulse) -> Columns:
     for force, impulse in (("normal_force", "normal_impulse"), ("friction_force", "friction_impulse")):
         if impulse not in columns:
             columns[impulse] = gathered(columns["t"], columns[force])
-    booked = [columns[name] for name in ENERGIES[1:] if name in columns]
-    if "kinetic" in columns and "numerical_loss" not in columns and columns["t"].size:
-        columns["numerical_loss"] = sum(values[0] for values in booked) - np.sum(booked, axis=0)
     return columns
 
 

@@ -159,7 +159,10 @@ def damping_sentence(study: StiffnessStudy) -> str:
     """How the contact was damped, and what an undamped one does."""
     damping = study.scene.contact.damping
     if damping > 0:
-        return f"The approach of the patch is damped at {damping:g} of critical."
+        return (
+            f"The patch is damped, at {damping:g} of critical for the hoop that stands on it under its own weight; "
+            "under a larger load the ratio is larger, like N^(1/6)."
+        )
     return (
         "The contact is undamped: where slip ends or begins the normal force jumps, and the patch then rings "
         "with an amplitude that no stiffness makes smaller, so the limit need not be the rigid hoop."

@@ -43,20 +43,19 @@ def _history(motion: FlexibleMotion) -> Margins:
 
 
 def _ledger(motion: FlexibleMotion) -> Margins:
-    """Energy is where the ledger says, nothing is gained and no loss is negative."""
+    """The integrals of the ledger explain where the energy went, and no loss is negative."""
     books = motion.ledger
     values = dataclasses.asdict(books)
     if not all(map(isfinite, values.values())):
         return {"finite": NO}
     scale = max(1.0, abs(books.initial), books.kinetic)
-    held = books.kinetic + books.gravity + books.ring_strain + books.contact_spring
-    lost = books.friction_loss + books.damping_loss + books.numerical_loss
     allowed = _allowed(motion.scene) * scale
     return {
-        "ledger closed": abs(held + lost - books.initial - books.hand_over) / scale / 1e-9,
+        "residual": abs(books.residual) / allowed,
         "numerical loss": abs(books.numerical_loss) / allowed,
         # the bristles of a sliding patch hold mu p before they slip as far; friction gives it to them in advance
-        "losses >= 0": -min(books.friction_loss + books.contact_spring, books.damping_loss, 0.0) / allowed,
+        "losses >= 0": -min(books.friction_loss + books.contact_spring, books.landing_loss, books.damping_loss, 0.0)
+        / allowed,
     }
 
 

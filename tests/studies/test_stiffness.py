@@ -175,6 +175,15 @@ def test_a_scene_without_a_pulse_is_one_sentence():
         stiffness_study(calm.replace(run={"t_end": 0.01}), solver=THIRD, all_pulses=True)
 
 
+@pytest.mark.parametrize("damping", [0.0, 0.3])
+def test_the_damping_of_the_scene_is_its_own(damping):
+    """Also where it is 0; only one that is given to the study replaces it."""
+    scene = load_scene("paper-3.3-massless").replace(contact={"damping": damping})
+    ladder = Ladder("contact", 1e8, 1e10, 3)
+    assert stiffness_study(scene, ladder, solver=THIRD).scene.contact.damping == damping
+    assert stiffness_study(scene, ladder, solver=THIRD, damping=0.7).scene.contact.damping == 0.7
+
+
 def test_bad_ladders():
     for low, high, count in ((1.0, 1.0, 5), (-1.0, 1.0, 5), (1.0, float("inf"), 5), (1.0, 2.0, 1)):
         with pytest.raises(SceneError):
