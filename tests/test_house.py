@@ -96,13 +96,6 @@ def test_a_room_has_at_most_nine_modules() -> None:
     assert not {room: modules for room, modules in rooms.items() if len(modules) > MOST}
 
 
-def test_every_room_is_installed() -> None:
-    import tomllib
-
-    listed = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]["packages"]
-    assert set(listed) == {name for name, path in SOURCES.items() if path.name == "__init__.py"}
-
-
 def test_a_friction_law_is_known_by_its_own_file_alone() -> None:
     """The rest of the program asks :class:`flexible.contact.laws.law.Law`, and gets laws from where they are listed."""
     laws = "flexible.contact.laws"

@@ -22,7 +22,8 @@ from math import cos, sin
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 from .assembly import X, Y, add_outer, add_spread, directions, gathered, slip_by_gaps, spread, tangents
 from .laws.listing import tractions
@@ -33,7 +34,7 @@ from .points.normal import force_by_gaps, press
 from .points.rim import lift
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _load(foundation: Any, damper: Damper) -> Load:
     """The normal force as a whole, and what the damper makes of it."""
     elastic = foundation.force.sum()
@@ -46,16 +47,16 @@ def _load(foundation: Any, damper: Damper) -> Load:
     return Load(elastic, eta, eta_rate)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _nothing(nodes: int, outside: bool) -> Contact:
     """Off the floor."""
     size = 3 + 2 * nodes
-    zero = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    zero = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf)
     none = Bristles(np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0, np.int8))
     return Contact(np.zeros(3), np.zeros((nodes, 2)), np.zeros((size, size)), zero, none, outside)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _add_shared(points: Any, foundation: Any, forces: Any, shared: Any, elastic: float) -> None:
     """Share a force of the whole patch over its points like the pressure."""
     total = points.gap.shape[0]
@@ -66,7 +67,7 @@ def _add_shared(points: Any, foundation: Any, forces: Any, shared: Any, elastic:
         force_by_gaps(forces.by_gap[i, 1:4], shared.force / elastic, foundation, before, i, behind)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _add_turning(tangent: Any, force: Any, points: Any, pressed: Any, pulled: Any) -> None:
     """The directions themselves turn with phi: add that to the tangent, for vertical and horizontal point forces."""
     turning = 0.0
@@ -82,7 +83,7 @@ def _add_turning(tangent: Any, force: Any, points: Any, pressed: Any, pulled: An
         tangent[row + 1, 2] -= force[row]
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _ends(points: Any) -> tuple[float, float]:
     """Angles psi of the first and the last point that touch, 0 if none does."""
     low, high, active = 0.0, 0.0, 0
@@ -95,7 +96,7 @@ def _ends(points: Any) -> tuple[float, float]:
     return low, high
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _stored(points: Any, carried: Any, pull: Any, keeps: Any) -> Bristles:
     """What of the points outlasts the step."""
     size = keeps.sum()
@@ -110,7 +111,7 @@ def _stored(points: Any, carried: Any, pull: Any, keeps: Any) -> Bristles:
     return Bristles(number, stretch, held, sliding)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def contact_forces(
     pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper
 ) -> Contact:  # fmt: skip
@@ -184,7 +185,7 @@ def contact_forces(
     beyond = ((carried.pull + pull) * (carried.way - carried.mean)).sum() / 2
     res = Resultants(
         force[1], force[0], foundation.energy, answer.energy, foundation.length, stuck, way, low, high, elastic, eta,
-        shared.damping, beyond, -shared.by_way,
+        shared.damping, beyond, -shared.by_way, shared.reach,
     )  # fmt: skip
     bristles = _stored(points, carried, pull, answer.keeps)
     return Contact(force[:3].copy(), force[3:].copy().reshape(nodes, 2), tangent, res, bristles, outside)

@@ -6,7 +6,7 @@ borders are exact in every iteration, so that the ring's may lag behind.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, sin
 
 import numpy as np
@@ -166,12 +166,19 @@ class FullHoop(RimContact):
         before = Before(old.pos[:3], self.displacement(old, window), old.bristles)
         d = guess.copy()
         last, lags = np.inf, True
+        update, damping, way, reach = np.zeros_like(d), 1.0, 0.0, np.inf
         ok = False
         for iteration in range(25):
             pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
             u = pos[3:][dofs].reshape(-1, 2)
             contact = contact_forces(pos[:3], u, rim, law, mode, before, damper)
             res = contact.res
+            if res.elastic > 0 and abs(res.way - way) > 1.5 * reach:  # see flexible.models.stage
+                share = reach / abs(res.way - way)
+                d += damping * (1 - share) * update
+                damping *= share
+                continue
+            way, reach = res.way, res.reach
             own = inertia(self.ring, pos, vel, acc, beta)
             frame, ring = own.frame - contact.force, own.ring.copy()
             ring[dofs] -= contact.nodal.ravel()
@@ -191,11 +198,10 @@ class FullHoop(RimContact):
             if worst <= small and iteration > 0:
                 ok = True
                 break
-            step_frame, step_ring = matrix.solve(frame, ring)
+            update = np.concatenate(matrix.solve(frame, ring))
             damping = 0.5 if iteration > 3 and worst > last else 1.0
             last = worst
-            d[:3] -= damping * step_frame
-            d[3:] -= damping * step_ring
+            d -= damping * update
         outside = contact.outside
         if self.ring.massless:
             acc[3:] = 0.0
@@ -234,5 +240,20 @@ class FullHoop(RimContact):
         without = inertia(ring, state.pos, still, still, beta)
         load = (with_error.frame - without.frame) / beta**2, (with_error.ring - without.ring) / beta**2
         frame, u = matrix.solve(*load)
-        slow = np.abs(self._slow @ u).max(initial=0.0)
+        slow = np.abs(self._slow @ u).max(initial=0.0) / (1 + ring.body.ring_mass) ** 0.5
         return float(max(abs(frame[0] + frame[2]), abs(frame[1]), abs(frame[2]), slow))
+
+    def energy_error(self, state: State, beta: float, matrix: NewtonMatrix, error: Array, moved: Array) -> float:
+        """See :class:`flexible.models.state.Model`."""
+        ring, still = self.ring, np.zeros_like(state.vel)
+        without = inertia(ring, state.pos, still, still, beta)
+        passed = []
+        for change in (error, moved):
+            with_change = inertia(ring, state.pos, still, change, beta)
+            load = (with_change.frame - without.frame) / beta**2, (with_change.ring - without.ring) / beta**2
+            passed.append(np.concatenate(matrix.solve(*load)) / 2)
+        rate, way = passed
+        after, before = (replace(state, pos=state.pos + s * way, vel=state.vel + s * rate) for s in (1, -1))
+        own = inertia(ring, state.pos, state.vel, state.acc, beta)
+        forces = own.frame @ way[:3] + own.ring @ way[3:]
+        return float(sum(self.energies(after)) - sum(self.energies(before)) - 2 * forces)

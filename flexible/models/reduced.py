@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from ..contact.points.data import Before, Damper, Rim
-from ..ring.frame import energies
+from ..ring.frame import energies, inertia
 from ..ring.reduction import ReducedRing, reduce
 from .equilibrium import RestingModes
 from .rim_contact import POINTS, RimContact
@@ -99,5 +99,14 @@ class ReducedHoop(RimContact):
     def momentum_error(self, state: State, beta: float, matrix: Array, error: Array) -> float:
         """See :class:`flexible.models.state.Model`."""
         error = filtered_error(self.ring.frame, state.pos, state.vel, state.acc, beta, matrix, error)
-        horizontal = abs(error[0] + error[2])
-        return float(max(horizontal, abs(error[1]), abs(error[2]), np.abs(error[3:]).max(initial=0.0)))
+        ringing = np.abs(error[3:]).max(initial=0.0) / (1 + self.ring.frame.body.ring_mass) ** 0.5
+        return float(max(abs(error[0] + error[2]), abs(error[1]), abs(error[2]), ringing))
+
+    def energy_error(self, state: State, beta: float, matrix: Array, error: Array, moved: Array) -> float:
+        """See :class:`flexible.models.state.Model`."""
+        frame, pos, vel, acc = self.ring.frame, state.pos, state.vel, state.acc
+        error, moved = (filtered_error(frame, pos, vel, acc, beta, matrix, x) for x in (error, moved))
+        with_error = energies(frame, pos + moved / 2, vel + error / 2)
+        without = energies(frame, pos - moved / 2, vel - error / 2)
+        forces = inertia(frame, pos, vel, acc, beta)[0]
+        return float(sum(with_error) - sum(without) - forces @ moved)

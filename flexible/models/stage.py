@@ -11,7 +11,8 @@ from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 from ..contact.forces import contact_forces
 from ..contact.points.data import Before, Contact, Damper, Parameters, Rim
@@ -52,7 +53,7 @@ class Solved(NamedTuple):
     contact: Contact
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _round_off(contact: Contact, height: float, u: Any, scale: float, damper: Damper) -> float:
     """Size of the rounding errors in the contact's forces: of the gap's, of the damping factor's, of the slip's."""
     res = contact.res
@@ -61,7 +62,26 @@ def _round_off(contact: Contact, height: float, u: Any, scale: float, damper: Da
     return floor  # type: ignore[no-any-return]
 
 
-@njit(cache=True, error_model="numpy")
+@jit
+def _assemble(matrix: Any, own: Any, contact: Any, window: Window, scale: float) -> None:
+    """Newton's matrix for frame, modes and window, out of the tangents of inertia and contact."""
+    m = own.shape[0]
+    t_uu, t_ux = contact[3:, 3:].copy(), contact[3:, :3].copy()
+    matrix[:m, :m] = own
+    matrix[:3, :3] -= contact[:3, :3]
+    matrix[:3, m:] = -contact[:3, 3:]
+    if m > 3:
+        columns = window.shapes.T.copy()
+        matrix[3:m, :3] -= columns @ t_ux
+        matrix[3:m, m:] = -(columns @ t_uu)
+        matrix[m:, 3:m] = -scale * window.shapes
+    matrix[m:, :3] = -scale * (window.compliance @ t_ux)
+    matrix[m:, m:] = -scale * (window.compliance @ t_uu)
+    for k in range(m, matrix.shape[0]):
+        matrix[k, k] += scale
+
+
+@jit
 def solve_stage(
     frame: Frame, window: Window, law: Parameters, mode: int, before: Before, damper: Damper, predictor: Predictor,
     start: Any,
@@ -82,8 +102,10 @@ def solve_stage(
     d, u = predictor.guess.copy(), u_guess.copy()
     matrix = np.empty((size, size))
     residual = np.empty(size)
+    update = np.zeros(size)
     iterations = -1
-    last = np.inf
+    damping, last = 1.0, np.inf
+    way, reach = 0.0, np.inf
     softest = np.abs(compliance).max()
     for iteration in range(25):
         pos = pos_pred + d
@@ -91,10 +113,18 @@ def solve_stage(
         vel = vel_pred + d / beta
         contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper)
         force, tangent, res = contact.force, contact.tangent, contact.res
+        if (
+            res.elastic > 0 and abs(res.way - way) > 1.5 * reach
+        ):  # across the bend of a smoothed friction Newton would go to and fro
+            share = reach / abs(res.way - way)
+            back = damping * (1 - share)
+            damping *= share
+            d += back * update[:m]
+            u += back * update[m:].reshape(nodes, 2)
+            continue
+        way, reach = res.way, res.reach
         own, own_tangent = inertia(frame, pos, vel, acc, beta)
         flat = contact.nodal.copy().reshape(2 * nodes)
-        t_uu = tangent[3:, 3:].copy()
-        t_ux = tangent[3:, :3].copy()
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
         moved = compliance @ flat
         worst, astray = 0.0, 0.0  # of forces, and of displacements as forces on the foundation
@@ -121,18 +151,7 @@ def solve_stage(
         worst = max(worst, astray)
         if not np.isfinite(worst):
             break
-        matrix[:m, :m] = own_tangent
-        matrix[:3, :3] -= tangent[:3, :3]
-        matrix[:3, m:] = -tangent[:3, 3:]
-        if n > 0:
-            columns = shapes.T.copy()
-            matrix[3:m, :3] -= columns @ t_ux
-            matrix[3:m, m:] = -(columns @ t_uu)
-            matrix[m:, 3:m] = -scale * shapes
-        matrix[m:, :3] = -scale * (compliance @ t_ux)
-        matrix[m:, m:] = -scale * (compliance @ t_uu)
-        for k in range(2 * nodes):
-            matrix[m + k, m + k] += scale
+        _assemble(matrix, own_tangent, tangent, window, scale)
         update = np.linalg.solve(matrix, residual)
         damping = 1.0
         if iteration > 3 and worst > last:
@@ -147,9 +166,9 @@ def solve_stage(
     return Solved(iterations, d, d / beta**2, u, matrix, contact)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def filtered_error(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any) -> Any:
-    """The error of the velocities as the step itself would pass it on: (M + beta C + beta^2 K)^-1 M times it.
+    """An error of velocities or positions as the step itself passes it on: (M + beta C + beta^2 K)^-1 M times it.
 
     What the step does not resolve, and damps, would otherwise hold the steps down to the vibrations' periods.
     """

@@ -16,7 +16,8 @@ from math import cos, sin
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 
 class Body(NamedTuple):
@@ -36,7 +37,7 @@ class Frame(NamedTuple):
     gyro: Any  # (n, n) Phi_i^T M J Phi_j, antisymmetric
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def inertia(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     """Inertial, gravitational and elastic forces, and their tangent.
 
@@ -162,7 +163,7 @@ def inertia(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     return force, tangent
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def energies(frame: Frame, pos: Any, vel: Any) -> tuple[float, float, float]:
     """Kinetic energy, gravity (0 with the hoop's centre at the floor) and strain energy of the modes."""
     body, modal, gyro = frame.body, frame.modal, frame.gyro

@@ -84,6 +84,7 @@ def march(
         stored = trial.state.res.bristle_energy - state.res.bristle_energy
         books.friction_loss -= trial.friction_work + stored
         books.damping_loss += trial.damped
+        books.numerical_loss += trial.numerical
         books.off_floor += trial.off_floor
         state = _free(model, trial.state)
         note(state)

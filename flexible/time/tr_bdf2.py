@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
@@ -15,6 +16,7 @@ from ..models.state import Model, State
 Array = NDArray[np.float64]
 
 _QUADRATURE = (2**0.5 / 4, 2**0.5 / 4, BETA)  # of TR-BDF2 over a step
+_BENT = 1 / (6 * TAU * (1 - TAU))  # integral of one node's parabola times the slope of the next
 
 
 class MarchError(RuntimeError):
@@ -23,11 +25,14 @@ class MarchError(RuntimeError):
 
 @dataclass(slots=True)
 class Trial:
+    """A step, and its integrals."""
+
     state: State
-    error: float
-    impulses: tuple[float, float]
+    error: float  # of the velocities
+    impulses: tuple[float, float]  # normal, friction
     friction_work: float
     damped: float
+    numerical: float  # energy lost to the integrator's error, as estimated
     off_floor: float
 
 
@@ -70,11 +75,9 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
     forces = (old.res, res_mid, res)
     normal_impulse = h * sum(w * r.normal for w, r in zip(_QUADRATURE, forces, strict=True))
     friction_impulse = h * sum(w * r.friction for w, r in zip(_QUADRATURE, forces, strict=True))
-    work, damped = res.beyond, 0.0
-    for a, b, moved in ((old.res, res_mid, slip_mid), (res_mid, res, slip - slip_mid)):
-        work += (a.friction - a.damping + b.friction - b.damping) / 2 * moved
-        damped -= (a.damping + b.damping) / 2 * moved
-        damped += (_eta(a, b) - 1) * (b.normal_energy - a.normal_energy)
+    ways = (0.0, float(slip_mid), float(slip))
+    work = res.beyond + _work([r.friction - r.damping for r in forces], ways)
+    damped = _damped(forces) - _work([r.damping for r in forces], ways)
     off = h * sum(w for w, r in zip(_QUADRATURE, forces, strict=True) if r.normal == 0)
     x_C = old.x_C + pos[0] + (pos[2] - pos0[2])
     pos = pos.copy()
@@ -85,13 +88,30 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
         float((slip + bend) / h), elastic_rate,
     )  # fmt: skip
     size = model.momentum_error(state, beta, second.matrix, error)
-    return Trial(state, size, (normal_impulse, friction_impulse), float(work), float(damped), off)
+    moved = h * (ERROR_WEIGHTS[0] * vel0 + ERROR_WEIGHTS[1] * vel_mid + ERROR_WEIGHTS[2] * vel)
+    gained = model.energy_error(state, beta, second.matrix, error, moved)
+    return Trial(state, size, (normal_impulse, friction_impulse), work, damped, -gained, off)
 
 
-def _eta(first: Resultants, second: Resultants) -> float:
-    """Mean damping factor between two instants, of those in contact."""
-    factors = [res.eta for res in (first, second) if res.elastic > 0]
-    return sum(factors) / len(factors) if factors else 1.0
+def _work(force: Sequence[float], way: Sequence[float]) -> float:
+    """Work of a force along a way, both the parabolas in time through the three instants of a step; the way from 0.
+
+    Of third order, and exact for a spring however long the step: a force linear in the way does the work of its ends.
+    """
+    bent = _BENT * ((force[0] - force[2]) * way[1] + (force[1] - force[0]) * way[2])
+    return float(bent + (force[0] + force[2]) / 2 * way[2])
+
+
+def _damped(results: Sequence[Resultants]) -> float:
+    """What the normal damper takes, the integral of (eta - 1) over the springs' energy."""
+    stored = [r.normal_energy - results[0].normal_energy for r in results]
+    if all(r.elastic > 0 for r in results):
+        return _work([r.eta - 1 for r in results], stored)
+    damped = 0.0
+    for i in (1, 2):  # off the floor there is no factor
+        factors = [r.eta - 1 for r in results[i - 1 : i + 1] if r.elastic > 0]
+        damped += sum(factors) / max(len(factors), 1) * (stored[i] - stored[i - 1])
+    return float(damped)
 
 
 def restart(model: Model, state: State, mode: int) -> State:

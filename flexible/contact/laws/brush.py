@@ -15,10 +15,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from rigid import Friction
+from rigid.kernel.compile import jit
 
 from ..points.bristles import add_pull, cling, point_forces, rolled_in, weights
 from ..points.data import Bristles, Resultants, Shared, Tractions
@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 CODE = 1
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
     """See :class:`flexible.contact.laws.law.Law`."""
     total = points.gap.shape[0]
@@ -55,7 +55,7 @@ def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, 
             stuck += weight[i]
         add_pull(forces, i, traction, weight, weight_by)
         energy += weight[i] * traction**2 / (2 * law.eps_t)
-    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0), energy, stuck, points.gap < 0)
+    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, stuck, points.gap < 0)
 
 
 def effective_mu_s(mu_s: float, mu: float) -> float:

@@ -9,10 +9,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from rigid import Friction, Kind
+from rigid.kernel.compile import jit
 
 from ..points.bristles import add_pull, cling, point_forces, rolled_in, weights
 from ..points.data import Bristles, Parameters, Resultants, Shared, Tractions
@@ -25,7 +25,7 @@ CODE = 0
 STICK, SLIDE_RIGHT, SLIDE_LEFT = 0, 1, -1  # SLIDE_RIGHT: friction pushes the hoop to the right (spinning)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _stick(points: Any, carried: Any, load: Any, slip: Any, law: Any) -> Any:
     """Bristles without a limit, and the damper's drag."""
     total = points.gap.shape[0]
@@ -47,11 +47,11 @@ def _stick(points: Any, carried: Any, load: Any, slip: Any, law: Any) -> Any:
             keeps[i] = before or behind
     dragging = load.elastic > 0 and slip.drag > 0
     drag = -slip.drag * (slip.way - slip.way_0) if dragging else 0.0
-    shared = Shared(dragging, drag, -slip.drag if dragging else 0.0, 0.0, drag)
+    shared = Shared(dragging, drag, -slip.drag if dragging else 0.0, 0.0, drag, np.inf)
     return Tractions(forces, shared, energy, stuck, keeps)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _slide(points: Any, foundation: Any, carried: Any, mode: int, load: Any, law: Any) -> Any:
     """mu N, shared like the foundation's forces; bristles that take it over will pull as much in all."""
     total = points.gap.shape[0]
@@ -70,10 +70,10 @@ def _slide(points: Any, foundation: Any, carried: Any, mode: int, load: Any, law
         pressure = -law.eps_n * min(points.gap[i], 0.0)
         carried.stretch[i] = -min(load.eta, 1.0) * even * mode * law.mu * pressure / law.eps_t
         energy += weight[i] * law.eps_t * carried.stretch[i] ** 2 / 2
-    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0), energy, 0.0, points.gap < 0)
+    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0, points.gap < 0)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
     """See :class:`flexible.contact.laws.law.Law`."""
     if mode == STICK:

@@ -8,12 +8,11 @@ so its limit for v_s -> 0 is the rigid hoop with mu_s = mu, and not the paper's 
 
 from __future__ import annotations
 
-from math import sqrt
+from math import inf, sqrt
 from typing import Any
 
-from numba import njit
-
 from rigid import Friction
+from rigid.kernel.compile import jit
 
 from ..points.bristles import point_forces
 from ..points.data import Bristles, Resultants, Shared, Tractions
@@ -23,7 +22,7 @@ CODE = 2
 _MOST = 0.999  # of mu N that a creep is sought for: the rest is sliding
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
     """See :class:`flexible.contact.laws.law.Law`."""
     carried.stretch[:] = 0.0
@@ -36,6 +35,7 @@ def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, 
         by_velocity * slip.rate * load.eta * load.elastic,
         coefficient * (load.eta + load.eta_rate * load.elastic),
         0.0,
+        speed / slip.rate if slip.rate > 0 else inf,
     )
     stuck = foundation.length if abs(slip.velocity) < law.slip_scale else 0.0
     return Tractions(point_forces(points.gap.shape[0]), shared, 0.0, stuck, points.gap < 0)

@@ -10,7 +10,8 @@ from math import cos, pi, sin, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 from .data import Bristles, Parameters, PointForces, Resultants, Slip
 from .rim import lift
@@ -30,7 +31,7 @@ class Carried(NamedTuple):
     pull: Any  # tangential force on the point when the step began
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, float]:
     """Fraction of the step at which a point touched, and its derivatives by the new gap and by ``sweep``.
 
@@ -49,7 +50,7 @@ def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, floa
     return fraction, fraction / root, -fraction * (1 - fraction) / 2 / root
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def carry(points: Any, bristles: Any, dphi: float, ratio: float, slip: Slip, moved: float) -> Any:
     """Bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered since.
 
@@ -98,7 +99,7 @@ def carry(points: Any, bristles: Any, dphi: float, ratio: float, slip: Slip, mov
     return Carried(stretch, rate, by_gap, by_phi, touched, sliding, way, mean, pull)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def edge_of_patch(g_in: float, g_out: float, inner: float) -> tuple[float, float, float, float]:
     """How far from a point on the floor to the next the patch reaches, 0..1, and its derivatives by the three gaps.
 
@@ -112,7 +113,7 @@ def edge_of_patch(g_in: float, g_out: float, inner: float) -> tuple[float, float
     return f, -(1 - f) * (1 + f) / slope, -f * (1 + f) / 2 / slope, f * (1 - f) / 2 / slope
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def weights(points: Any, carried: Any, spacing: float, curved: bool) -> tuple[Any, Any]:
     """Length of patch that belongs to each point, and its derivatives by the gaps of (n, 5) points around it.
 
@@ -154,13 +155,13 @@ def weights(points: Any, carried: Any, spacing: float, curved: bool) -> tuple[An
     return weight, by
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def point_forces(total: int) -> PointForces:
     """Room for the forces of so many points."""
     return PointForces(np.zeros(total), np.zeros(total), np.zeros(total), np.zeros(total), np.zeros((total, 5)))
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def cling(forces: Any, carried: Any, i: int, weight: float, eps_t: float) -> float:
     """Traction of a point that sticks; what it answers to its abscissa, gap and phi is written down."""
     forces.by_abscissa[i] = -eps_t * weight * carried.rate[i]
@@ -169,7 +170,7 @@ def cling(forces: Any, carried: Any, i: int, weight: float, eps_t: float) -> flo
     return -eps_t * carried.stretch[i]  # type: ignore[no-any-return]
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def add_pull(forces: Any, i: int, traction: float, weight: Any, weight_by: Any) -> None:
     """Add a point's traction on the length of patch that belongs to it."""
     forces.force[i] = weight[i] * traction

@@ -5,6 +5,7 @@ Numba takes named tuples as arguments and results; fields typed ``Any`` are arra
 
 from __future__ import annotations
 
+from math import inf
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -103,6 +104,7 @@ class Shared(NamedTuple):
     by_way: float
     by_elastic: float  # by N_el
     damping: float  # the part of it that is a damper's and no friction
+    reach: float  # way over which it is about linear
 
 
 class Tractions(NamedTuple):
@@ -132,6 +134,7 @@ class Resultants(NamedTuple):
     damping: float  # part of the friction that is the damper's
     beyond: float  # work of the bristles beyond their mean force times the mean way
     steepness: float  # -dF/dx of a force shared by the patch as a whole, x its way
+    reach: float  # in x over which that is about linear
 
 
 class Contact(NamedTuple):
@@ -145,7 +148,7 @@ class Contact(NamedTuple):
     outside: bool  # whether the window of rim is too short for the patch
 
 
-NOTHING = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+NOTHING = Resultants(*(14 * [0.0]), reach=inf)
 
 
 def no_bristles() -> Bristles:

@@ -10,13 +10,14 @@ from math import ceil, cos, floor, pi, sin, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 from .data import Before, Rim
 from .rim import element_at, gap_at, lift, shape_functions, sideways, upward, vertex_angle
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _touching(height: float, psi_start: float, width: float, y0: float, y1: float, y2: float) -> tuple[float, float]:
     """Part [low, high] of an element, in 0..1, where the gap is negative; low > high when there is none."""
     c1, c2 = -3 * y0 + 4 * y1 - y2, 2 * y0 - 4 * y1 + 2 * y2
@@ -53,7 +54,7 @@ def _touching(height: float, psi_start: float, width: float, y0: float, y1: floa
     return edges[0], edges[1]
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _candidates(height: float, phi: float, y: Any, rim: Rim, spacing: float) -> Any:
     """Ranges of points that touch or border on a touching one, merged; rows (first, last)."""
     first, vertex, count = rim.first, rim.vertex, (y.shape[0] - 1) // 2
@@ -106,7 +107,7 @@ class Points(NamedTuple):
     psi: Any  # angle from the bottom
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def gather(pose: Any, u: Any, rim: Rim, spacing: float, before: Before) -> tuple[Any, bool]:
     """The points that touch and those that border on them, for a window of rim elements.
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 
 class Foundation(NamedTuple):
@@ -22,7 +23,7 @@ class Foundation(NamedTuple):
     length: float  # of the patch
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _cell(ga: float, gb: float, unit: float, out: Any) -> None:
     """Energy of one cell with gap from ``ga`` to ``gb``, its gradient and second derivatives.
 
@@ -50,7 +51,7 @@ def _cell(ga: float, gb: float, unit: float, out: Any) -> None:
         out[:] = 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def press(gap: Any, last: Any, eps_n: float, spacing: float) -> Any:
     """Normal forces of points with these gaps; ``last`` marks points whose next one is no neighbour."""
     total = gap.shape[0]
@@ -75,7 +76,7 @@ def press(gap: Any, last: Any, eps_n: float, spacing: float) -> Any:
     return Foundation(force, diagonal, coupling, energy, length)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def force_by_gaps(row: Any, factor: float, foundation: Any, before: int, here: int, behind: int) -> None:
     """Add ``factor`` times the derivatives of a point's normal force by the gaps before it, its own and behind it."""
     row[1] -= factor * foundation.diagonal[here]

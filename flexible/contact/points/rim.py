@@ -9,8 +9,9 @@ from math import floor, pi
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numba.extending import register_jitable
+
+from rigid.kernel.compile import jit
 
 
 @register_jitable  # type: ignore[untyped-decorator]
@@ -51,7 +52,7 @@ def vertex_angle(vertex: Any, element: Any) -> Any:
     return vertex[element - turn * n] + 2 * pi * turn
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def element_at(vertex: Any, theta: float) -> int:
     """Rim element that holds the material angle ``theta``."""
     n = vertex.shape[0]
