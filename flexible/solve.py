@@ -3,7 +3,11 @@
 ``resolve = "pulses"`` runs the rigid closed form between pulses and the flexible hoop only inside them: each
 flexible stretch begins a little before the rigid hoop's pulse, in quasi-static equilibrium, and ends with it. The
 rigid hoop is always the one that the contact law tends to (:mod:`flexible.limit`).
-``resolve = "all"`` is flexible from the release on.
+``resolve = "all"`` is flexible from the release on, swing by swing.
+
+A run to rest ends where the rigid hoop, released from the flexible one's state, would slip no more: it rolls for ever
+with |F| < mu_s N, or the floor is smooth; or a hundred slips more would take less than a ten-thousandth of its energy.
+The rigid solver asks the same of itself.
 """
 
 from __future__ import annotations
@@ -11,10 +15,13 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 from dataclasses import replace
-from math import inf
+from math import ceil, floor, inf, pi
+
+import numpy as np
 
 import rigid
-from rigid import Kind, Release, Run, Scene
+from rigid import Kind, Motion, Release, Run, Scene
+from rigid.phases.choice import LEAST_LOSS, SLIPS
 
 from .builder import Builder
 from .contact.forces import STICK
@@ -24,6 +31,7 @@ from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
 from .motion import FlexibleMotion
+from .time.events import Ends
 from .time.tr_bdf2 import MarchError
 from .units import dimensionless
 
@@ -88,8 +96,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
     while True:
         motion = rigid.simulate(rigid_limit(current))
         pulse = next((p for p in motion.pulses if p.t_start > 0 or not builder.pulses), None)
-        # a run to rest is over when the rigid hoop would slip no more; what it rolls through is no pulse with a loss
-        at_rest = scene.run.until == "rest" and all(phase.kind == Kind.ROLL for phase in motion.phases)
+        at_rest = scene.run.until == "rest" and _slips_no_more(motion)  # what it rolls through is no pulse with a loss
         if pulse is None or at_rest:
             builder.add_rigid(motion, motion.t_end)
             builder.completed = motion.completed
@@ -105,15 +112,12 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         builder.add_rigid(motion, start)
         state = replace(state, t=builder.t, x_C=builder.x_C)
         sign = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
-        limit = builder.t + 4 * (pulse.t_end - start)
-
-        def finished(s: State, sign: float = sign, end: float = pulse.phi_end, limit: float = limit) -> float:
-            return max(sign * (s.pos[2] - end), s.t - limit)
-
+        ends = Ends(t=builder.t + 4 * (pulse.t_end - start))
+        ends = ends._replace(high=pulse.phi_end) if sign > 0 else ends._replace(low=pulse.phi_end)
         span = (float(state.pos[2]), pulse.phi_end)
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, _swept(span))
-        state, records, attempts, trouble = builder.march(hoop, state, finished, scene.solve.rtol, progress=watch)
+        state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, progress=watch)
         stretch = builder.add_flexible(records, attempts)
         if not trouble and sign * (float(state.pos[2]) - pulse.phi_end) < 0:
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get through the pulse"
@@ -128,9 +132,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         rest = _rest_of(scene.run, builder)
         if rest is None:
             return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
-        slip = 0.0 if state.mode == STICK else state.slip_velocity
-        release = Release(float(state.pos[2]), float(state.vel[2]), float(slip))
-        current = dataclasses.replace(scene, release=release, run=rest)
+        current = _from_here(scene, state, rest)
 
 
 def _too_soft(scene: Scene) -> str:
@@ -160,49 +162,67 @@ def _rest_of(run: Run, builder: Builder) -> Run | None:
     return run
 
 
+def _from_here(scene: Scene, state: State, run: Run) -> Scene:
+    """The scene whose rigid hoop takes over from a flexible one."""
+    slip = 0.0 if state.mode == STICK else state.slip_velocity
+    release = Release(float(state.pos[2]), float(state.vel[2]), float(slip))
+    return dataclasses.replace(scene, release=release, run=run)
+
+
+def _slips_no_more(motion: Motion) -> bool:
+    """Whether a run to rest is over where this rigid motion begins."""
+    slips = [phase.t_end for phase in motion.phases if phase.kind != Kind.ROLL]
+    if not slips or motion.scene.friction.mu == 0:
+        return True
+    if len(slips) < SLIPS:
+        return False
+    before, after = motion.at(np.array([0.0, slips[int(SLIPS) - 1]])).energy
+    return bool(before - after <= LEAST_LOSS * after)
+
+
 def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _Progress) -> str:
-    """Flexible from the release on; pulses are measured over the rigid hoop's intervals."""
+    """Flexible from the release on, swing by swing; each pulse is measured over the rigid hoop's interval.
+
+    A swing ends where phidot = 0 or the disk passes the top. The rigid hoop that says where its pulse lies, and whether
+    the run is at rest, is released from the flexible one's state at its beginning.
+    """
     reference = rigid.simulate(rigid_limit(scene))
     try:
         state = hand_over(hoop, reference, 0.0, scene.contact.law)
     except MarchError as error:
         builder.completed = False
         return str(error) + _too_soft(scene)
-    windows = [(p.phi_start, p.phi_end) for p in reference.pulses]
-    run = scene.run
-    horizon = run.t_end if run.t_end is not None else reference.t_end
-    counted = {"turns": 0, "omega": float(state.vel[2])}
-
-    def finished(s: State) -> float:
-        if run.t_end is not None:
-            return s.t - run.t_end
-        if run.until == "pulse" and windows:
-            sign = 1.0 if windows[0][1] > windows[0][0] else -1.0
-            return sign * (s.pos[2] - windows[0][1])
-        if run.turns is not None and counted["turns"] >= run.turns:
-            return 0.0
-        return s.t - 4 * horizon - 10
-
-    report = progress.watch(0.0, 1.0, lambda s: s.t / horizon)
-
-    def watch(s: State) -> object:
-        if counted["omega"] * s.vel[2] < 0:
-            counted["turns"] += 1
-        if s.vel[2] != 0:
-            counted["omega"] = float(s.vel[2])
-        return report is not None and report(s)
-
-    state, records, attempts, trouble = builder.march(hoop, state, finished, scene.solve.rtol, progress=watch)
-    stretch = builder.add_flexible(records, attempts)
-    after = -inf
-    for first_angle, last_angle in windows:
-        first = stretch.crossing(first_angle, after)
-        last = None if first is None else stretch.crossing(last_angle, first)
-        if first is None or last is None:
-            break
-        builder.pulses.append(stretch.pulse(first, last))
-        after = last
-    if not trouble and run.turns is not None and counted["turns"] < run.turns == len(reference.turns):
-        trouble = f"stopped at t = {state.t:.6g}: the rigid hoop turned that often in a quarter of this time"
-    builder.completed = reference.completed and not trouble
-    return trouble + _too_soft(scene) if trouble else reference.ended
+    run: Run | None = scene.run
+    horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
+    watch = progress.watch(0.0, 1.0, lambda s: s.t / horizon)
+    while run is not None:
+        here = _from_here(scene, state, Run(until="rest" if run.until == "rest" else "pulse"))
+        swing = rigid.simulate(rigid_limit(here))
+        if run.until == "rest" and builder.pieces and _slips_no_more(swing):
+            return swing.ended
+        phi = float(state.pos[2]) / (2 * pi)
+        limit = builder.t + 4 * swing.t_end + 10
+        ends = Ends(
+            t=limit if scene.run.t_end is None else scene.run.t_end,
+            low=2 * pi * (ceil(phi) - 1), high=2 * pi * (floor(phi) + 1), turns=1,
+        )  # fmt: skip
+        if run.until == "pulse" and swing.pulses:
+            first, last = swing.pulses[0].phi_start, swing.pulses[0].phi_end
+            ends = ends._replace(high=min(ends.high, last)) if last > first else ends._replace(low=max(ends.low, last))
+        state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, progress=watch)
+        stretch = builder.add_flexible(records, attempts)
+        for pulse in swing.pulses:
+            enters = stretch.crossing(pulse.phi_start, stretch.t_start)
+            leaves = None if enters is None else stretch.crossing(pulse.phi_end, enters)
+            if enters is None or leaves is None:
+                break
+            builder.pulses.append(stretch.pulse(enters, leaves))
+        if not trouble and scene.run.t_end is None and state.t >= limit:
+            trouble = f"stopped at t = {state.t:.6g}: the rigid hoop swings that far in a quarter of this time"
+        if trouble:
+            builder.completed = False
+            return trouble + _too_soft(scene)
+        if run.until == "pulse" and builder.pulses:
+            return "the first pulse is over"
+        run = _rest_of(scene.run, builder)
+    return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
