@@ -15,12 +15,12 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 from dataclasses import replace
-from math import ceil, floor, inf, pi
+from math import ceil, floor, inf, nan, pi
 
 import numpy as np
 
 import rigid
-from rigid import Kind, Motion, Release, Run, Scene
+from rigid import Kind, Motion, Pulse, Release, Run, Scene
 from rigid.phases.choice import LEAST_LOSS, SLIPS
 
 from .builder import Builder
@@ -30,7 +30,8 @@ from .limit import rigid_limit
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
-from .motion import FlexibleMotion
+from .motion import FlexibleMotion, FlexiblePulse
+from .segment import Stretch
 from .time.events import Ends
 from .time.tr_bdf2 import MarchError
 from .units import dimensionless
@@ -95,7 +96,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
     done = 0
     while True:
         motion = rigid.simulate(rigid_limit(current))
-        pulse = next((p for p in motion.pulses if p.t_start > 0 or not builder.pulses), None)
+        pulse = next((p for p in motion.pulses if p.t_start > 0 or (not builder.pulses and _over_bottom(p))), None)
         at_rest = scene.run.until == "rest" and _slips_no_more(motion)  # what it rolls through is no pulse with a loss
         if pulse is None or at_rest:
             builder.add_rigid(motion, motion.t_end)
@@ -112,20 +113,24 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         builder.add_rigid(motion, start)
         state = replace(state, t=builder.t, x_C=builder.x_C)
         sign = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
-        ends = Ends(t=builder.t + 4 * (pulse.t_end - start))
-        ends = ends._replace(high=pulse.phi_end) if sign > 0 else ends._replace(low=pulse.phi_end)
+        # a pulse that the end of the run cuts ends at that time, any other at the rigid one's angle
+        cut = pulse.cut and scene.run.t_end is not None and pulse.t_end == motion.t_end
+        ends = Ends(t=builder.t + (1 if cut else 4) * (pulse.t_end - start))
+        if not cut:
+            ends = ends._replace(high=pulse.phi_end) if sign > 0 else ends._replace(low=pulse.phi_end)
         span = (float(state.pos[2]), pulse.phi_end)
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, _swept(span))
         state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, progress=watch)
         stretch = builder.add_flexible(records, attempts)
-        if not trouble and sign * (float(state.pos[2]) - pulse.phi_end) < 0:
+        if not (trouble or cut) and sign * (float(state.pos[2]) - pulse.phi_end) < 0:
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get through the pulse"
         if trouble:
             builder.completed = False
             return trouble + _too_soft(scene)
         first = stretch.crossing(pulse.phi_start, stretch.t_start)
-        builder.pulses.append(stretch.pulse(stretch.t_start if first is None else first, stretch.t_end))
+        measured = stretch.pulse(stretch.t_start if first is None else first, stretch.t_end)
+        builder.pulses.append(_cut(measured) if pulse.cut else measured)
         done += 1
         if scene.run.until == "pulse":
             return "the first pulse is over"
@@ -133,6 +138,16 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         if rest is None:
             return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
         current = _from_here(scene, state, rest)
+
+
+def _over_bottom(pulse: Pulse) -> bool:
+    """Whether the disk passes its lowest point, phi = pi (mod 2 pi), in a pulse."""
+    return floor((pulse.phi_start - pi) / (2 * pi)) != floor((pulse.phi_end - pi) / (2 * pi))
+
+
+def _cut(pulse: FlexiblePulse) -> FlexiblePulse:
+    """The same, marked as one in which the run begins or ends."""
+    return replace(pulse, cut=True, newton_restitution=nan, poisson_restitution=nan, energetic_restitution=nan)
 
 
 def _too_soft(scene: Scene) -> str:
@@ -200,29 +215,44 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
         swing = rigid.simulate(rigid_limit(here))
         if run.until == "rest" and builder.pieces and _slips_no_more(swing):
             return swing.ended
+        # a swing that begins at a turn has no rest of a pulse to list
+        pulses = [p for p in swing.pulses if not p.cut or (p.t_start == 0 and not builder.pieces)]
         phi = float(state.pos[2]) / (2 * pi)
         limit = builder.t + 4 * swing.t_end + 10
         ends = Ends(
             t=limit if scene.run.t_end is None else scene.run.t_end,
             low=2 * pi * (ceil(phi) - 1), high=2 * pi * (floor(phi) + 1), turns=1,
         )  # fmt: skip
-        if run.until == "pulse" and swing.pulses:
-            first, last = swing.pulses[0].phi_start, swing.pulses[0].phi_end
+        if run.until == "pulse" and pulses:  # before the first whole pulse there may be the rest of one
+            first, last = pulses[-1].phi_start, pulses[-1].phi_end
             ends = ends._replace(high=min(ends.high, last)) if last > first else ends._replace(low=max(ends.low, last))
         state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, progress=watch)
         stretch = builder.add_flexible(records, attempts)
-        for pulse in swing.pulses:
-            enters = stretch.crossing(pulse.phi_start, stretch.t_start)
-            leaves = None if enters is None else stretch.crossing(pulse.phi_end, enters)
-            if enters is None or leaves is None:
-                break
-            builder.pulses.append(stretch.pulse(enters, leaves))
+        _add_pulses(
+            builder, stretch, pulses, over=not trouble and scene.run.t_end is not None and ends.t - state.t < 1e-12
+        )
         if not trouble and scene.run.t_end is None and state.t >= limit:
             trouble = f"stopped at t = {state.t:.6g}: the rigid hoop swings that far in a quarter of this time"
         if trouble:
             builder.completed = False
             return trouble + _too_soft(scene)
-        if run.until == "pulse" and builder.pulses:
+        if run.until == "pulse" and any(not pulse.cut for pulse in builder.pulses):
             return "the first pulse is over"
         run = _rest_of(scene.run, builder)
     return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
+
+
+def _add_pulses(builder: Builder, stretch: Stretch, pulses: list[Pulse], over: bool) -> None:
+    """The pulses of a swing, each over its rigid one's angles; where the run is over inside one, the part before."""
+    for pulse in pulses:
+        enters = stretch.t_start if pulse.cut else stretch.crossing(pulse.phi_start, stretch.t_start)
+        if enters is None:
+            return
+        leaves = stretch.crossing(pulse.phi_end, enters)
+        cut = pulse.cut or leaves is None
+        if leaves is None and over:
+            leaves = stretch.t_end
+        if leaves is None or leaves <= enters:
+            return
+        found = stretch.pulse(enters, leaves)
+        builder.pulses.append(_cut(found) if cut else found)

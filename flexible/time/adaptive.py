@@ -115,9 +115,10 @@ def march(
         attempts += step.attempts
         books.normal_impulse += trial.impulses[0]
         books.friction_impulse += trial.impulses[1]
-        stored = trial.state.res[BRISTLE_ENERGY] - state.res[BRISTLE_ENERGY]
+        stored = float(trial.state.res[BRISTLE_ENERGY] - state.res[BRISTLE_ENERGY])
         books.friction_loss -= trial.friction_work + stored
         books.damping_loss += trial.damped
+        books.numerical_loss += trial.numerical
         books.off_floor += trial.off_floor
         stalls = stalls + 1 if trial.state.t - state.t < SHORTEST else 0
         turns += event == TURN
