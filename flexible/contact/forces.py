@@ -51,7 +51,7 @@ def _load(foundation: Any, damper: Damper) -> Load:
 def _nothing(nodes: int, outside: bool) -> Contact:
     """Off the floor."""
     size = 3 + 2 * nodes
-    zero = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf)
+    zero = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf, 0.0)
     none = Bristles(np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0, np.int8))
     return Contact(np.zeros(3), np.zeros((nodes, 2)), np.zeros((size, size)), zero, none, outside)
 
@@ -185,7 +185,7 @@ def contact_forces(
     beyond = ((carried.pull + pull) * (carried.way - carried.mean)).sum() / 2
     res = Resultants(
         force[1], force[0], foundation.energy, answer.energy, foundation.length, stuck, way, low, high, elastic, eta,
-        shared.damping, beyond, -shared.by_way, shared.reach,
+        shared.damping, beyond, -shared.by_way, shared.reach, answer.feet,
     )  # fmt: skip
     bristles = _stored(points, carried, pull, answer.keeps)
     return Contact(force[:3].copy(), force[3:].copy().reshape(nodes, 2), tangent, res, bristles, outside)

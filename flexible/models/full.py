@@ -7,21 +7,20 @@ borders are exact in every iteration, so that the ring's may lag behind.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import cos, sin
+from math import cos, isfinite, sin
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.linalg import splu
 
 from rigid import Scene
 
 from ..contact.forces import contact_forces
 from ..contact.points.data import Before, Damper, Rim
 from ..ring.fem import Ring, ring_of
-from ..ring.nodal import Inertia, NodalRing, inertia, turned
+from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
 from .rim_contact import POINTS, RimContact
-from .stage import Predictor
+from .stage import Predictor, largest
 from .state import Stage, State
 
 Array = NDArray[np.float64]
@@ -39,7 +38,7 @@ class _Factored:
         if not ring.massless:
             matrix = matrix + ring.mass * (1 / beta**2 - w * w) + ring.gyro * (alpha + 2 * w / beta)
         options = {"SymmetricMode": True}
-        self.solve = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options).solve
+        self.solve = factored(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
         self.ring, self.w, self.beta = ring, w, beta
         self._columns: dict[Window, Array] = {}
 
@@ -182,9 +181,9 @@ class FullHoop(RimContact):
             own = inertia(self.ring, pos, vel, acc, beta)
             frame, ring = own.frame - contact.force, own.ring.copy()
             ring[dofs] -= contact.nodal.ravel()
-            worst = max(np.abs(frame).max(), np.abs(ring).max())
-            if not np.isfinite(worst):
-                break
+            worst = max(largest(frame), largest(ring))
+            if not isfinite(worst):
+                return Stage(False), False
             small = self.tolerance * (1 + res.normal)
             if worst > small:
                 depth = abs(pos[1]) + np.abs(u).max()
@@ -192,13 +191,15 @@ class FullHoop(RimContact):
                 small += 1e-14 * (damper.relaxation + 1) * res.elastic
                 steepness = max(damper.drag, res.steepness)
                 small += 1e-15 * steepness * (abs(res.way) + abs(damper.way_0)) + self.ring.round_off(pos[3:])
-                small += 4e-16 * np.abs(vel_pred[3:]).max(initial=0.0) / beta * self.ring.body.ring_mass
+                small += 4e-16 * np.abs(acc[3:]).max(initial=0.0) * self.ring.body.ring_mass
             factored = self._factor(pos, vel, acc, beta, lags and iteration > 1 and worst > 0.05 * last)
             matrix = NewtonMatrix(factored, own, contact.tangent, window)
             if worst <= small and iteration > 0:
                 ok = True
                 break
             update = np.concatenate(matrix.solve(frame, ring))
+            if not isfinite(largest(update)):
+                return Stage(False), False
             damping = 0.5 if iteration > 3 and worst > last else 1.0
             last = worst
             d -= damping * update
@@ -241,7 +242,7 @@ class FullHoop(RimContact):
         load = (with_error.frame - without.frame) / beta**2, (with_error.ring - without.ring) / beta**2
         frame, u = matrix.solve(*load)
         slow = np.abs(self._slow @ u).max(initial=0.0) / (1 + ring.body.ring_mass) ** 0.5
-        return float(max(abs(frame[0] + frame[2]), abs(frame[1]), abs(frame[2]), slow))
+        return largest(np.array([frame[0] + frame[2], frame[1], frame[2], slow]))
 
     def energy_error(self, state: State, beta: float, matrix: NewtonMatrix, error: Array, moved: Array) -> float:
         """See :class:`flexible.models.state.Model`."""

@@ -12,7 +12,7 @@ from ..ring.frame import energies, inertia
 from ..ring.reduction import ReducedRing, reduce
 from .equilibrium import RestingModes
 from .rim_contact import POINTS, RimContact
-from .stage import Predictor, Window, filtered_error, solve_stage
+from .stage import Predictor, Window, filtered_error, largest, solve_stage
 from .state import Stage, State
 
 Array = NDArray[np.float64]
@@ -100,7 +100,7 @@ class ReducedHoop(RimContact):
         """See :class:`flexible.models.state.Model`."""
         error = filtered_error(self.ring.frame, state.pos, state.vel, state.acc, beta, matrix, error)
         ringing = np.abs(error[3:]).max(initial=0.0) / (1 + self.ring.frame.body.ring_mass) ** 0.5
-        return float(max(abs(error[0] + error[2]), abs(error[1]), abs(error[2]), ringing))
+        return largest(np.array([error[0] + error[2], error[1], error[2], ringing]))
 
     def energy_error(self, state: State, beta: float, matrix: Array, error: Array, moved: Array) -> float:
         """See :class:`flexible.models.state.Model`."""

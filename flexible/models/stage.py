@@ -82,6 +82,17 @@ def _assemble(matrix: Any, own: Any, contact: Any, window: Window, scale: float)
 
 
 @jit
+def largest(values: Any) -> float:
+    """Largest absolute value, infinite if any is not a number: comparing with one would pass it over."""
+    most = 0.0
+    for value in values.flat:
+        if not np.isfinite(value):
+            return np.inf
+        most = max(most, abs(value))
+    return most
+
+
+@jit
 def solve_stage(
     frame: Frame, window: Window, law: Parameters, mode: int, before: Before, damper: Damper, predictor: Predictor,
     start: Any,
@@ -113,9 +124,8 @@ def solve_stage(
         vel = vel_pred + d / beta
         contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper)
         force, tangent, res = contact.force, contact.tangent, contact.res
-        if (
-            res.elastic > 0 and abs(res.way - way) > 1.5 * reach
-        ):  # across the bend of a smoothed friction Newton would go to and fro
+        # across the bend of a smoothed friction Newton would go to and fro for ever
+        if res.elastic > 0 and abs(res.way - way) > 1.5 * reach:
             share = reach / abs(res.way - way)
             back = damping * (1 - share)
             damping *= share
@@ -127,32 +137,32 @@ def solve_stage(
         flat = contact.nodal.copy().reshape(2 * nodes)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
         moved = compliance @ flat
-        worst, astray = 0.0, 0.0  # of forces, and of displacements as forces on the foundation
         for i in range(3):
             residual[i] = own[i] - force[i]
-            worst = max(worst, abs(residual[i]))
         for i in range(n):
             pushed = 0.0
             for k in range(2 * nodes):
                 pushed += shapes[k, i] * flat[k]
             residual[3 + i] = own[3 + i] - pushed
-            worst = max(worst, abs(residual[3 + i]))
         for k in range(2 * nodes):
             modal_part = 0.0
             for i in range(n):
                 modal_part += shapes[k, i] * pos[3 + i]
             residual[m + k] = scale * (u[k // 2, k % 2] - modal_part - moved[k])
-            astray = max(astray, abs(residual[m + k]))
+        # of forces, and of displacements as forces on the foundation
+        worst, astray = largest(residual[:m]), largest(residual[m:])
         small = tolerance * (1 + res.normal) + _round_off(contact, pos[1], u, scale, damper)
+        if not np.isfinite(worst + astray + small):
+            break
         # a ring softer than the foundation moves by its compliance times what the forces may be off
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
             iterations = iteration
             break
         worst = max(worst, astray)
-        if not np.isfinite(worst):
-            break
         _assemble(matrix, own_tangent, tangent, window, scale)
         update = np.linalg.solve(matrix, residual)
+        if not np.isfinite(largest(update)):
+            break
         damping = 1.0
         if iteration > 3 and worst > last:
             damping = 0.5

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +32,7 @@ class State:
     bristles: Bristles
     slip_velocity: float
     elastic_rate: float = 0.0  # of N_el
+    feet_velocity: float = 0.0  # of the feet of a sliding patch's bristles, along the floor
 
     @property
     def normal_force(self) -> float:
@@ -42,19 +43,18 @@ class State:
         return self.res.friction
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Stage:
-    """An implicit stage as a model has solved it."""
+class Stage(NamedTuple):
+    """One stage of a step, solved or not; of one that is not, only ``ok`` has a meaning."""
 
     ok: bool
-    d: Array
-    acc: Array
-    matrix: Any  # Newton's last; the model's own business
-    window: tuple[int, int]
-    u: Array
-    nodal: Array
-    res: Resultants
-    bristles: Bristles
+    d: Any = None  # increment of pos
+    acc: Any = None
+    matrix: Any = None  # Newton's; the model's own business
+    window: Any = None
+    u: Any = None
+    nodal: Any = None
+    res: Any = None
+    bristles: Any = None
 
 
 class Model(Protocol):
@@ -74,7 +74,10 @@ class Model(Protocol):
         predictor: Predictor,
         near: Stage | None = None,
     ) -> Stage:
-        """Solve one stage; the ring starts from the stage ``near``, if that had the same window."""
+        """Solve one stage; the ring starts from the stage ``near``, if that had the same window.
+
+        Whatever fails in it is a stage that is not ok, or a LinAlgError.
+        """
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity, ring strain."""

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..contact.points.data import Damper, Resultants
 from ..models.stage import BETA, ERROR_WEIGHTS, TAU, Predictor
-from ..models.state import Model, State
+from ..models.state import Model, Stage, State
 
 Array = NDArray[np.float64]
 
@@ -37,11 +37,12 @@ class Trial:
 
 
 def attempt(model: Model, old: State, h: float) -> Trial | None:
-    """One TR-BDF2 step of length ``h``; None if Newton failed or met a singular matrix."""
+    """One TR-BDF2 step of length ``h``; None if Newton failed, whatever it failed by."""
     try:
-        return _stages(model, old, h)
+        trial = _stages(model, old, h)
     except np.linalg.LinAlgError:
         return None
+    return trial if trial is not None and isfinite(trial.error) else None
 
 
 def _stages(model: Model, old: State, h: float) -> Trial | None:
@@ -53,7 +54,7 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
     elastic_pred = elastic0 + beta * old.elastic_rate
     pos_pred, vel_pred = pos0 + 2 * beta * vel0 + beta**2 * acc0, vel0 + beta * acc0
     damper = Damper(rho, elastic_pred, 1.0, drag, beta * old.slip_velocity, TAU / BETA, 1 / beta, 0.0)
-    first = model.stage(old, old.mode, damper, Predictor(pos_pred, vel_pred, beta, beta**2 * acc0))
+    first = _solved(model, old, old.mode, damper, Predictor(pos_pred, vel_pred, beta, beta**2 * acc0))
     if not first.ok:
         return None
     acc_mid, res_mid = first.acc, first.res
@@ -64,14 +65,15 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
     elastic_pred = c_mid * res_mid.elastic + c_old * elastic0
     damper = Damper(rho, elastic_pred, 1.0, drag, c_mid * res_mid.way, 1 / BETA, 1 / beta, 0.0)
     guess = beta**2 * (acc_mid + (acc_mid - acc0) * (1 - TAU) / TAU)
-    second = model.stage(old, old.mode, damper, Predictor(pos_pred, vel_pred, beta, guess), first)
+    second = _solved(model, old, old.mode, damper, Predictor(pos_pred, vel_pred, beta, guess), first)
     if not second.ok:
         return None
     acc, res = second.acc, second.res
     pos, vel = pos_pred + second.d, vel_pred + second.d / beta
     error = h * (ERROR_WEIGHTS[0] * acc0 + ERROR_WEIGHTS[1] * acc_mid + ERROR_WEIGHTS[2] * acc)
     slip_mid, slip = (r.way if r.normal > 0 else p[0] for r, p in ((res_mid, pos_mid), (res, pos)))
-    bend = (slip - slip_mid / TAU) / (1 - TAU)
+    slip_velocity = _ending(float(slip_mid), float(slip), h)
+    feet_velocity = _ending(res_mid.feet, res.feet, h)
     forces = (old.res, res_mid, res)
     normal_impulse = h * sum(w * r.normal for w, r in zip(_QUADRATURE, forces, strict=True))
     friction_impulse = h * sum(w * r.friction for w, r in zip(_QUADRATURE, forces, strict=True))
@@ -85,12 +87,29 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
     elastic_rate = float(res.elastic - elastic_pred) / beta
     state = State(
         old.t + h, x_C, pos, vel, acc, old.mode, second.window, second.u, second.nodal, res, second.bristles,
-        float((slip + bend) / h), elastic_rate,
+        slip_velocity, elastic_rate, feet_velocity,
     )  # fmt: skip
     size = model.momentum_error(state, beta, second.matrix, error)
     moved = h * (ERROR_WEIGHTS[0] * vel0 + ERROR_WEIGHTS[1] * vel_mid + ERROR_WEIGHTS[2] * vel)
     gained = model.energy_error(state, beta, second.matrix, error, moved)
     return Trial(state, size, (normal_impulse, friction_impulse), work, damped, -gained, off)
+
+
+def _solved(
+    model: Model, old: State, mode: int, damper: Damper, predictor: Predictor, near: Stage | None = None
+) -> Stage:
+    """A stage, not ok whatever fails in it; without numbers to begin with it is not tried: no angle, no rim."""
+    if not isfinite(predictor.pos.sum() + predictor.vel.sum() + predictor.guess.sum() + sum(damper)):
+        return Stage(False)
+    try:
+        return model.stage(old, mode, damper, predictor, near)
+    except np.linalg.LinAlgError:
+        return Stage(False)
+
+
+def _ending(middle: float, end: float, h: float) -> float:
+    """Rate at the end of a step of what is 0 at its beginning, a parabola in time."""
+    return (end + (end - middle / TAU) / (1 - TAU)) / h
 
 
 def _work(force: Sequence[float], way: Sequence[float]) -> float:
@@ -115,20 +134,22 @@ def _damped(results: Sequence[Resultants]) -> float:
 
 
 def restart(model: Model, state: State, mode: int) -> State:
-    """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
-    beta = 1e-7
+    """The same instant under another law of friction: accelerations and static displacements jump, nothing else.
+
+    A stage of no length: what it moves, ``beta^2 acc``, must be nothing to the thinnest patch, whose depth as it opens
+    is some 1e-12 R, or N is another one after every event than before it.
+    """
+    beta = 1e-15
     eta = state.res.eta if state.res.elastic > 0 else 1.0
     damper = Damper(0.0, 0.0, eta, 0.0, 0.0, 1.0, 0.0, state.slip_velocity)
-    solved = None
-    with suppress(np.linalg.LinAlgError):
-        solved = model.stage(state, mode, damper, Predictor(state.pos, state.vel, beta, beta**2 * state.acc))
-    if solved is None or not solved.ok:
+    solved = _solved(model, state, mode, damper, Predictor(state.pos, state.vel, beta, beta**2 * state.acc))
+    if not solved.ok:
         raise MarchError(f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved")
     pos = state.pos.copy()
     pos[3:] += solved.d[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
     return replace(
         state, pos=pos, acc=solved.acc, mode=mode, window=solved.window, u=solved.u, nodal=solved.nodal,
-        res=solved.res, bristles=solved.bristles,
+        res=solved.res, bristles=solved.bristles, feet_velocity=0.0,
     )  # fmt: skip
 
 

@@ -131,3 +131,31 @@ def test_every_law_has_a_name_a_scene_may_hold():
     """The scene's list stands where the laws cannot be imported; and compiled code tells laws apart by their codes."""
     assert tuple(LAWS) == NAMES
     assert len({law.code for law in LAWS.values()}) == len(LAWS)
+
+
+@pytest.mark.parametrize("name", ["patch", "brush"])
+@pytest.mark.parametrize("way", [1, -1])
+def test_tangent_of_points_that_enter(name, way):
+    """A rim that comes down while it rolls and creeps: no point has a bristle yet, each enters at its own instant.
+
+    Friction by itself, whose entries are a thousandth of the normal forces': 1e-5 of its largest, what central
+    differences of 1e-9 of forces of 1e-16/1e-9 leave. The instant moves with gap, phi and abscissa.
+    """
+    law = parameters(name, 2e-4, EPS, 0.8 * EPS, 9.0, 9.0)  # nothing slides
+    depth, phi = (1.5 / EPS) ** (2 / 3) / 2, 2.9
+    rim, flat = Rim(element_at(VERTEX, pi - phi) - 1, VERTEX), np.zeros((9, 2))
+    before = Before(np.array([0.0, 0.3 * depth, phi]), flat, no_bristles())
+
+    def contact(x):
+        return contact_forces(x[:3], x[3:].reshape(-1, 2), rim, law, STICK, before, UNDAMPED)  # the brush's only mode
+
+    x = np.concatenate([[2e-6, -depth, phi + way * 0.004], 1e-8 * np.sin(np.arange(18))])
+    found = contact(x)
+    assert found.res.normal > 0
+    assert abs(found.res.friction) > 1e-3
+    assert len(found.bristles.number) > 10
+    step = 1e-9
+    columns = [(contact(x + step * e).force[0] - contact(x - step * e).force[0]) / (2 * step) for e in np.eye(len(x))]
+    friction = found.tangent[0]
+    assert np.abs(columns - friction).max() < 1e-5 * np.abs(friction).max()
+    assert np.array(columns[:3]) == pytest.approx(friction[:3], rel=1e-3)  # V, h, phi, whose entry is 1e-5 of V's

@@ -36,7 +36,7 @@ def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, 
     stretch, sliding = carried.stretch, carried.sliding
     forces = point_forces(total)
     # a brush pulls nothing at its edges, and is held to the pressure, which ends on a straight gap
-    weight, weight_by = weights(points, carried, law.spacing, False)
+    weight, weight_by = weights(points, carried, law.spacing, False, False)
     energy, stuck = 0.0, 0.0
     for i in range(total):
         if weight[i] == 0:
@@ -55,7 +55,7 @@ def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, 
             stuck += weight[i]
         add_pull(forces, i, traction, weight, weight_by)
         energy += weight[i] * traction**2 / (2 * law.eps_t)
-    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, stuck, points.gap < 0)
+    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, stuck, points.gap < 0, 0.0)
 
 
 def effective_mu_s(mu_s: float, mu: float) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import inf
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
@@ -22,6 +23,8 @@ class PatchState(Protocol):
     def mode(self) -> int: ...
     @property
     def slip_velocity(self) -> float: ...
+    @property
+    def feet_velocity(self) -> float: ...
     @property
     def res(self) -> Resultants: ...
 
@@ -64,9 +67,16 @@ class Law:
         """The mode in which the patch begins out of a rigid phase."""
         return 0
 
-    def excess(self, state: PatchState) -> float:
-        """Positive when the patch can no longer go on in its mode."""
-        return -1.0
+    def may_end(self, mode: int) -> bool:
+        """Whether a mode can end otherwise than off the floor."""
+        return False
+
+    def excess(self, state: PatchState, force: float, velocity: float) -> float:
+        """How far the patch is past the end of its mode: positive past it, within 1 at it, -inf where it is none.
+
+        Counted in ``force``, a tolerance relative to 1 + N, or in ``velocity``, one on slip velocities.
+        """
+        return -inf
 
     def successor(self, state: PatchState) -> int:
         """The mode that follows the one that has ended."""

@@ -6,6 +6,7 @@ slip. While it slides, mu N is shared over the patch like the pressure. Its limi
 
 from __future__ import annotations
 
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -30,7 +31,7 @@ def _stick(points: Any, carried: Any, load: Any, slip: Any, law: Any) -> Any:
     """Bristles without a limit, and the damper's drag."""
     total = points.gap.shape[0]
     forces = point_forces(total)
-    weight, weight_by = weights(points, carried, law.spacing, True)
+    weight, weight_by = weights(points, carried, law.spacing, True, True)
     keeps = points.gap < 0
     energy, stuck = 0.0, 0.0
     for i in range(total):
@@ -48,7 +49,7 @@ def _stick(points: Any, carried: Any, load: Any, slip: Any, law: Any) -> Any:
     dragging = load.elastic > 0 and slip.drag > 0
     drag = -slip.drag * (slip.way - slip.way_0) if dragging else 0.0
     shared = Shared(dragging, drag, -slip.drag if dragging else 0.0, 0.0, drag, np.inf)
-    return Tractions(forces, shared, energy, stuck, keeps)
+    return Tractions(forces, shared, energy, stuck, keeps, 0.0)
 
 
 @jit
@@ -56,21 +57,24 @@ def _slide(points: Any, foundation: Any, carried: Any, mode: int, load: Any, law
     """mu N, shared like the foundation's forces; bristles that take it over will pull as much in all."""
     total = points.gap.shape[0]
     forces = point_forces(total)
-    weight, _ = weights(points, carried, law.spacing, True)
+    weight, _ = weights(points, carried, law.spacing, True, False)
     lumped = -law.eps_n * (weight * np.minimum(points.gap, 0.0)).sum()
     even = load.elastic / lumped if lumped > 0 else 1.0
-    energy = 0.0
+    energy, held, pulled = 0.0, 0.0, 0.0
     for i in range(total):
         before = i - 1 if i > 0 and not points.last[i - 1] else -1
         behind = i + 1 if i + 1 < total and not points.last[i] else -1
         forces.share[i] = mode * law.mu * foundation.force[i]
         forces.force[i] = load.eta * forces.share[i]
         force_by_gaps(forces.by_gap[i, 1:4], load.eta * mode * law.mu, foundation, before, i, behind)
+        held -= weight[i] * law.eps_t * carried.stretch[i]
         # what a damper adds to the pressure is no spring: bristles that held it would give it back when they stick
         pressure = -law.eps_n * min(points.gap[i], 0.0)
         carried.stretch[i] = -min(load.eta, 1.0) * even * mode * law.mu * pressure / law.eps_t
+        pulled -= weight[i] * law.eps_t * carried.stretch[i]
         energy += weight[i] * law.eps_t * carried.stretch[i] ** 2 / 2
-    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0, points.gap < 0)
+    feet = (pulled - held) / (law.eps_t * foundation.length) if foundation.length > 0 else 0.0
+    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0, points.gap < 0, feet)
 
 
 @jit
@@ -97,12 +101,25 @@ class Patch(Law):
         slides = {Kind.SKID: SLIDE_LEFT, Kind.SPIN: SLIDE_RIGHT}.get(kind, STICK)
         return SLIDE_RIGHT if slides == STICK and kind != Kind.ROLL and self.parameters.mu_s == 0 else slides
 
-    def excess(self, state: PatchState) -> float:
-        """How far |F| is beyond mu_s N, or the slip beyond zero."""
+    def may_end(self, mode: int) -> bool:
+        """See :class:`~flexible.contact.laws.law.Law`."""
+        return True
+
+    def excess(self, state: PatchState, force: float, velocity: float) -> float:
+        """How far |F| is beyond mu_s N, or the slip beyond zero.
+
+        A patch sticks up to ``|F| = mu_s N``. It slides as long as it moves against its friction, and beyond that while
+        the feet of its bristles do: where N falls faster than the bristles let go, a patch that stuck would break in
+        the same instant. A damper that adds to N leaves no such doubt.
+        """
         res, mu_s = state.res, self.parameters.mu_s
         if state.mode == STICK:  # a damper may take all of N while the bristles still pull
-            return abs(res.friction) - mu_s * res.normal if res.elastic > 0 else -1.0
-        return -1.0 if res.normal == 0 or mu_s == 0 else state.mode * state.slip_velocity
+            return (abs(res.friction) - mu_s * res.normal) / (force * (1 + res.normal)) if res.elastic > 0 else -inf
+        if res.normal == 0 or mu_s == 0:
+            return -inf
+        against = state.mode * state.slip_velocity
+        feet = state.mode * state.feet_velocity if res.eta <= 1 else inf
+        return min(against, feet) / velocity
 
     def successor(self, state: PatchState) -> int:
         """From stick to sliding under the friction that broke it, and back."""

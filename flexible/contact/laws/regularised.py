@@ -38,7 +38,7 @@ def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, 
         speed / slip.rate if slip.rate > 0 else inf,
     )
     stuck = foundation.length if abs(slip.velocity) < law.slip_scale else 0.0
-    return Tractions(point_forces(points.gap.shape[0]), shared, 0.0, stuck, points.gap < 0)
+    return Tractions(point_forces(points.gap.shape[0]), shared, 0.0, stuck, points.gap < 0, 0.0)
 
 
 class Regularised(Law):

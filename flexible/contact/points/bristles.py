@@ -114,11 +114,11 @@ def edge_of_patch(g_in: float, g_out: float, inner: float) -> tuple[float, float
 
 
 @jit
-def weights(points: Any, carried: Any, spacing: float, curved: bool) -> tuple[Any, Any]:
+def weights(points: Any, carried: Any, spacing: float, curved: bool, sticks: bool) -> tuple[Any, Any]:
     """Length of patch that belongs to each point, and its derivatives by the gaps of (n, 5) points around it.
 
-    ``curved`` puts the edge on the gap's parabola and keeps bristles stretched up to where points leave; a friction
-    that ends with the pressure ends where that does, on a straight gap.
+    ``curved`` puts the edge on the gap's parabola; a friction that ends with the pressure ends where that does, on a
+    straight gap. Where all of the patch ``sticks``, bristles stay stretched up to where points leave.
     """
     gap = points.gap
     total = gap.shape[0]
@@ -138,7 +138,7 @@ def weights(points: Any, carried: Any, spacing: float, curved: bool) -> tuple[An
         else:
             d = gap[outside] - gap[inside]
             f, f_in, f_out, f_inner = -gap[inside] / d, -gap[outside] / d**2, gap[inside] / d**2, 0.0
-        if curved and carried.touched[outside]:  # an edge that points leave: bristles stay stretched up to it
+        if sticks and carried.touched[outside]:  # an edge that points leave: bristles stay stretched up to it
             weight[inside] += spacing * (f - f * f / 2)
             weight[outside] += spacing * f * f / 2
             by[inside, 2] += spacing * (1 - f) * f_in

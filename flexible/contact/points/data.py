@@ -115,6 +115,7 @@ class Tractions(NamedTuple):
     energy: float  # stored
     stuck: float  # length of the patch that sticks
     keeps: Any  # (n,) bool: whose bristles outlast the step
+    feet: float  # how far the feet of the bristles slid in the step, where all slide
 
 
 class Resultants(NamedTuple):
@@ -135,6 +136,7 @@ class Resultants(NamedTuple):
     beyond: float  # work of the bristles beyond their mean force times the mean way
     steepness: float  # -dF/dx of a force shared by the patch as a whole, x its way
     reach: float  # in x over which that is about linear
+    feet: float  # how far the feet of the bristles of a sliding patch slid in the step
 
 
 class Contact(NamedTuple):
@@ -148,7 +150,7 @@ class Contact(NamedTuple):
     outside: bool  # whether the window of rim is too short for the patch
 
 
-NOTHING = Resultants(*(14 * [0.0]), reach=inf)
+NOTHING = Resultants(*(14 * [0.0]), reach=inf, feet=0.0)
 
 
 def no_bristles() -> Bristles:
