@@ -1,4 +1,4 @@
-"""Where a flexible stretch begins: in the quasi-static elastic equilibrium of the rigid motion at that instant.
+"""Where a flexible segment begins: in the quasi-static elastic equilibrium of the rigid motion at that instant.
 
 A hoop handed over undeformed would ring. Under the rigid hoop's N, F and accelerations the ring and the patch are
 brought to rest in the disk's frame, and their rates are those of the equilibria along the rigid motion.

@@ -1,4 +1,4 @@
-"""A flexible stretch of a motion: the march's records read as phases, turns, states and pulse measures.
+"""A flexible segment of a motion: the march's records read as phases, turns, states and pulse measures.
 
 Everything is in the solver's units, R = m = g = 1.
 """
@@ -27,7 +27,7 @@ def _hermite(x: Array, x0: Array, x1: Array, y0: Array, y1: Array, s0: Array, s1
     return (1 - z) * y0 + z * y1 + z * (1 - z) * (a * (1 - z) + b * z)
 
 
-class Stretch:
+class Segment:
     """The records of one march as arrays, and what is read off them."""
 
     def __init__(self, records: list[Record], hoop: Hoop) -> None:

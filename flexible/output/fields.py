@@ -229,7 +229,7 @@ class _Painter:
         self.factor = np.array([self._display_factor(instants)])
 
     def frames(self, instants: list[_Instant]) -> Iterator[Frame]:
-        """Frames of some instants, those of one stretch done at once."""
+        """Frames of some instants, those of one segment done at once."""
         done: dict[int, dict[str, Array]] = {}
         for key in dict.fromkeys(id(i.kept) for i in instants if i.kept is not None):
             own = [i for i in instants if id(i.kept) == key]

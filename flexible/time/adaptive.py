@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from ..models.state import Books, Model, Record, State, record
 from .events import MODE_ENDS, TURN, Ends, locate, passed, watches
-from .tr_bdf2 import MarchError, Trial, attempt, restart
+from .tr_bdf2 import MarchError, Step, attempt, restart
 
 SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
 AFRESH = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
@@ -25,20 +25,20 @@ def _free(model: Model, state: State) -> State:
     return state if mode == state.mode else replace(state, mode=mode)
 
 
-class Step(NamedTuple):
+class Accepted(NamedTuple):
     """An accepted step, and the event at which it ends."""
 
-    trial: Trial
+    trial: Step
     event: int | None
     attempts: int
 
 
-def _until_event(model: Model, state: State, trial: Trial, ends: Ends) -> Step | None:
+def _until_event(model: Model, state: State, trial: Step, ends: Ends) -> Accepted | None:
     """A step that passes no event: ``trial``, or a shorter one up to its first event; None where none can be solved."""
     event, attempts = None, 0
     for watch in watches(model.law, state, ends):
 
-        def past(step: Trial, watch: int = watch) -> float:
+        def past(step: Step, watch: int = watch) -> float:
             return passed(watch, model.law, ends, state, step.state)
 
         if past(trial) < 0:
@@ -49,7 +49,7 @@ def _until_event(model: Model, state: State, trial: Trial, ends: Ends) -> Step |
         if located.trial is None:
             return None
         trial, event = located.trial, watch if located.at_event else None
-    return Step(trial, event, attempts)
+    return Accepted(trial, event, attempts)
 
 
 def march(

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from ..contact.laws.law import Law
 from ..models.state import State
-from .tr_bdf2 import Trial
+from .tr_bdf2 import Step
 
 MODE_ENDS, TURN, LOW_END, HIGH_END = range(4)
 
@@ -69,15 +69,15 @@ def passed(watch: int, law: Law, ends: Ends, old: State, now: State, tolerances:
 class Located(NamedTuple):
     """A step cut short."""
 
-    trial: Trial | None  # None where no step could be solved
+    trial: Step | None  # None where no step could be solved
     at_event: bool  # otherwise it ends before the event
     attempts: int
 
 
 def locate(
-    attempt: Callable[[float], Trial | None],
-    past: Callable[[Trial], float],
-    trial: Trial,
+    attempt: Callable[[float], Step | None],
+    past: Callable[[Step], float],
+    trial: Step,
     before: float,
     length: float,
     tolerances: Tolerances = TOLERANCES,

@@ -24,7 +24,7 @@ class MarchError(RuntimeError):
 
 
 @dataclass(slots=True)
-class Trial:
+class Step:
     """A step, and its integrals."""
 
     state: State
@@ -36,7 +36,7 @@ class Trial:
     off_floor: float
 
 
-def attempt(model: Model, old: State, h: float) -> Trial | None:
+def attempt(model: Model, old: State, h: float) -> Step | None:
     """One TR-BDF2 step of length ``h``; None if Newton failed, whatever it failed by."""
     try:
         trial = _stages(model, old, h)
@@ -45,7 +45,7 @@ def attempt(model: Model, old: State, h: float) -> Trial | None:
     return trial if trial is not None and isfinite(trial.error) else None
 
 
-def _stages(model: Model, old: State, h: float) -> Trial | None:
+def _stages(model: Model, old: State, h: float) -> Step | None:
     """The two stages of a step, and what is measured of it."""
     beta = BETA * h
     rho, drag = model.relaxation / beta, model.patch_damping(old) / beta
@@ -92,7 +92,7 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
     size = model.momentum_error(state, beta, second.matrix, error)
     moved = h * (ERROR_WEIGHTS[0] * vel0 + ERROR_WEIGHTS[1] * vel_mid + ERROR_WEIGHTS[2] * vel)
     gained = model.energy_error(state, beta, second.matrix, error, moved)
-    return Trial(state, size, (normal_impulse, friction_impulse), work, damped, -gained, off)
+    return Step(state, size, (normal_impulse, friction_impulse), work, damped, -gained, off)
 
 
 def _solved(

@@ -80,7 +80,7 @@ def flexible_scene(x: list[float]) -> Scene:
         Run(until="pulse"),
         ring=Ring(bending_stiffness=_power(x[7], 13 / k, 13e4 / k)),
         contact=Contact(
-            "patch" if x[9] < 0.6 else "brush",
+            LAWS[min(int(x[9] * len(LAWS)), len(LAWS) - 1)],
             stiffness=_power(x[8], 1e6, 1e13),
             damping=0.0 if damping is None else 2 * damping,
         ),
