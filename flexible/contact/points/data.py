@@ -150,7 +150,7 @@ class Contact(NamedTuple):
     outside: bool  # whether the window of rim is too short for the patch
 
 
-NOTHING = Resultants(*(14 * [0.0]), reach=inf, feet=0.0)
+NOTHING = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, inf, 0.0)
 
 
 def no_bristles() -> Bristles:
