@@ -59,7 +59,7 @@ def _round_off(contact: Contact, height: float, u: Any, scale: float, damper: Da
     res = contact.res
     floor = 4e-16 * scale * (abs(height) + np.abs(u).max()) + 1e-14 * (damper.relaxation + 1) * res.elastic
     floor += 1e-15 * max(damper.drag, res.steepness) * (abs(res.way) + abs(damper.way_0))
-    return floor  # type: ignore[no-any-return]
+    return floor
 
 
 @jit

@@ -167,7 +167,7 @@ def cling(forces: Any, carried: Any, i: int, weight: float, eps_t: float) -> flo
     forces.by_abscissa[i] = -eps_t * weight * carried.rate[i]
     forces.by_gap[i, 2] = -eps_t * weight * carried.by_gap[i]
     forces.by_phi[i] = -eps_t * weight * carried.by_phi[i]
-    return -eps_t * carried.stretch[i]  # type: ignore[no-any-return]
+    return -eps_t * carried.stretch[i]
 
 
 @jit
