@@ -37,6 +37,152 @@ class Frame(NamedTuple):
     gyro: Any  # (n, n) Phi_i^T M J Phi_j, antisymmetric
 
 
+class _Instant(NamedTuple):
+    """What all forces of an instant share."""
+
+    s: float  # sin phi
+    c: float  # cos phi
+    w: float  # phidot
+    alpha: float  # phiddot
+    ax: float  # acceleration of C plus gravity
+    ay: float
+    r1: float  # derivatives of a rate and of an acceleration by the increment: 1/beta, 1/beta^2
+    r2: float
+
+
+class _Sums(NamedTuple):
+    """The ring's first and second moments about C, and their rates."""
+
+    s1: float  # first moment of the displacement along y1, y2; rates
+    s2: float
+    s1_v: float
+    s2_v: float
+    s1_a: float
+    s2_a: float
+    moment: float  # of inertia
+    rate: float  # half of that moment's rate
+    spin: float  # of the ring's accelerations about C
+    turned: Any  # (n,) gyro times amplitudes, their rates and accelerations
+    turned_v: Any
+    turned_a: Any
+
+
+@jit
+def _disk(body: Body, instant: _Instant, force: Any, tangent: Any) -> None:
+    """Forces of the disk, and their tangent."""
+    s, c, w, alpha, ax, ay, r1, r2 = instant
+    offset, disk_inertia = body.offset, body.disk_inertia
+    dx = ax + offset * (alpha * c - w * w * s)
+    dy = ay - offset * (alpha * s + w * w * c)
+    dx_phi = offset * (-alpha * s - w * w * c - 2 * w * s * r1 + c * r2) + r2
+    dy_phi = -offset * (alpha * c - w * w * s + 2 * w * c * r1 + s * r2)
+    lever = 1 + offset * c
+    force[0] = dx
+    force[1] = dy
+    force[2] = dx * lever - dy * offset * s + disk_inertia * alpha
+    tangent[0, 0] = r2
+    tangent[0, 2] = dx_phi
+    tangent[1, 1] = r2
+    tangent[1, 2] = dy_phi
+    tangent[2, 0] = lever * r2
+    tangent[2, 1] = -offset * s * r2
+    tangent[2, 2] = dx_phi * lever - dx * offset * s - dy_phi * offset * s - dy * offset * c + disk_inertia * r2
+
+
+@jit
+def _ring_sums(frame: Frame, pos: Any, vel: Any, acc: Any) -> _Sums:
+    modal, gyro = frame.modal, frame.gyro
+    n = modal.shape[0]
+    s1, s2, s1_v, s2_v, s1_a, s2_a = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    moment, rate, spin = frame.body.ring_inertia, 0.0, 0.0
+    turned, turned_v, turned_a = np.zeros(n), np.zeros(n), np.zeros(n)
+    for i in range(n):
+        q, qv, qa = pos[3 + i], vel[3 + i], acc[3 + i]
+        s1 += modal[i, 1] * q
+        s2 += modal[i, 2] * q
+        s1_v += modal[i, 1] * qv
+        s2_v += modal[i, 2] * qv
+        s1_a += modal[i, 1] * qa
+        s2_a += modal[i, 2] * qa
+        moment += (2 * modal[i, 4] + q) * q
+        rate += (modal[i, 4] + q) * qv
+        spin += modal[i, 3] * qa
+        for j in range(n):
+            turned[i] += gyro[i, j] * pos[3 + j]
+            turned_v[i] += gyro[i, j] * vel[3 + j]
+            turned_a[i] += gyro[i, j] * acc[3 + j]
+        spin += qa * turned[i]
+    return _Sums(s1, s2, s1_v, s2_v, s1_a, s2_a, moment, rate, spin, turned, turned_v, turned_a)
+
+
+@jit
+def _ring_by_pose(frame: Frame, instant: _Instant, sums: _Sums, force: Any, tangent: Any) -> None:
+    """What the ring adds to the forces on (V, h, phi), and the tangent of these and of the modes' by them."""
+    s, c, w, alpha, ax, ay, r1, r2 = instant
+    s1, s2, s1_v, s2_v = sums.s1, sums.s2, sums.s1_v, sums.s2_v
+    modal, ring_mass = frame.modal, frame.body.ring_mass
+    a1, a2 = ax * s + ay * c, ax * c - ay * s
+    f1 = ring_mass * a1 - alpha * s2 - 2 * w * s2_v - w * w * s1 + sums.s1_a
+    f2 = ring_mass * a2 + alpha * s1 + 2 * w * s1_v - w * w * s2 + sums.s2_a
+    fx, fy = f1 * s + f2 * c, f1 * c - f2 * s
+    force[0] += fx
+    force[1] += fy
+    force[2] += fx - s2 * a1 + s1 * a2 + alpha * sums.moment + 2 * w * sums.rate + sums.spin
+    # by V, h (through the acceleration of C) and by phi
+    for i in range(2):
+        a1_i, a2_i = (s, c) if i == 0 else (c, -s)
+        a1_i, a2_i = a1_i * r2, a2_i * r2
+        tangent[0, i] += ring_mass * (a1_i * s + a2_i * c)
+        tangent[1, i] += ring_mass * (a1_i * c - a2_i * s)
+        tangent[2, i] += ring_mass * (a1_i * s + a2_i * c) - s2 * a1_i + s1 * a2_i
+        for j in range(modal.shape[0]):
+            tangent[3 + j, i] += modal[j, 1] * a1_i + modal[j, 2] * a2_i
+    a1_phi, a2_phi = a2 + s * r2, -a1 + c * r2
+    f1_phi = ring_mass * a1_phi - s2 * r2 - 2 * s2_v * r1 - 2 * w * s1 * r1
+    f2_phi = ring_mass * a2_phi + s1 * r2 + 2 * s1_v * r1 - 2 * w * s2 * r1
+    fx_phi, fy_phi = f1_phi * s + f2_phi * c + fy, f1_phi * c - f2_phi * s - fx
+    tangent[0, 2] += fx_phi
+    tangent[1, 2] += fy_phi
+    tangent[2, 2] += fx_phi - s2 * a1_phi + s1 * a2_phi + sums.moment * r2 + 2 * sums.rate * r1
+
+
+@jit
+def _ring_by_modes(
+    frame: Frame, instant: _Instant, sums: _Sums, pos: Any, vel: Any, acc: Any, force: Any, tangent: Any
+) -> None:
+    """Forces on the modes, and the tangent of all forces by the modes and of theirs by phi."""
+    s, c, w, alpha, ax, ay, r1, r2 = instant
+    a1, a2 = ax * s + ay * c, ax * c - ay * s
+    a1_phi, a2_phi = a2 + s * r2, -a1 + c * r2
+    gyro, n = frame.gyro, frame.modal.shape[0]
+    for i in range(n):
+        square, l1, l2, rotation, stretching = frame.modal[i]
+        q, qv, qa = pos[3 + i], vel[3 + i], acc[3 + i]
+        turned = rotation + sums.turned[i]
+        force[3 + i] = (
+            qa + square * q + a1 * l1 + a2 * l2 + alpha * turned + 2 * w * sums.turned_v[i] - w * w * (stretching + q)
+        )
+        tangent[3 + i, 2] = (
+            a1_phi * l1 + a2_phi * l2 + turned * r2 + 2 * sums.turned_v[i] * r1 - 2 * w * (stretching + q) * r1
+        )
+        f1_q = -alpha * l2 - 2 * w * l2 * r1 - w * w * l1 + l1 * r2
+        f2_q = alpha * l1 + 2 * w * l1 * r1 - w * w * l2 + l2 * r2
+        tangent[0, 3 + i] = f1_q * s + f2_q * c
+        tangent[1, 3 + i] = f1_q * c - f2_q * s
+        tangent[2, 3 + i] = (
+            tangent[0, 3 + i]
+            - l2 * a1
+            + l1 * a2
+            + alpha * 2 * (stretching + q)
+            + 2 * w * (qv + (stretching + q) * r1)
+            + turned * r2
+            - sums.turned_a[i]
+        )
+        for j in range(n):
+            tangent[3 + i, 3 + j] = gyro[i, j] * (alpha + 2 * w * r1)
+        tangent[3 + i, 3 + i] += r2 + square - w * w
+
+
 @jit
 def inertia(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     """Inertial, gravitational and elastic forces, and their tangent.
@@ -55,111 +201,14 @@ def inertia(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     tangent : (3 + n, 3 + n) array
         Derivative of ``force`` by d.
     """
-    body, modal, gyro = frame.body, frame.modal, frame.gyro
-    n = modal.shape[0]
-    offset, disk_inertia, ring_mass = body.offset, body.disk_inertia, body.ring_mass
-    s, c = sin(pos[2]), cos(pos[2])
-    w, alpha = vel[2], acc[2]
-    ax, ay = acc[0] + alpha, acc[1] + 1.0
-    r1, r2 = 1 / beta, 1 / beta**2
-    force = np.zeros(3 + n)
-    tangent = np.zeros((3 + n, 3 + n))
-
-    dx = ax + offset * (alpha * c - w * w * s)
-    dy = ay - offset * (alpha * s + w * w * c)
-    dx_phi = offset * (-alpha * s - w * w * c - 2 * w * s * r1 + c * r2) + r2
-    dy_phi = -offset * (alpha * c - w * w * s + 2 * w * c * r1 + s * r2)
-    lever = 1 + offset * c
-    force[0] = dx
-    force[1] = dy
-    force[2] = dx * lever - dy * offset * s + disk_inertia * alpha
-    tangent[0, 0] = r2
-    tangent[0, 2] = dx_phi
-    tangent[1, 1] = r2
-    tangent[1, 2] = dy_phi
-    tangent[2, 0] = lever * r2
-    tangent[2, 1] = -offset * s * r2
-    tangent[2, 2] = dx_phi * lever - dx * offset * s - dy_phi * offset * s - dy * offset * c + disk_inertia * r2
-    if ring_mass == 0:
-        return force, tangent
-
-    a1, a2 = ax * s + ay * c, ax * c - ay * s
-    s1, s2, s1_v, s2_v, s1_a, s2_a = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    moment, rate, spin = body.ring_inertia, 0.0, 0.0
-    turned, turned_v, turned_a = np.zeros(n), np.zeros(n), np.zeros(n)
-    for i in range(n):
-        q, qv, qa = pos[3 + i], vel[3 + i], acc[3 + i]
-        s1 += modal[i, 1] * q
-        s2 += modal[i, 2] * q
-        s1_v += modal[i, 1] * qv
-        s2_v += modal[i, 2] * qv
-        s1_a += modal[i, 1] * qa
-        s2_a += modal[i, 2] * qa
-        moment += (2 * modal[i, 4] + q) * q
-        rate += (modal[i, 4] + q) * qv
-        spin += modal[i, 3] * qa
-        for j in range(n):
-            turned[i] += gyro[i, j] * pos[3 + j]
-            turned_v[i] += gyro[i, j] * vel[3 + j]
-            turned_a[i] += gyro[i, j] * acc[3 + j]
-        spin += qa * turned[i]
-    f1 = ring_mass * a1 - alpha * s2 - 2 * w * s2_v - w * w * s1 + s1_a
-    f2 = ring_mass * a2 + alpha * s1 + 2 * w * s1_v - w * w * s2 + s2_a
-    fx, fy = f1 * s + f2 * c, f1 * c - f2 * s
-    force[0] += fx
-    force[1] += fy
-    force[2] += fx - s2 * a1 + s1 * a2 + alpha * moment + 2 * w * rate + spin
-    # by V, h (through the acceleration of C) and by phi
-    for i in range(2):
-        a1_i, a2_i = (s, c) if i == 0 else (c, -s)
-        a1_i, a2_i = a1_i * r2, a2_i * r2
-        tangent[0, i] += ring_mass * (a1_i * s + a2_i * c)
-        tangent[1, i] += ring_mass * (a1_i * c - a2_i * s)
-        tangent[2, i] += ring_mass * (a1_i * s + a2_i * c) - s2 * a1_i + s1 * a2_i
-        for j in range(n):
-            tangent[3 + j, i] += modal[j, 1] * a1_i + modal[j, 2] * a2_i
-    a1_phi, a2_phi = a2 + s * r2, -a1 + c * r2
-    f1_phi = ring_mass * a1_phi - s2 * r2 - 2 * s2_v * r1 - 2 * w * s1 * r1
-    f2_phi = ring_mass * a2_phi + s1 * r2 + 2 * s1_v * r1 - 2 * w * s2 * r1
-    fx_phi, fy_phi = f1_phi * s + f2_phi * c + fy, f1_phi * c - f2_phi * s - fx
-    tangent[0, 2] += fx_phi
-    tangent[1, 2] += fy_phi
-    tangent[2, 2] += fx_phi - s2 * a1_phi + s1 * a2_phi + moment * r2 + 2 * rate * r1
-    for i in range(n):
-        square, l1, l2, rotation, stretching = modal[i]
-        q, qv, qa = pos[3 + i], vel[3 + i], acc[3 + i]
-        force[3 + i] = (
-            qa
-            + square * q
-            + a1 * l1
-            + a2 * l2
-            + alpha * (rotation + turned[i])
-            + 2 * w * turned_v[i]
-            - w * w * (stretching + q)
-        )
-        tangent[3 + i, 2] = (
-            a1_phi * l1
-            + a2_phi * l2
-            + (rotation + turned[i]) * r2
-            + 2 * turned_v[i] * r1
-            - 2 * w * (stretching + q) * r1
-        )
-        f1_q = -alpha * l2 - 2 * w * l2 * r1 - w * w * l1 + l1 * r2
-        f2_q = alpha * l1 + 2 * w * l1 * r1 - w * w * l2 + l2 * r2
-        tangent[0, 3 + i] = f1_q * s + f2_q * c
-        tangent[1, 3 + i] = f1_q * c - f2_q * s
-        tangent[2, 3 + i] = (
-            tangent[0, 3 + i]
-            - l2 * a1
-            + l1 * a2
-            + alpha * 2 * (stretching + q)
-            + 2 * w * (qv + (stretching + q) * r1)
-            + (rotation + turned[i]) * r2
-            - turned_a[i]
-        )
-        for j in range(n):
-            tangent[3 + i, 3 + j] = gyro[i, j] * (alpha + 2 * w * r1)
-        tangent[3 + i, 3 + i] += r2 + square - w * w
+    n = frame.modal.shape[0]
+    force, tangent = np.zeros(3 + n), np.zeros((3 + n, 3 + n))
+    instant = _Instant(sin(pos[2]), cos(pos[2]), vel[2], acc[2], acc[0] + acc[2], acc[1] + 1.0, 1 / beta, 1 / beta**2)
+    _disk(frame.body, instant, force, tangent)
+    if frame.body.ring_mass > 0:
+        sums = _ring_sums(frame, pos, vel, acc)
+        _ring_by_pose(frame, instant, sums, force, tangent)
+        _ring_by_modes(frame, instant, sums, pos, vel, acc, force, tangent)
     return force, tangent
 
 

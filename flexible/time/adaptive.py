@@ -52,14 +52,23 @@ def _until_event(model: Model, state: State, trial: Step, ends: Ends) -> Accepte
     return Accepted(trial, event, attempts)
 
 
+class Limits(NamedTuple):
+    """Between what the steps of a march are chosen."""
+
+    first: float = 1e-4  # length of the first step, sqrt(R/g)
+    longest: float = 0.05
+    most: int = 50_000  # steps, those tried in vain too
+
+
+LIMITS = Limits()
+
+
 def march(
     model: Model,
     state: State,
     ends: Ends,
     rtol: float,
-    h: float = 1e-4,
-    largest_step: float = 0.05,
-    max_steps: int = 50_000,
+    limits: Limits = LIMITS,
     progress: Callable[[State], object] | None = None,
     keep: Callable[[State], None] | None = None,
 ) -> tuple[State, list[Record], int, str]:
@@ -92,7 +101,8 @@ def march(
     if _over(state, ends, turns):
         return state, records, attempts, ""
     tolerance = 3.0 * rtol**1.5  # second order: the error over a pulse goes as its power 2/3
-    while attempts < max_steps:
+    h = limits.first
+    while attempts < limits.most:
         if h < SHORTEST:
             return state, records, attempts, _stuck(state, "no step however short could be solved")
         attempts += 1
@@ -104,7 +114,7 @@ def march(
         if trial.error > tolerance:
             h = asked * max(0.2, 0.9 * (tolerance / trial.error) ** (1 / 3))
             continue
-        grown = min(asked * min(3.0, 0.9 * (tolerance / max(trial.error, 1e-300)) ** (1 / 3)), largest_step)
+        grown = min(asked * min(3.0, 0.9 * (tolerance / max(trial.error, 1e-300)) ** (1 / 3)), limits.longest)
         step = _until_event(model, state, trial, ends)
         if step is None:
             h = asked / 4
@@ -145,7 +155,7 @@ def march(
             h = max(min(asked, grown) / 8, AFRESH)
         else:
             h = grown
-    return state, records, attempts, f"stopped at t = {state.t:.6g} after {max_steps} steps"
+    return state, records, attempts, f"stopped at t = {state.t:.6g} after {limits.most} steps"
 
 
 def _over(state: State, ends: Ends, turns: int) -> bool:

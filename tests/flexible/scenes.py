@@ -6,7 +6,7 @@ import numpy as np
 
 from flexible.contact.points.data import NOTHING, no_bristles
 from flexible.models.state import State
-from flexible.time.adaptive import march
+from flexible.time.adaptive import Limits, march
 from flexible.time.events import Ends
 from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
 
@@ -34,10 +34,8 @@ def steps_of(hoop, state, t_end, step):
     """March in equal steps; the last state, the records and the states."""
     states = [state]
     count = round((t_end - state.t) / step)
-    last, records, _, ended = march(
-        hoop, state, Ends(t=t_end), 0.5, h=(t_end - state.t) / count * (1 + 1e-12),
-        largest_step=(t_end - state.t) / count * (1 + 1e-12), progress=states.append,
-    )  # fmt: skip
+    length = (t_end - state.t) / count * (1 + 1e-12)
+    last, records, _, ended = march(hoop, state, Ends(t=t_end), 0.5, Limits(length, length), progress=states.append)
     assert not ended
     return last, records, states
 
