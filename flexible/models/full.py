@@ -21,7 +21,7 @@ from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
 from .rim_contact import POINTS, RimContact
 from .stage import Predictor, largest
-from .state import Stage, State
+from .state import Errors, Stage, State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -234,27 +234,19 @@ class FullHoop(RimContact):
             gravity += mass * (1 + pos[1]) + s1 * c - s2 * s
         return float(kinetic), float(gravity), ring.strain_energy(u)
 
-    def momentum_error(self, state: State, beta: float, matrix: NewtonMatrix, error: Array) -> float:
+    def errors(self, state: State, beta: float, matrix: NewtonMatrix, error: Array, moved: Array) -> Errors:
         """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
-        ring, still = self.ring, np.zeros_like(state.vel)
-        with_error = inertia(ring, state.pos, still, error, beta)
-        without = inertia(ring, state.pos, still, still, beta)
-        load = (with_error.frame - without.frame) / beta**2, (with_error.ring - without.ring) / beta**2
-        frame, u = matrix.solve(*load)
-        slow = np.abs(self._slow @ u).max(initial=0.0) / (1 + ring.body.ring_mass) ** 0.5
-        return largest(np.array([frame[0] + frame[2], frame[1], frame[2], slow]))
-
-    def energy_error(self, state: State, beta: float, matrix: NewtonMatrix, error: Array, moved: Array) -> float:
-        """See :class:`flexible.models.state.Model`."""
         ring, still = self.ring, np.zeros_like(state.vel)
         without = inertia(ring, state.pos, still, still, beta)
         passed = []
         for change in (error, moved):
             with_change = inertia(ring, state.pos, still, change, beta)
             load = (with_change.frame - without.frame) / beta**2, (with_change.ring - without.ring) / beta**2
-            passed.append(np.concatenate(matrix.solve(*load)) / 2)
+            passed.append(np.concatenate(matrix.solve(*load)))
         rate, way = passed
-        after, before = (replace(state, pos=state.pos + s * way, vel=state.vel + s * rate) for s in (1, -1))
+        slow = np.abs(self._slow @ rate[3:]).max(initial=0.0) / (1 + ring.body.ring_mass) ** 0.5
+        size = largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow]))
+        after, before = (replace(state, pos=state.pos + s * way, vel=state.vel + s * rate) for s in (0.5, -0.5))
         own = inertia(ring, state.pos, state.vel, state.acc, beta)
-        forces = own.frame @ way[:3] + own.ring @ way[3:]
-        return float(sum(self.energies(after)) - sum(self.energies(before)) - 2 * forces)
+        work = own.frame @ way[:3] + own.ring @ way[3:]
+        return Errors(size, float(sum(self.energies(after)) - sum(self.energies(before)) - work))

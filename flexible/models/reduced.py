@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from ..contact.points.data import Before, Damper, Rim
-from ..ring.frame import energies, inertia
+from ..ring.frame import energies
 from ..ring.reduction import ReducedRing, reduce
 from .equilibrium import RestingModes
 from .rim_contact import POINTS, RimContact
-from .stage import Predictor, Window, filtered_error, largest, solve_stage
-from .state import Stage, State
+from .stage import Predictor, Window, filtered_errors, largest, solve_stage
+from .state import Errors, Stage, State
 
 Array = NDArray[np.float64]
 
@@ -96,17 +96,9 @@ class ReducedHoop(RimContact):
             strain += float(force @ compliance @ force) / 2
         return kinetic, gravity, strain
 
-    def momentum_error(self, state: State, beta: float, matrix: Array, error: Array) -> float:
+    def errors(self, state: State, beta: float, matrix: Array, error: Array, moved: Array) -> Errors:
         """See :class:`flexible.models.state.Model`."""
-        error = filtered_error(self.ring.frame, state.pos, state.vel, state.acc, beta, matrix, error)
-        ringing = np.abs(error[3:]).max(initial=0.0) / (1 + self.ring.frame.body.ring_mass) ** 0.5
-        return largest(np.array([error[0] + error[2], error[1], error[2], ringing]))
-
-    def energy_error(self, state: State, beta: float, matrix: Array, error: Array, moved: Array) -> float:
-        """See :class:`flexible.models.state.Model`."""
-        frame, pos, vel, acc = self.ring.frame, state.pos, state.vel, state.acc
-        error, moved = (filtered_error(frame, pos, vel, acc, beta, matrix, x) for x in (error, moved))
-        with_error = energies(frame, pos + moved / 2, vel + error / 2)
-        without = energies(frame, pos - moved / 2, vel - error / 2)
-        forces = inertia(frame, pos, vel, acc, beta)[0]
-        return float(sum(with_error) - sum(without) - forces @ moved)
+        frame = self.ring.frame
+        rate, energy = filtered_errors(frame, state.pos, state.vel, state.acc, beta, matrix, error, moved)
+        ringing = np.abs(rate[3:]).max(initial=0.0) / (1 + frame.body.ring_mass) ** 0.5
+        return Errors(largest(np.array([rate[0] + rate[2], rate[1], rate[2], ringing])), energy)

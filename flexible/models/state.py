@@ -57,6 +57,13 @@ class Stage(NamedTuple):
     bristles: Any = None
 
 
+class Errors(NamedTuple):
+    """Of a step."""
+
+    momentum: float  # an impulse over M: a tolerance is the same share of the impulses whatever the mass of the hoop
+    energy: float  # gained, beyond the work of all forces of the floor
+
+
 class Model(Protocol):
     """What the march needs of a level of fidelity."""
 
@@ -82,13 +89,9 @@ class Model(Protocol):
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity, ring strain."""
 
-    def momentum_error(self, state: State, beta: float, matrix: Any, error: Array) -> float:
-        """Size of an error in the velocities after a step that ended with Newton's ``matrix``: an impulse over M, so
-        that a tolerance is the same share of the impulses whatever the mass of the hoop."""
-
-    def energy_error(self, state: State, beta: float, matrix: Any, error: Array, moved: Array) -> float:
-        """Energy, beyond the work of all forces of the floor, that comes with an error in the velocities and ``moved``
-        in the positions."""
+    def errors(self, state: State, beta: float, matrix: Any, error: Array, moved: Array) -> Errors:
+        """Size and energy of an ``error`` in the velocities and ``moved`` in the positions, after a step whose last
+        matrix of Newton is ``matrix``."""
 
 
 @dataclass(frozen=True, slots=True)

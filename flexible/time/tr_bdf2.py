@@ -89,10 +89,9 @@ def _stages(model: Model, old: State, h: float) -> Step | None:
         old.t + h, x_C, pos, vel, acc, old.mode, second.window, second.u, second.nodal, res, second.bristles,
         slip_velocity, elastic_rate, feet_velocity,
     )  # fmt: skip
-    size = model.momentum_error(state, beta, second.matrix, error)
     moved = h * (ERROR_WEIGHTS[0] * vel0 + ERROR_WEIGHTS[1] * vel_mid + ERROR_WEIGHTS[2] * vel)
-    gained = model.energy_error(state, beta, second.matrix, error, moved)
-    return Step(state, size, (normal_impulse, friction_impulse), work, damped, -gained, off)
+    errors = model.errors(state, beta, second.matrix, error, moved)
+    return Step(state, errors.momentum, (normal_impulse, friction_impulse), work, damped, -errors.energy, off)
 
 
 def _solved(
