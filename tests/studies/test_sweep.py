@@ -241,7 +241,7 @@ def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(tmp_path):
     assert "6 cases" in announced
     assert is_one_sentence(interrupted)
     assert 1 <= len(Store(out).done()) < 6
-    assert process("study", "sweep", file, "--out", out, "--workers", 1, *slow).returncode == 0
+    assert process("study", "sweep", file, "--out", out, "--workers", 1, *slow, env=at_once(file)).returncode == 0
     assert_same_as_undisturbed(file, slow, out, tmp_path)
 
 
@@ -249,9 +249,13 @@ def assert_same_as_undisturbed(file: Path, solvers: list[str], out: Path, tmp_pa
     """The table in ``out`` is, to the last bit, that of the same sweep run at once."""
     calm = tmp_path / "undisturbed"
     line = ("study", "sweep", file, "--out", calm, "--workers", 1, *solvers)
-    done = process(*line, env=environment(HOOP_TEST_MARK=str(file)))
-    assert done.returncode == 0
+    assert process(*line, env=at_once(file)).returncode == 0
     assert written(calm) == written(out)
+
+
+def at_once(file: Path) -> dict[str, str]:
+    """An environment in which no solver of the tests waits, and none dies of what ``file`` stands for."""
+    return environment(HOOP_TEST_MARK=str(file), HOOP_TEST_PAUSE="0")
 
 
 def written(folder: Path) -> list[str]:
@@ -278,7 +282,7 @@ def test_kill_9_loses_no_finished_case_and_leaves_no_worker_behind(tmp_path):
         found = Store(out).get(key)
         assert found is not None
         assert len(found.histories) == len(found.pulses)
-    assert process("study", "sweep", file, "--out", out, "--workers", 1, *slow).returncode == 0
+    assert process("study", "sweep", file, "--out", out, "--workers", 1, *slow, env=at_once(file)).returncode == 0
     assert kept <= Store(out).done()
     assert_same_as_undisturbed(file, slow, out, tmp_path)
 
