@@ -7,7 +7,7 @@ from math import radians
 import pytest
 
 import flexible
-from flexible.limit import rigid_limit
+from flexible.contact.laws.listing import rigid_limit
 from rigid import Contact, Friction, Hoop, Release, Scene, scene_from_dict, simulate
 from studies.running.case import SHARE
 from studies.running.workers import cores, pool
