@@ -63,11 +63,13 @@ def profile(hoop: RimContact, state: State) -> Profile:
         stretch[1:-1], sliding[1:-1] = state.bristles.stretch[part], state.bristles.sliding[part]
         elastic = -law.parameters.eps_n * np.minimum(gap, 0.0)
         held = law.pulls(state, stretch, elastic)
+        # what the damper drags is shared like the pressure and ends with it, not with the bristles
+        dragged = state.res.damping * elastic / state.res.elastic if state.res.elastic > 0 else 0 * elastic
         inside = slice(on_floor[0], on_floor[-1] + 1)
         stick = np.where(law.slipping(state, sliding), SLIPS, STICKS)
         columns = [theta[inside], state.res.eta * elastic[inside], held[inside], stick[inside]]
         for end, way in ((on_floor[0], -1), (on_floor[-1], 1)):
-            share, pull = _beyond(gap, held, end, way, sticks)
+            share, pull = _beyond(gap, held - dragged, end, way, sticks)
             edge = [theta[end] + way * spacing * share, np.zeros(3), pull, np.full(3, FREE)]
             columns = [np.concatenate([e[::-1], c] if way < 0 else [c, e]) for c, e in zip(columns, edge, strict=True)]
         pieces.append(columns)

@@ -47,15 +47,18 @@ def test_the_ladder_raises_what_is_asked(along, moves):
 
 
 def test_every_case_is_resolved_to_a_tenth_of_its_distance(study):
-    """The third solver's error is its tolerance, so the tightening can be checked against the truth as
-    well."""
+    """The third solver misses the rigid value by a known law, and that law by its tolerance: so what a case calls
+    resolved, and the error that it states, can be held against the truth.
+    """
+    rigid = study.reference.pulses[0]
     for rung in study.rungs:
         assert rung.outcome.resolved
-        for name in ("impulse_ratio", "friction_loss"):
-            rigid = study.reference.pulses[0][name]
-            assert rung.error(name) <= SHARE * abs(rung.measure(name) - rigid)
-        exact = study.reference.pulses[0]["friction_loss"] * (1 - OFF * rung.contact_stiffness**-RATE)
-        assert abs(rung.measure("friction_loss") - exact) <= 1.001 * rung.error("friction_loss")
+        miss = OFF * rung.contact_stiffness**-RATE
+        for name, sign in (("impulse_ratio", 1), ("friction_loss", -1)):
+            exact = rigid[name] * (1 + sign * miss)
+            # the error is linear in the tolerance, for which the stated one, of a slower law, is an upper bound
+            assert abs(rung.measure(name) - exact) <= rung.error(name) * (1 + 1e-9)
+            assert abs(rung.measure(name) - exact) <= SHARE * abs(rung.measure(name) - rigid[name])
 
 
 def test_rate_and_limit_come_out(study):

@@ -92,6 +92,19 @@ def test_a_crash_and_a_run_without_end_are_told():
     assert "2 not: cut at the work bound (1, 2)" in report.text()
 
 
+def test_a_few_of_each_kind(hoop, tmp_path):
+    """36 scenes and the cycles, through processes, report and figure: none crashes, none breaks an invariant."""
+    status, out, err = hoop("stress", "--quick", "--scenes", 36, "--json", "--out", tmp_path)
+    found = json.loads(out)
+    assert found["failures"] == []
+    assert (status, err) == (0, "")
+    assert found["margins"]["rigid"]["energy"]["scenes"] == 30
+    assert set(found["completed"]) == set(run.KINDS)
+    assert found["margins"]["cycles"]["angle drifts"]["scenes"] >= 3
+    assert (tmp_path / "stress.png").stat().st_size > 10_000
+
+
+@pytest.mark.slow
 def test_quick_stress(hoop, tmp_path):
     """Rigid and flexible scenes and a thousand cycles: none crashes, none hangs, none breaks an invariant."""
     status, out, err = hoop("stress", "--quick", "--json", "--out", tmp_path)

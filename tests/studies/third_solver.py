@@ -48,8 +48,8 @@ def unfinished(scene: Scene, *, history: bool = False, progress: object = None) 
 
 
 def slow(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
-    """The same, slowly enough to be interrupted."""
-    time.sleep(0.7)
+    """The same, slowly enough to be interrupted, unless a test has no use for that."""
+    time.sleep(float(os.environ.get("HOOP_TEST_PAUSE", "0.7")))
     return softened(scene)
 
 
