@@ -86,7 +86,7 @@ def instants(motion: Motion, start: float, end: float) -> Array:
     """
     times = [np.linspace(start, end, EVEN + 1)]
     for middle in bottoms(motion):
-        width = sqrt(motion.scene.hoop.zeta) / abs(float(motion.at(middle).omega))
+        width = sqrt(motion.scene.hoop.constants.zeta) / abs(float(motion.at(middle).omega))
         reach = asinh(motion.t_end / width)
         count = ceil(reach / STEP)
         times.append(middle + width * np.sinh(np.linspace(-reach, reach, 2 * count + 1)))

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from math import asin, inf, pi, sin, sqrt, tan
 
-from ..kernel.angle import trig
-from ..kernel.compile import kernel
-from ..kernel.elliptic import r_f_and_r_j
-from ..kernel.layout import ECC, GYR, MU_S, ONE_MINUS_E, ZETA
-from ..kernel.polynomial import first_positive, value_and_slope
+from ...kernel.angle import trig
+from ...kernel.compile import kernel
+from ...kernel.elliptic import r_f_and_r_j
+from ...kernel.layout import ECC, GYR, MU_S, ONE_MINUS_E, ZETA
+from ...kernel.polynomial import first_positive, value_and_slope
 
 TIE = 1e-12  # |F| may exceed mu_s N by this fraction and still hold: round-off of a start on the edge
 
