@@ -68,7 +68,7 @@ def view(
         raise StudyError("--time needs --png FILE: it is the instant that is drawn.")
 
     from meshes import SeriesError
-    from meshes.view.pictures import ViewError, animate, picture, window
+    from meshes.view import Timing, ViewError, animate, picture, window
 
     from ..running.progress import bar
 
@@ -79,7 +79,7 @@ def view(
             picture(thing, png, time, **look)
         for file in films:
             with bar(file.name) as told:
-                animate(thing, file, progress=partial(_fraction, told), **look, **pacing)
+                animate(thing, file, **look, timing=Timing(**pacing), progress=partial(_fraction, told))
         if png is None and not films:
             window(thing, **look)
     except (ViewError, SeriesError) as error:
