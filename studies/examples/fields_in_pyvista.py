@@ -2,27 +2,28 @@
 
 from pathlib import Path
 
+import numpy as np
 import pyvista
 
 import flexible
 import meshes
 import rigid
-from flexible.output.fields import write_fields
 
 
 def main(out: Path = Path(), frames: int = 12) -> Path:
     scene = rigid.load_scene("paper-3.3-light").replace(solve={"rtol": 1e-2}, run={"until": "pulse"})
     motion = flexible.simulate(scene, history=True)
-    write_fields(motion, out / "fields", frames=frames)
+    flexible.write_fields(motion, out / "fields", frames=frames)
     series = meshes.read(out / "fields")
     reader = pyvista.get_reader(str(out / "fields" / "fields.pvd"))  # what ParaView opens too
-    forces = [float(series[i].data["normal_force"]) for i in range(len(series))]
-    reader.set_active_time_point(forces.index(max(forces)))
+    history = series.history
+    forces = np.interp(series.times, history["t"], history["normal_force"])
+    reader.set_active_time_point(int(np.argmax(forces)))
     ring = reader.read()[0]
     print(f"{ring.n_cells} cells, {ring.point_data.keys()}")
-    plotter = pyvista.Plotter(off_screen=True, window_size=(900, 700))
+    plotter = pyvista.Plotter(off_screen=True, window_size=[900, 700])
     plotter.add_mesh(ring, scalars="hoop_stress", cmap="RdBu_r")
-    plotter.view_xy()
+    plotter.camera_position = "xy"
     plotter.screenshot(out / "fields-in-pyvista.png")
     plotter.close()
     return out / "fields-in-pyvista.png"

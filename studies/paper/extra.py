@@ -11,8 +11,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure as Sheet
 
-from rigid import Hoop
-from rigid.thresholds import inception_mu_s
+from rigid import Hoop, inception_mu_s
 
 from ..running.files import write_text
 from ..running.history import rows_to_csv

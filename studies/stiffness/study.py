@@ -147,7 +147,6 @@ def stiffness_study(
     ladder: Ladder | None = None,
     *,
     solver: str = "flexible",
-    damping: float | None = None,
     all_pulses: bool = False,
     exponent: float | None = None,
     pool: Pool | None = None,
@@ -159,15 +158,13 @@ def stiffness_study(
     Parameters
     ----------
     scene : Scene
-        What is studied; the ladder varies its stiffness.
+        What is studied; the ladder varies its stiffness. Its ``contact.damping`` should not be 0: the normal force
+        jumps where slip ends or begins, and an undamped patch rings about it with an amplitude that does not
+        fall with stiffness: it lifts off, slips early, and tends to another limit than the rigid hoop.
     ladder : Ladder, optional
         By default nine rungs over six decades of both stiffnesses.
     solver : str
         Who runs the rungs: "flexible" or ``module:function``.
-    damping : float, optional
-        Damping ratio of the patch (see :class:`rigid.Contact`); by default the scene's own. The normal force
-        jumps where slip ends or begins, and an undamped patch rings about it with an amplitude that does not
-        fall with stiffness: it lifts off, slips early, and tends to another limit than the rigid hoop.
     all_pulses : bool
         Go through all pulses of the scene's run instead of the first alone; the limit is that of the first.
     exponent : float, optional
@@ -184,11 +181,9 @@ def stiffness_study(
     StudyError
         The rigid hoop has no pulse to study, or too few rungs came through to speak of a limit.
     """
-    from flexible.limit import rigid_limit
+    from flexible import rigid_limit
 
     ladder = ladder or Ladder.around(scene)
-    if damping is not None:
-        scene = scene.replace(contact={"damping": damping})
     pool = pool or Here()
     if not all_pulses:
         scene = scene.replace(run=Run(until="pulse"))

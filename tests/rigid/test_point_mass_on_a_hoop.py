@@ -12,8 +12,7 @@ from math import atan, radians, sqrt
 import numpy as np
 import pytest
 
-from rigid import Friction, Hoop, Kind, Release, Run, Scene, simulate
-from rigid.thresholds import rolling_mu_s
+from rigid import Friction, Hoop, Kind, Release, Run, Scene, rolling_mu_s, simulate
 
 ROUGH = Friction(1e6, 1e6)
 

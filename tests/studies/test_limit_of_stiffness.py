@@ -6,11 +6,10 @@ from math import radians
 
 import pytest
 
-from flexible.limit import rigid_limit
+from flexible import rigid_limit
 from rigid import Contact, Friction, Hoop, Release, Scene, simulate
+from studies import Ladder, stiffness_study
 from studies.running.workers import cores, pool
-from studies.stiffness.ladder import Ladder
-from studies.stiffness.study import stiffness_study
 
 LAWS = [("patch", 0.35), ("brush", 0.35), ("brush", 0.3)]
 ENOUGH = 1e-3  # of the impulse ratio, and of m g R
