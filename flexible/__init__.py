@@ -43,4 +43,8 @@ def __getattr__(name: str) -> object:
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
 __all__ = ["FlexibleMotion", "FlexiblePulse", "History", "Ledger", "rigid_limit", "simulate", "write_fields"]

@@ -1,4 +1,4 @@
-"""The structure of the code: imports point one way, among the packages and among the rooms of each.
+"""The structure of the code: imports point one way, among the packages and among the rooms of each; sizes.
 
 A room is a folder of modules. The modules at the top of a package are a room too; the faces (``__init__``) only pass
 on what their room holds.
@@ -7,6 +7,10 @@ on what their room holds.
 from __future__ import annotations
 
 import ast
+import importlib
+import subprocess
+import sys
+from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -91,3 +95,96 @@ def test_a_room_has_at_most_nine_modules() -> None:
         if path.name != "__init__.py":
             rooms.setdefault(room_of(module), []).append(path.stem)
     assert not {room: modules for room, modules in rooms.items() if len(modules) > MOST}
+
+
+def imports_of_names(path: Path) -> list[tuple[str, str]]:
+    """(module, name) of everything that a file imports from the packages by ``from ... import ...``."""
+    return [
+        (node.module, alias.name)
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ImportFrom) and not node.level and node.module in SOURCES
+        for alias in node.names
+        if f"{node.module}.{alias.name}" not in SOURCES
+    ]
+
+
+def test_what_a_face_has_is_taken_from_the_face() -> None:
+    faces = {package: set(importlib.import_module(package).__all__) for package in PACKAGES}
+    around = [
+        (path.name, module, name)
+        for path in [*SOURCES.values(), *(ROOT / "tests").rglob("*.py")]
+        for module, name in imports_of_names(path)
+        if module not in PACKAGES and name in faces[module.split(".")[0]]
+    ]
+    assert not around
+
+
+def test_nothing_private_leaves_its_package() -> None:
+    private = [
+        (module, name)
+        for module, path in SOURCES.items()
+        for source, name in imports_of_names(path)
+        if name.startswith("_") and source.split(".")[0] != module.split(".")[0]
+    ]
+    assert not private
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_a_face_has_what_it_lists(package: str) -> None:
+    face = importlib.import_module(package)
+    assert set(face.__all__) <= set(dir(face)), "dir() helps"
+    assert all(hasattr(face, name) for name in face.__all__)
+
+
+def test_a_face_is_light() -> None:
+    """What a package loads on demand only: scipy, a compiler, tables and figures take seconds."""
+    for package, heavy in (("rigid", "numba scipy"), ("studies", "numba scipy pandas matplotlib flexible")):
+        line = f"import sys, {package}; assert not set(sys.modules) & set({heavy.split()}), sys.modules.keys()"
+        subprocess.run([sys.executable, "-c", line], cwd=ROOT, check=True)
+
+
+LONGEST_FILE, LONGEST_FUNCTION, MOST_ARGUMENTS = 300, 80, 8
+"""Lines of a file, lines of a function without its docstring, arguments of a function."""
+
+UNMEASURED = ("flexible",)
+"""Packages to which the sizes do not apply yet."""
+
+MEASURED = {module: path for module, path in SOURCES.items() if module.split(".")[0] not in UNMEASURED}
+
+
+def functions(path: Path) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef]:
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            yield node
+
+
+def is_command(function: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
+    """Whether its arguments are the options of a command line, which click hands over one by one."""
+    return any(ast.unparse(decorator).split("(")[0].endswith(".command") for decorator in function.decorator_list)
+
+
+def test_files_are_short() -> None:
+    lines = {module: len(path.read_text(encoding="utf-8").splitlines()) for module, path in MEASURED.items()}
+    assert not {module: count for module, count in lines.items() if count > LONGEST_FILE}
+
+
+def test_functions_are_short() -> None:
+    long = {}
+    for module, path in MEASURED.items():
+        for function in functions(path):
+            docstring = ast.get_docstring(function, clean=False) or ""
+            lines = function.end_lineno - function.lineno + 1 - len(docstring.splitlines())
+            if lines > LONGEST_FUNCTION:
+                long[module, function.name] = lines
+    assert not long
+
+
+def test_functions_take_few_arguments() -> None:
+    many = {}
+    for module, path in MEASURED.items():
+        for function in functions(path):
+            taken = function.args.posonlyargs + function.args.args + function.args.kwonlyargs
+            count = len([argument for argument in taken if argument.arg not in ("self", "cls")])
+            if count > MOST_ARGUMENTS and not is_command(function):
+                many[module, function.name] = count
+    assert not many

@@ -8,8 +8,8 @@ import pytest
 
 from flexible import rigid_limit
 from rigid import Contact, Friction, Hoop, Release, Scene, simulate
-from studies import Ladder, stiffness_study
-from studies.running.workers import cores, pool
+from studies import Ladder, pool, stiffness_study
+from studies.running.workers import cores
 
 LAWS = [("patch", 0.35), ("brush", 0.35), ("brush", 0.3)]
 ENOUGH = 1e-3  # of the impulse ratio, and of m g R

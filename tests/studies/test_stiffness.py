@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from third_solver import OFF, RATE
 
-from flexible.limit import effective_mu_s, rigid_limit
+from flexible import rigid_limit
+from flexible.limit import effective_mu_s
 from rigid import Friction as Coefficients
 from rigid import Hoop, Release, Scene, SceneError, load_scene
 from studies import Ladder, StudyError, stiffness_study
