@@ -112,11 +112,6 @@ class Hoop:
         """Squared radius of gyration about G over the outer radius squared."""
         return self.constants.K
 
-    @property
-    def total_mass(self) -> float:
-        """Disk and hoop together, in the unit of ``m``."""
-        return self.m * (1 + self.mass_ratio)
-
 
 @dataclass(frozen=True, slots=True)
 class Friction:

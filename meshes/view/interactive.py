@@ -57,8 +57,8 @@ class Window:
             ("space", self.play),
             ("Right", lambda: self.step(1)),
             ("Left", lambda: self.step(-1)),
-            ("plus", lambda: self.stretch(2.0)),
-            ("minus", lambda: self.stretch(0.5)),
+            ("plus", lambda: self.exaggerate(2.0)),
+            ("minus", lambda: self.exaggerate(0.5)),
             ("c", self.next_field),
         ):
             self.plotter.clear_events_for_key(key, raise_on_missing=False)
@@ -95,7 +95,7 @@ class Window:
         self.slider.GetRepresentation().SetValue(time)
         self.go(time)
 
-    def stretch(self, ratio: float) -> None:
+    def exaggerate(self, ratio: float) -> None:
         """Change the display factor."""
         self.factor *= ratio
         self.go(self.time)

@@ -14,11 +14,12 @@ def main(out: Path = Path()) -> Path:
         contact={"stiffness": 1e8, "damping": 1.0}, solve={"rtol": 1e-3}, run={"until": "pulse"}
     )
     figure, axes = plt.subplots(layout="constrained")
-    for name, motion in (("rigid", rigid.simulate(scene)), ("flexible", flexible.simulate(scene))):
+    for solver, style in ((flexible, "C1"), (rigid, "k--")):
+        name, motion = solver.__name__, solver.simulate(scene)
         pulse = motion.pulses[0]
         print(f"{name:9} J_F/J_N = {pulse.impulse_ratio:.4f}, friction loss {pulse.friction_loss:.4f} m g R")
         states = motion.at(np.linspace(pulse.t_start, pulse.t_end, 2000))
-        axes.plot(states.phi, states.friction_force, label=f"{name}: $J_F/J_N$ = {pulse.impulse_ratio:.4f}")
+        axes.plot(states.phi, states.friction_force, style, label=f"{name}: $J_F/J_N$ = {pulse.impulse_ratio:.4f}")
     axes.set(xlabel=r"angle of the disk $\phi$", ylabel="friction force $F/(mg)$")
     axes.legend()
     figure.savefig(out / "pulse.png", dpi=150)

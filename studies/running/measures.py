@@ -48,11 +48,6 @@ class Measure:
         unit = self.unit.label(scene)
         return f"{self.symbol}\n[{unit}]" if unit else self.symbol
 
-    @property
-    def meaning(self) -> str:
-        """First line of the function's docstring."""
-        return (self.of.__doc__ or "").strip().splitlines()[0]
-
 
 MEASURES: dict[str, Measure] = {}
 

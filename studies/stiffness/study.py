@@ -20,7 +20,6 @@ from rigid import Run, Scene, scene_to_dict
 
 from ..running.case import Case, Outcome
 from ..running.files import StudyError
-from ..running.history import Columns
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
 from .ladder import Ladder
@@ -213,8 +212,3 @@ def stiffness_study(
         values, errors = [r.measure(name) for r in through], [r.error(name) for r in through]
         limits[name] = limit_of([r.stiffness for r in through], values, reference.pulses[0][name], errors, exponent)
     return StiffnessStudy(scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits)
-
-
-def first_pulse(outcome: Outcome) -> Columns | None:
-    """Time histories through the first pulse of an outcome, if it kept them."""
-    return outcome.histories[0] if outcome.histories else None

@@ -200,7 +200,7 @@ def test_the_window_steps_stretches_and_changes_colours(series):
     before = opened.renderer.image()
     opened.step(100)
     assert opened.time == pytest.approx(0.6, rel=1e-12)
-    opened.stretch(2.0)
+    opened.exaggerate(2.0)
     assert opened.factor == 2 * opened.setting.factor
     opened.next_field()
     assert opened.colours.field != "von_mises"

@@ -34,7 +34,7 @@ def test_batch_map(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_pulse(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert drawn(pulse.main(tmp_path))
-    rigid, flexible = (float(ratio) for ratio in re.findall(r"J_F/J_N = ([\d.]+)", capsys.readouterr().out))
+    flexible, rigid = (float(ratio) for ratio in re.findall(r"J_F/J_N = ([\d.]+)", capsys.readouterr().out))
     assert abs(rigid - flexible) < 0.02 * rigid  # the patch's half-width at a foundation of 1e8 is 0.025 R at peak N
 
 

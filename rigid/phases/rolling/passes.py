@@ -9,7 +9,7 @@ from typing import NamedTuple
 from ...kernel.angle import trig
 from ...kernel.compile import kernel
 from ...kernel.layout import ANGLE, OMEGA, S_MINUS, S_PLUS, S_SIN, TOP, WHOLE, ZETA
-from .closed_form import angle_at_time, pulse_edge, rest_to_ceiling, rolling_time, slip_edges, turning_point
+from .closed_form import angle_at_time, headroom_at, pulse_edge, rolling_time, slip_edges, turning_point
 
 # the places of interest on a pass
 SLIP_IN, PULSE_BEGINS, BOTTOM, PULSE_ENDS, SLIP_OUT, FAR_END = range(6)
@@ -21,7 +21,7 @@ class Place(NamedTuple):
     offset: float
     top: float
     time: float
-    rest: float
+    headroom: float
 
 
 class Pass(NamedTuple):
@@ -72,8 +72,8 @@ def side_of(a, top, d):
 def place_at(zeta, g, below, offset, top):
     """The place at an angle."""
     _, _, h, low = trig(offset, top)
-    rest = rest_to_ceiling(g, below, offset, top)
-    return Place(offset, top, rolling_time(zeta, g, h, low, rest), rest)
+    headroom = headroom_at(g, below, offset, top)
+    return Place(offset, top, rolling_time(zeta, g, h, low, headroom), headroom)
 
 
 @kernel
@@ -90,8 +90,8 @@ def put(state, side, place, bottom):
 @kernel
 def place_in(zeta, g, below, time):
     """The place that is reached at a time from the bottom."""
-    offset, top, rest = angle_at_time(zeta, g, below, time)
-    return Place(offset, top, time, rest)
+    offset, top, headroom = angle_at_time(zeta, g, below, time)
+    return Place(offset, top, time, headroom)
 
 
 @kernel
@@ -109,7 +109,7 @@ def pass_from(par, state, g, below, work):
     far_end = Place(turn_a, turn_top, t_turn, max(-below, 0.0))
     h_pulse = pulse_edge(zeta, g)
     edge_a, edge_top = half_angle(h_pulse)
-    edge_rest = rest_to_ceiling(g, below, edge_a, edge_top)
+    edge_rest = headroom_at(g, below, edge_a, edge_top)
     edge = Place(edge_a, edge_top, rolling_time(zeta, g, h_pulse, 2 - h_pulse, edge_rest), edge_rest)
     now = rolling_time(zeta, g, h, low, 0.5 * omega * omega * (zeta + 2 * h))
     y = tan(0.5 * abs(a))
@@ -117,11 +117,11 @@ def pass_from(par, state, g, below, work):
     if inner >= 0:
         slip_in = place_at(zeta, g, below, 2 * atan(inner), inner_top)
         if inner == y and inner_top == top:
-            slip_in = Place(slip_in.offset, slip_in.top, now, slip_in.rest)
+            slip_in = Place(slip_in.offset, slip_in.top, now, slip_in.headroom)
     if outer >= 0:
         slip_out = place_at(zeta, g, below, 2 * atan(outer), outer_top)
         if outer == y and outer_top == top:
-            slip_out = Place(slip_out.offset, slip_out.top, now, slip_out.rest)
+            slip_out = Place(slip_out.offset, slip_out.top, now, slip_out.headroom)
     return Pass(
         far_end,
         edge,

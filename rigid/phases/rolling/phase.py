@@ -85,7 +85,7 @@ def arrive(zeta, state, side, place, d, bottom, origin):
     """Go to a place: angle, phidot and the way rolled."""
     put(state, side, place, bottom)
     _, _, h, _ = trig(state[ANGLE], state[TOP])
-    state[OMEGA] = d * sqrt(2 * max(place.rest, 0.0) / (zeta + 2 * h))
+    state[OMEGA] = d * sqrt(2 * max(place.headroom, 0.0) / (zeta + 2 * h))
     state[SLIP] = 0.0
     state[X_C] = origin.x + advance_between(origin.a, origin.top, origin.whole, state[ANGLE], state[TOP], state[WHOLE])
 
