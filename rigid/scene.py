@@ -49,7 +49,7 @@ def hoop_constants(k: N, r: N, mass_ratio: N) -> HoopConstants[N]:
     return HoopConstants(e, one_minus_e, K, (K + one_minus_e**2) / e)
 
 
-def is_point_mass(hoop: HoopConstants[N]) -> Any:
+def is_point_mass(hoop: HoopConstants[N]) -> bool | NDArray[np.bool_]:
     """Whether nothing of a hoop but a mass on its rim is left to what a float holds."""
     return (hoop.K < 1e-100) & (hoop.one_minus_e < 1e-40)
 

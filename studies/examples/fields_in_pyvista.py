@@ -24,10 +24,10 @@ def main(out: Path = Path(), frames: int = 12) -> Path:
     plotter = pyvista.Plotter(off_screen=True, window_size=[900, 700])
     plotter.add_mesh(ring, scalars="hoop_stress", cmap="RdBu_r", scalar_bar_args={"title": "hoop stress / (m g/R²)"})
     plotter.camera_position = "xy"
-    plotter.enable_parallel_projection()
-    plotter.camera.focal_point = (ring.center[0], 0.1, 0.0)  # the contact
-    plotter.camera.position = (ring.center[0], 0.1, 1.0)
-    plotter.camera.parallel_scale = 0.2
+    plotter.camera.parallel_projection = True
+    plotter.camera.focal_point = (ring.center[0], 0.05, 0.0)  # the contact
+    plotter.camera.position = (ring.center[0], 0.05, 1.0)
+    plotter.camera.parallel_scale = 0.15
     plotter.screenshot(out / "fields-in-pyvista.png")
     plotter.close()
     return out / "fields-in-pyvista.png"

@@ -14,6 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import nan
+from pathlib import Path
 from typing import Any
 
 from rigid import Run, Scene, scene_to_dict
@@ -149,7 +150,7 @@ def stiffness_study(
     all_pulses: bool = False,
     exponent: float | None = None,
     pool: Pool | None = None,
-    out: Any = None,
+    out: str | Path | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> StiffnessStudy:
     """Run the study.
