@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import ast
 import importlib
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -15,6 +16,8 @@ from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
+
+from rigid.elastic import LAWS
 
 ROOT = Path(__file__).parent.parent
 PACKAGES = ("rigid", "meshes", "flexible", "studies")  # an import never points to one further right
@@ -146,10 +149,8 @@ def test_a_face_is_light() -> None:
 LONGEST_FILE, LONGEST_FUNCTION, MOST_ARGUMENTS = 300, 80, 8
 """Lines of a file, lines of a function without its docstring, arguments of a function."""
 
-UNMEASURED = ("flexible",)
-"""Packages to which the sizes do not apply yet."""
-
-MEASURED = {module: path for module, path in SOURCES.items() if module.split(".")[0] not in UNMEASURED}
+NOT_YET = {"flexible.output.fields", "flexible.ring.frame.inertia", "flexible.time.adaptive.march"}
+"""What is larger still, by name."""
 
 
 def functions(path: Path) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef]:
@@ -164,27 +165,49 @@ def is_command(function: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
 
 
 def test_files_are_short() -> None:
-    lines = {module: len(path.read_text(encoding="utf-8").splitlines()) for module, path in MEASURED.items()}
-    assert not {module: count for module, count in lines.items() if count > LONGEST_FILE}
+    lines = {module: len(path.read_text(encoding="utf-8").splitlines()) for module, path in SOURCES.items()}
+    assert not {module for module, count in lines.items() if count > LONGEST_FILE} - NOT_YET
 
 
 def test_functions_are_short() -> None:
-    long = {}
-    for module, path in MEASURED.items():
+    long = set()
+    for module, path in SOURCES.items():
         for function in functions(path):
             docstring = ast.get_docstring(function, clean=False) or ""
             lines = function.end_lineno - function.lineno + 1 - len(docstring.splitlines())
             if lines > LONGEST_FUNCTION:
-                long[module, function.name] = lines
-    assert not long
+                long.add(f"{module}.{function.name}")
+    assert not long - NOT_YET
 
 
 def test_functions_take_few_arguments() -> None:
-    many = {}
-    for module, path in MEASURED.items():
+    many = set()
+    for module, path in SOURCES.items():
         for function in functions(path):
             taken = function.args.posonlyargs + function.args.args + function.args.kwonlyargs
             count = len([argument for argument in taken if argument.arg not in ("self", "cls")])
             if count > MOST_ARGUMENTS and not is_command(function):
-                many[module, function.name] = count
-    assert not many
+                many.add(f"{module}.{function.name}")
+    assert not many - NOT_YET
+
+
+def test_a_friction_law_is_known_by_its_own_file_alone() -> None:
+    """The rest of the program asks :class:`flexible.contact.laws.law.Law`, and gets laws from where they are listed."""
+    laws = "flexible.contact.laws"
+    own = {f"{laws}.{name}" for name in LAWS}
+    known = {module: targets & own for module, targets in IMPORTS.items() if module != f"{laws}.listing"}
+    assert own <= set(SOURCES)
+    assert not {module: targets for module, targets in known.items() if targets}
+    words = re.compile(rf"([\"'])({'|'.join(LAWS)})\1")
+    allowed = own | {"rigid.elastic"}
+    said = {module for module, path in SOURCES.items() if words.search(code_of(path))} - allowed
+    assert said == {"studies.bench.truth.reference", "studies.readme"}  # a scene, and what is said of one
+
+
+def code_of(path: Path) -> str:
+    """Source without docstrings and comments."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            node.value.value = ""
+    return ast.unparse(tree)

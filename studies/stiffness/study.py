@@ -87,7 +87,7 @@ class StiffnessStudy:
     rigid: Outcome
     """The rigid hoop of the scene: the paper's law."""
     reference: Outcome
-    """The rigid hoop that the contact law is expected to tend to; another than ``rigid`` for a brush with
+    """The rigid hoop that the contact law is expected to tend to; another than ``rigid`` for some laws where
     mu_s > mu."""
     reference_mu_s: float
     """That hoop's static coefficient."""

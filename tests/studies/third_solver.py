@@ -22,7 +22,7 @@ OFF = 20.0
 def softened(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
     """The rigid motion of the scene that the contact law tends to, its pulses missed by the law above."""
     tended = scene
-    if scene.contact.law == "brush":  # only then is there need for the flexible package, which takes time to import
+    if scene.contact.law != "patch":  # only then is there need for the flexible package, which takes time to import
         from flexible import rigid_limit
 
         tended = rigid_limit(scene)
