@@ -1,8 +1,8 @@
 """The point mass on a massless hoop (k = 0, m_h = 0, r = 1), in closed form.
 
 Rolling, sin(phi/2) obeys S'' = S/4, so from rest sin(phi/2) = sin(phi0/2) cosh(t/2), with
-N = 2 cos^2(phi/2) - G/2 and F/N = tan(phi/2), G as in :mod:`rigid.phases.rolling.closed_form`. Where mu_s cannot hold that, the
-hoop skims: the mass falls freely, N = F = 0, until it hits the floor, where the motion ends.
+N = 2 cos^2(phi/2) - G/2 and F/N = tan(phi/2), G as in :mod:`rigid.phases.rolling.closed_form`. Where
+mu_s cannot hold that, the hoop skims: the mass falls freely, N = F = 0, until it hits the floor, where the motion ends.
 """
 
 # mypy: allow-untyped-defs
