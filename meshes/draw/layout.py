@@ -199,7 +199,7 @@ class Layout:
         _, top, width, height = self.view_box
         axes = self._axes(width - 5.2 * em, top + 0.8 * em, 0.9 * em, height * ABOVE_FLOOR - 1.8 * em)
         mapped = ScalarMappable(Normalize(colours.low, colours.high), style.colormap(colours.field))
-        signed = colours.field in style.SIGNED
+        signed = style.signed(colours.field)
         bar = self.figure.colorbar(mapped, cax=axes, extend="both" if signed else "max", ticks=MaxNLocator(5))
         bar.outline.set_visible(False)
         axes.tick_params(labelsize=0.85 * self.type, length=3, color=style.FAINT, labelcolor=style.INK)

@@ -106,7 +106,7 @@ class Window:
             return
         field = self.fields[(self.fields.index(self.colours.field) + 1) % len(self.fields)]
         shots = sampled(self.setting.source, 12)
-        self.colours = Colours(field, *limits(shots, field, field in style.SIGNED))
+        self.colours = Colours(field, *limits(shots, field, style.signed(field)))
         self.renderer.paint(self.colours)
         self._lay_out()
         self.go(self.time)

@@ -56,7 +56,7 @@ def setting(
     chosen = field or (names[0] if names else None)
     colours = None
     if chosen is not None:
-        colours = Colours(chosen, *limits(shots, chosen, chosen in style.SIGNED))
+        colours = Colours(chosen, *limits(shots, chosen, style.signed(chosen)))
     lens_factor = tidy_factor(shots, 0.06 / enlargement(first)) if factor is None else factor
     if factor is None:
         stored = first.ring.field_data.get("display_factor")
