@@ -21,7 +21,31 @@ In the order in which they build on each other:
 ``output``    displacement and stress, and all fields as a series on disk (not loaded here)
 """
 
+from typing import TYPE_CHECKING
+
 from .motion import FlexibleMotion, FlexiblePulse, History, Ledger
 from .solve import simulate
 
-__all__ = ["FlexibleMotion", "FlexiblePulse", "History", "Ledger", "simulate"]
+if TYPE_CHECKING:
+    from .contact.laws.listing import rigid_limit
+    from .output.fields import write_fields
+
+
+def __getattr__(name: str) -> object:
+    """Fields and the limit on demand: a motion needs neither."""
+    if name == "write_fields":
+        from .output.fields import write_fields
+
+        return write_fields
+    if name == "rigid_limit":
+        from .contact.laws.listing import rigid_limit
+
+        return rigid_limit
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
+__all__ = ["FlexibleMotion", "FlexiblePulse", "History", "Ledger", "rigid_limit", "simulate", "write_fields"]

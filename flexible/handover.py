@@ -76,7 +76,7 @@ def instants_around(motion: Motion, t: float) -> tuple[tuple[float, Side, float]
     phase, now = motion.phase_at(t), motion.at(t)
     unit = motion.scene.time_unit
     omega, alpha = float(now.omega) * unit, float(now.alpha) * unit**2
-    width = sqrt(motion.scene.hoop.zeta + 4 * cos(float(now.phi) / 2) ** 2)
+    width = sqrt(motion.scene.hoop.constants.zeta + 4 * cos(float(now.phi) / 2) ** 2)
     fastest = max(1.0, abs(omega) / width, 2 * abs(omega * alpha) / (1 + omega**2))
     step = min(SPAN * unit / fastest, (phase.t_end - phase.t_start) / 2)
     if not 0 < step < inf:

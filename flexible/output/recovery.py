@@ -20,7 +20,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from meshes.gradient import gauss_gradient, nodal_gradient
+from meshes import gauss_gradient, nodal_gradient
 
 from ..models.exact import ExactHoop
 from ..models.full import FullHoop

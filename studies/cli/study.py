@@ -104,8 +104,8 @@ def stiffness(
     from ..stiffness.study import stiffness_study
 
     described = load_scene(scene)
-    if law is not None:
-        described = described.replace(contact={"law": law})
+    contact = {"law": law, "damping": damping}
+    described = described.replace(contact={key: value for key, value in contact.items() if value is not None})
     ladder = Ladder.around(described, along, low, high, count)
     solver(solver_name)
     target = folder(out) if out is not None else None
@@ -114,7 +114,6 @@ def stiffness(
             described,
             ladder,
             solver=solver_name,
-            damping=damping,
             all_pulses=all_pulses,
             exponent=rate,
             pool=place,

@@ -13,7 +13,7 @@ from rich.console import Console
 from rigid import Motion, Scene, scene_from_dict
 
 from ..plots.sheet import Column, Sheet
-from ..running.measures import MEASURES, measures, phase_sequence, unit_in
+from ..running.measures import MEASURES, Unit, measures, phase_sequence
 from ..stiffness.summary import (
     LIMIT_HEADING,
     case_cells,
@@ -54,9 +54,9 @@ def show(*things: Any) -> None:
 
 def motion_tables(motion: Motion) -> list[Any]:
     """Phases, turns and pulses of a motion, and why it ended."""
-    time = f"[{unit_in('sqrt(R/g)', motion.scene)}]"
-    speed = f"[{unit_in('sqrt(gR)', motion.scene)}]"
-    energy = f"[{unit_in('mgR', motion.scene)}]"
+    time = f"[{Unit.TIME.label(motion.scene)}]"
+    speed = f"[{Unit.VELOCITY.label(motion.scene)}]"
+    energy = f"[{Unit.ENERGY.label(motion.scene)}]"
     phases = motion.phases
     shown: list[Any] = [
         Sheet(

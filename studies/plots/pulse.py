@@ -110,7 +110,7 @@ def _robust_limits(axes: Axes, values: list[np.ndarray], floor: bool = False) ->
 
 
 def impulses(curves: Sequence[Curve], mu: float) -> Figure:
-    """The pulse in impulse space: gathered friction impulse against gathered normal impulse.
+    """The pulse in impulse space: accumulated friction impulse against accumulated normal impulse.
 
     A slope of mu is skidding's opposite, spinning; -mu is skidding; anything flatter is rolling.
     """

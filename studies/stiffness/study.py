@@ -14,13 +14,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import nan
+from pathlib import Path
 from typing import Any
 
 from rigid import Run, Scene, scene_to_dict
 
 from ..running.case import Case, Outcome
 from ..running.files import StudyError
-from ..running.history import Columns
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
 from .ladder import Ladder
@@ -147,11 +147,10 @@ def stiffness_study(
     ladder: Ladder | None = None,
     *,
     solver: str = "flexible",
-    damping: float | None = None,
     all_pulses: bool = False,
     exponent: float | None = None,
     pool: Pool | None = None,
-    out: Any = None,
+    out: str | Path | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> StiffnessStudy:
     """Run the study.
@@ -159,15 +158,13 @@ def stiffness_study(
     Parameters
     ----------
     scene : Scene
-        What is studied; the ladder varies its stiffness.
+        What is studied; the ladder varies its stiffness. Its ``contact.damping`` should not be 0: the normal force
+        jumps where slip ends or begins, and an undamped patch rings about it with an amplitude that does not
+        fall with stiffness: it lifts off, slips early, and tends to another limit than the rigid hoop.
     ladder : Ladder, optional
         By default nine rungs over six decades of both stiffnesses.
     solver : str
         Who runs the rungs: "flexible" or ``module:function``.
-    damping : float, optional
-        Damping ratio of the patch (see :class:`rigid.Contact`); by default the scene's own. The normal force
-        jumps where slip ends or begins, and an undamped patch rings about it with an amplitude that does not
-        fall with stiffness: it lifts off, slips early, and tends to another limit than the rigid hoop.
     all_pulses : bool
         Go through all pulses of the scene's run instead of the first alone; the limit is that of the first.
     exponent : float, optional
@@ -184,11 +181,9 @@ def stiffness_study(
     StudyError
         The rigid hoop has no pulse to study, or too few rungs came through to speak of a limit.
     """
-    from flexible.contact.laws.listing import rigid_limit
+    from flexible import rigid_limit
 
     ladder = ladder or Ladder.around(scene)
-    if damping is not None:
-        scene = scene.replace(contact={"damping": damping})
     pool = pool or Here()
     if not all_pulses:
         scene = scene.replace(run=Run(until="pulse"))
@@ -218,8 +213,3 @@ def stiffness_study(
         values, errors = [r.measure(name) for r in through], [r.error(name) for r in through]
         limits[name] = limit_of([r.stiffness for r in through], values, reference.pulses[0][name], errors, exponent)
     return StiffnessStudy(scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits)
-
-
-def first_pulse(outcome: Outcome) -> Columns | None:
-    """Time histories through the first pulse of an outcome, if it kept them."""
-    return outcome.histories[0] if outcome.histories else None

@@ -106,7 +106,7 @@ def side_rows(study: StiffnessStudy) -> list[list[str]]:
     columns = [study.reference, *(r.outcome for r in study.rungs if not r.outcome.failure)]
     rows = []
     for name, entry in MEASURES.items():
-        unit = entry.unit_in(study.scene)
+        unit = entry.unit.label(study.scene)
         rows.append(
             [
                 f"{entry.symbol}, {unit}" if unit else entry.symbol,

@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from flexible import simulate
-from flexible.output.fields import FIELDS, write_fields
+from flexible import simulate, write_fields
+from flexible.output.fields import FIELDS
 from meshes import SeriesError, read
+from meshes.draw import style
 from rigid import load_scene
 
 ROOT = Path(__file__).parents[2]
@@ -235,7 +236,7 @@ def test_200_frames_in_50_megabytes(motion, tmp_path):
 
 def test_a_killed_run_leaves_whole_frames(tmp_path):
     code = (
-        "import sys; from flexible import simulate; from flexible.output.fields import write_fields\n"
+        "import sys; from flexible import simulate; from flexible import write_fields\n"
         "from rigid import load_scene\n"
         "scene = load_scene('paper-3.3-massless').replace(run={'until': 'pulse'}, solve={'rtol': 1e-2})\n"
         "motion = simulate(scene, history=True)\n"
@@ -316,3 +317,10 @@ def test_every_level_of_the_hoop_has_its_fields(level, tmp_path):
     write_fields(motion, tmp_path, times=history.t[steps], fields=("energy_density",))
     energy = [frame.blocks["ring"].cell_data["strain_energy"].sum() for frame in read(tmp_path)]
     np.testing.assert_allclose(energy, history.ring_strain[steps], rtol=1e-6, atol=1e-9 * max(energy))
+
+
+def test_every_field_that_is_written_has_a_name_and_a_unit():
+    """The stress is drawn by its components; where the contact sticks is no quantity."""
+    drawn = {*FIELDS, "stress xx", "stress yy", "stress xy"} - {"stress", "stick"}
+    assert drawn == set(style.FIELDS)
+    assert all(style.unit(field, {}) and style.unit(field, style.SI_UNITS) for field in drawn)

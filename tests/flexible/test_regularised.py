@@ -6,7 +6,7 @@ from scenes import HOOP
 
 import flexible
 import rigid
-from flexible.contact.laws.listing import rigid_limit
+from flexible import rigid_limit
 
 #: on a floor and a ring stiff enough that the smoothing is what is seen
 STIFF = HOOP.replace(

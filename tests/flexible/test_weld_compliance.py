@@ -8,7 +8,7 @@ from scipy.sparse.linalg import spsolve
 
 from flexible.ring.fem import Ring, membrane_stiffness, ring_of
 from flexible.ring.reduction import reduce
-from meshes.ring import ring_mesh
+from meshes import ring_mesh
 from rigid import Friction, Hoop, Release, Scene
 
 # C_rr in a^3/(E I) of a thin ring clamped at 0, loaded radially at the angle psi (Castigliano)

@@ -7,12 +7,11 @@ from math import radians
 import pytest
 
 import flexible
-from flexible.contact.laws.listing import rigid_limit
+from flexible import rigid_limit
 from rigid import Contact, Friction, Hoop, Release, Scene, scene_from_dict, simulate
+from studies import Ladder, pool, stiffness_study
 from studies.running.case import SHARE
-from studies.running.workers import cores, pool
-from studies.stiffness.ladder import Ladder
-from studies.stiffness.study import stiffness_study
+from studies.running.workers import cores
 
 LAWS = [("patch", 0.35), ("brush", 0.35), ("brush", 0.3)]
 ENOUGH = 1e-3  # of the impulse ratio, and of m g R

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from studies.stiffness.limits import limit_of, observed_rate, richardson
+from studies import limit_of
+from studies.stiffness.limits import observed_rate, richardson
 
 S = np.geomspace(1e7, 1e13, 9)
 

@@ -20,15 +20,15 @@ import pytest
 from command_line import HANGS, SCENE, command, environment, is_one_sentence, process
 
 from rigid import SceneError, load_scene, scene_from_dict, scene_to_dict
+from studies import StudyError, load_sweep, pool, run_sweep, sweep_from_dict
 from studies.machine.processes import Processes, WorkerDied
 from studies.running import files
 from studies.running.case import Case, run_case
-from studies.running.files import StudyError
 from studies.running.runs import Estimate, run_cases
 from studies.running.solvers import build
 from studies.running.store import Store
-from studies.running.workers import Here, pool
-from studies.sweep import MAX_CASES, load_sweep, run_sweep, sweep_from_dict
+from studies.running.workers import Here
+from studies.sweep import MAX_CASES
 
 KS = "[0.1, 0.15, 0.2, 0.25, 0.3, 0.35]"
 
