@@ -17,10 +17,11 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from .body import Body, arms, rolling_forces, rolling_inertia, sliding_force
-from .creep import creep
+from .creep import Creep, creep
 from .inner import Contact
 
-_ACCURACY = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-13}
+NO_CREEP = Creep(0.0, 0.0)
+_ACCURACY: Any = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-13}
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,14 +46,17 @@ class Stretch:
     pull: float | None
 
 
-def roll_along(body: Body, contact: Contact, stretch: Stretch, shift: Shift) -> tuple[Shift, float]:
-    """The shift at the end of a roll and phidot there; at its start the contact point has come to creep at once."""
+def roll_along(body: Body, contact: Contact | None, stretch: Stretch, shift: Shift) -> tuple[Shift, float]:
+    """The shift at the end of a roll and phidot there; at its start the contact point has come to creep at once.
+
+    Without a contact nothing creeps: what the rigid motion itself makes of a shift.
+    """
     way = copysign(1.0, stretch.omega)
 
     def at(psi: float, w: float) -> tuple[float, float, float, float, float]:
         omega = way * sqrt(w)
         normal, friction, alpha = rolling_forces(body, psi, omega)
-        slow = creep(contact, normal, friction, omega)
+        slow = NO_CREEP if contact is None else creep(contact, normal, friction, omega)
         return omega, alpha, slow.slip, slow.drag, rolling_inertia(body, psi)
 
     def rates(psi: float, y: Any) -> list[float]:
@@ -119,7 +123,9 @@ def delay_of_stop(body: Body, psi: float, omega: float, shift: Shift, pull: floa
     return -shift.slip / gains(body, psi, omega, pull)[1]
 
 
-def delay_of_break(body: Body, contact: Contact, psi: float, omega: float, shift: Shift) -> float:
+def delay_of_break(
+    body: Body, contact: Contact | None, mu_s: float, psi: float, omega: float, shift: Shift
+) -> float:
     """How much later in psi (per eps) a roll reaches |F| = mu_s N: phidot's shift, and what accelerates the creep."""
     normal, friction, alpha = rolling_forces(body, psi, omega)
     sign = 1.0 if friction > 0 else -1.0
@@ -129,9 +135,11 @@ def delay_of_break(body: Body, contact: Contact, psi: float, omega: float, shift
 
     def margin(psi: float, omega: float) -> float:
         normal, friction, _ = rolling_forces(body, psi, omega)
-        return sign * friction - contact.mu_s * normal
+        return sign * friction - mu_s * normal
 
     def slip(psi: float, omega: float) -> float:
+        if contact is None:
+            return 0.0
         normal, friction, _ = rolling_forces(body, psi, omega)
         return creep(contact, normal, friction, omega).slip
 
@@ -142,7 +150,7 @@ def delay_of_break(body: Body, contact: Contact, psi: float, omega: float, shift
     by_omega = (margin(psi, omega + span) - margin(psi, omega - span)) / (2 * span)
     a, b, _ = arms(body.e, body.one_minus_e, psi)
     inertia = rolling_inertia(body, psi)
-    by_creeping = (sign * (body.gyration + a * a) - contact.mu_s * a * b) / inertia
+    by_creeping = (sign * (body.gyration + a * a) - mu_s * a * b) / inertia
     return -(by_omega * shift.omega + by_creeping * creeping) / rise
 
 
