@@ -11,9 +11,9 @@ from math import inf, sqrt
 
 from scipy.optimize import brentq
 
-from .inner import BRUSH, REGULARISED, Contact
+from .inner import BRUSH, REGULARISED, ScaledContact
 
-assert Contact  # the parameters of every function here
+assert ScaledContact  # the parameters of every function here
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ def half_width(normal: float) -> float:
     return (1.5 * normal) ** (1 / 3)
 
 
-def creep(contact: Contact, normal: float, friction: float, omega: float) -> Creep:
+def creep(contact: ScaledContact, normal: float, friction: float, omega: float) -> Creep:
     """Steady rolling at ``omega`` under N and F; V is infinite where the law cannot carry F.
 
     ``patch``: z = V (s + A)/|Omega|, so F = -kappa V (2 A)^2/(2 |Omega|) - theta kappa 2 A V: the damper carries its

@@ -11,7 +11,7 @@ from rigid import Kind, Motion, Pulse, Run, Scene, simulate
 
 from ..files import StudyError
 from .body import Body, body_of
-from .inner import LAWS, Contact
+from .inner import LAWS, ScaledContact
 from .outer import Stretch
 from .scales import epsilon, theta_of
 
@@ -45,7 +45,7 @@ class Passage:
     scene: Scene
     """The hoop that the contact law tends to."""
     body: Body
-    contact: Contact
+    contact: ScaledContact
     pulse: Pulse
     start: float
     """psi at which the flexible hoop begins."""
@@ -59,12 +59,12 @@ class Passage:
     """Slip velocity at the start."""
 
 
-def scaled_contact(scene: Scene, damping: float | None = None) -> Contact:
+def scaled_contact(scene: Scene, damping: float | None = None) -> ScaledContact:
     """The contact of a scene in the scaled problem."""
     contact, friction = scene.contact, scene.friction
     mu_s = friction.mu if contact.law == "regularised" else friction.mu_s
     scale = getattr(contact, "slip_velocity_scale", 0.0) / epsilon(scene)
-    return Contact(LAWS[contact.law], contact.tangential_ratio, mu_s, friction.mu, theta_of(scene, damping), scale)
+    return ScaledContact(LAWS[contact.law], contact.tangential_ratio, mu_s, friction.mu, theta_of(scene, damping), scale)
 
 
 def passage(scene: Scene) -> Passage:

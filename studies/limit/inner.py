@@ -32,8 +32,8 @@ STATE = 10
 # columns of a record
 COLUMNS = ("tau", "normal_force", "friction_force", "slip", "height", "mode", "psi", "omega")
 
-Contact = namedtuple("Contact", ["law", "kappa", "mu_s", "mu", "theta", "slip_scale"])
-Contact.__doc__ = "Law, tangential ratio, coefficients, relaxation time and V_s on the scaled clock."
+ScaledContact = namedtuple("ScaledContact", ["law", "kappa", "mu_s", "mu", "theta", "slip_scale"])
+ScaledContact.__doc__ = "Law, tangential ratio, coefficients, relaxation time and V_s on the scaled clock."
 
 _arms = njit(error_model="numpy")(mechanics.arms)
 _NARROW = 0.2  # of the half-width at the start: a patch below it is taken to be that wide when a step is chosen

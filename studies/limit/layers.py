@@ -13,7 +13,7 @@ from .bristles import SIZE, bristles, set_stretch
 from .creep import creep, half_width
 from .events import START, Event
 from .inner import (
-    BRUSH, COLUMNS, HEIGHT, OMEGA, PATCH, PSI, RATE, REGULARISED, SLIDE_LEFT, SLIDE_RIGHT, SLIP, STATE, STICK, Contact,
+    BRUSH, COLUMNS, HEIGHT, OMEGA, PATCH, PSI, RATE, REGULARISED, SLIDE_LEFT, SLIDE_RIGHT, SLIP, STATE, STICK, ScaledContact,
     march,
 )  # fmt: skip
 
@@ -82,7 +82,7 @@ def period_of(body: Body, event: Event) -> float:
     return 2 * pi / sqrt(2 * half_width(normal) * (by_normal + pull * across))
 
 
-def layer(body: Body, contact: Contact, event: Event, duration: float | None = None, fineness: float = FINENESS) -> Layer:
+def layer(body: Body, contact: ScaledContact, event: Event, duration: float | None = None, fineness: float = FINENESS) -> Layer:
     """Solve the inner problem of an event.
 
     Parameters
@@ -119,7 +119,7 @@ def layer(body: Body, contact: Contact, event: Event, duration: float | None = N
     )  # fmt: skip
 
 
-def slip_behind(body: Body, contact: Contact, event: Event) -> float:
+def slip_behind(body: Body, contact: ScaledContact, event: Event) -> float:
     """The V with which the outer motion begins behind an event.
 
     Where the patch comes to roll it is the creep. Where it slides it is V less what the outer sliding makes of it, and

@@ -28,7 +28,7 @@ from scipy.special import ai_zeros
 from .body import Body, arms, rolling_forces, rolling_inertia
 from .creep import half_width
 from .events import Event
-from .inner import Contact
+from .inner import ScaledContact
 from .outer import Shift, passed
 
 EXPONENTS = {"brush": 6 / 5, "brush, mu_s > mu": 2 / 3, "regularised": 4 / 5}
@@ -82,7 +82,7 @@ def _balance(body: Body, event: Event, most: float) -> _Balance:
     return _Balance(sigma, normal, closing, mobility)
 
 
-def brush_lag(body: Body, contact: Contact, event: Event) -> Shift:
+def brush_lag(body: Body, contact: ScaledContact, event: Event) -> Shift:
     """Derivative by eps^(6/5) behind the start of a slip, brush with mu_s = mu."""
     sigma, normal, closing, mobility = _balance(body, event, contact.mu)
     full = contact.mu * half_width(normal) * abs(event.omega) / contact.kappa
@@ -90,7 +90,7 @@ def brush_lag(body: Body, contact: Contact, event: Event) -> Shift:
     return _kick(body, event, sigma * full * stuck * brush_end() ** 2 / 2)
 
 
-def regularised_gain(body: Body, contact: Contact, event: Event) -> Shift:
+def regularised_gain(body: Body, contact: ScaledContact, event: Event) -> Shift:
     """Derivative by v_s^(4/5) behind the start of a slip."""
     sigma, normal, closing, mobility = _balance(body, event, contact.mu)
     time = (contact.mu * normal * mobility**2 / (2 * closing**3)) ** (1 / 5)
@@ -103,7 +103,7 @@ def _kick(body: Body, event: Event, change: float) -> Shift:
     return Shift(-b * change / rolling_inertia(body, event.psi), change, 0.0)
 
 
-def brush_delay(body: Body, contact: Contact, event: Event, most: float) -> Shift:
+def brush_delay(body: Body, contact: ScaledContact, event: Event, most: float) -> Shift:
     """Derivative by eps^(2/3) behind the start of a slip, brush with mu_s > mu that carries ``most`` N."""
     _, normal, closing, mobility = _balance(body, event, most)
     mu_s, mu = contact.mu_s, contact.mu

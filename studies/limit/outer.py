@@ -18,7 +18,7 @@ from scipy.integrate import solve_ivp
 
 from .body import Body, arms, rolling_forces, rolling_inertia, sliding_force
 from .creep import Creep, creep
-from .inner import Contact
+from .inner import ScaledContact
 
 NO_CREEP = Creep(0.0, 0.0)
 _ACCURACY: Any = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-13}
@@ -46,7 +46,7 @@ class Stretch:
     pull: float | None
 
 
-def roll_along(body: Body, contact: Contact | None, stretch: Stretch, shift: Shift) -> tuple[Shift, float]:
+def roll_along(body: Body, contact: ScaledContact | None, stretch: Stretch, shift: Shift) -> tuple[Shift, float]:
     """The shift at the end of a roll and phidot there; at its start the contact point has come to creep at once.
 
     Without a contact nothing creeps: what the rigid motion itself makes of a shift.
@@ -124,7 +124,7 @@ def delay_of_stop(body: Body, psi: float, omega: float, shift: Shift, pull: floa
 
 
 def delay_of_break(
-    body: Body, contact: Contact | None, mu_s: float, psi: float, omega: float, shift: Shift
+    body: Body, contact: ScaledContact | None, mu_s: float, psi: float, omega: float, shift: Shift
 ) -> float:
     """How much later in psi (per eps) a roll reaches |F| = mu_s N: phidot's shift, and what accelerates the creep."""
     normal, friction, alpha = rolling_forces(body, psi, omega)
