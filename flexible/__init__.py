@@ -10,19 +10,14 @@ A :class:`rigid.Scene` goes in, a :class:`FlexibleMotion` comes out::
 
 In the order in which they build on each other:
 
-the ring       ``ring`` its elasticity, ``reduction`` to modes and static compliance, ``nodal`` all nodes
-the frame      ``frame`` inertia in axes that float on the disk
-the contact    ``points`` of the rim near the floor, ``foundation`` under them, ``friction`` along it,
-               ``tangent`` from points to unknowns, ``contact`` all of it together, ``touch`` the law and the window
-               of a scene
-the levels     ``reduced``, ``full``, ``exact`` hoops behind one interface, ``levels`` which a scene gets
-time           ``step`` one implicit stage, ``state`` an instant and what is kept of it, ``trial`` one step,
-               ``march`` adaptive steps and located events
-a run          ``rest`` equilibrium, ``start`` hand-over from a rigid motion, ``limit`` the rigid hoop a law tends
-               to, ``solve`` simulate(scene), ``pieces`` what it is put together from, ``stretch`` records read as
-               phases and pulses, ``units``, ``motion`` what comes back
-fields         ``interior`` displacement and stress, ``profile`` of the patch, ``rim``, ``curves``,
-               ``fields`` all of it as a series on disk
+``ring``      its elasticity and inertia, from the mesh to modes and static compliance
+``contact``   points of the rim near the floor, the foundation under them, friction along it
+``models``    a hoop that can be moved in time: reduced, all nodes, geometrically exact
+``time``      one implicit step; adaptive steps with located events
+``handover``  where a flexible segment begins: in the equilibrium of a rigid motion
+``solve``     simulate(scene); ``limit`` the rigid hoop that a contact law tends to, ``builder`` what a motion is put
+              together from, ``segment`` records read as phases and pulses, ``units``, ``motion`` what comes back
+``output``    displacement and stress, and all fields as a series on disk (not loaded here)
 """
 
 from .motion import FlexibleMotion, FlexiblePulse, History, Ledger

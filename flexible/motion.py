@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from rigid import Motion, Phase, Pulse
 
 if TYPE_CHECKING:
-    from .full import FullHoop
-    from .reduced import ReducedHoop
-    from .state import State
+    from .models.full import FullHoop
+    from .models.reduced import ReducedHoop
+    from .models.state import State
 
 Array = NDArray[np.float64]
 

@@ -16,15 +16,15 @@ from math import inf
 import rigid
 from rigid import Kind, Release, Run, Scene
 
-from .contact import STICK
-from .levels import Hoop as FlexibleHoop
-from .levels import Range, hoop_of
+from .builder import Builder
+from .contact.forces import STICK
+from .handover import hand_over
 from .limit import rigid_limit
+from .models.select import Hoop as FlexibleHoop
+from .models.select import Range, hoop_of
+from .models.state import State
 from .motion import FlexibleMotion
-from .pieces import Builder
-from .start import hand_over
-from .state import State
-from .trial import MarchError
+from .time.tr_bdf2 import MarchError
 from .units import dimensionless
 
 Progress = Callable[[float], object]

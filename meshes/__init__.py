@@ -8,9 +8,8 @@
 ``vtu``      a block to a VTU file and back
 ``series``   frames in time to PVD + VTU and back
 ``exchange`` the mesh to other programs, by meshio
-``view``     pictures, animations and a window: ``picture``, ``animate``, ``window`` (not loaded here);
-             behind it ``setting``, ``subject`` (what is shown), ``scales``, ``looks``, ``stage`` (VTK),
-             ``lens``, ``sheet`` (type and curves), ``film`` (files), ``window``, ``renderer``
+``view``     pictures, animations and a window: ``picture``, ``animate``, ``window`` (not loaded here)
+``draw``     what these are made of
 """
 
 from .fields import Block, Frame, SeriesError, disk_block, floor_block, rim_block, ring_block

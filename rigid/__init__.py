@@ -12,10 +12,10 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
 ``scenefile``  TOML to scene and back, the paper's scenes by name
 ``motion``     the vocabulary that both solvers speak
 ``solve``      one scene to its motion; ``batch`` many at once; ``thresholds`` where rolling ends
-``rolling``, ``slipping``, ``flight``, ``impact``, ``pointmass``  the mechanics of each kind of phase
-``swing``, ``slide``, ``machine``  a phase run to its end, and which one is next
-``pulse``      the measures of a pulse; ``history`` any instant of a motion
-``kernel``     why all of this runs both interpreted and compiled
+``history``    any instant of a motion
+``phases``     the mechanics of each kind of phase, and which one is next
+``record``     what a phase leaves behind; the measures of a pulse
+``kernel``     what phases are computed with, and why all of this runs both interpreted and compiled
 """
 
 from .allowed import SceneError

@@ -12,11 +12,11 @@ from math import inf, pi
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import layout as at
 from .allowed import SceneError
-from .angle import PI_LOW, angle_of, chart
-from .kernel import compiled, kernel
-from .layout import (
+from .kernel import layout as at
+from .kernel.angle import PI_LOW, angle_of, chart
+from .kernel.compile import compiled, kernel
+from .kernel.layout import (  # fmt: skip
     ANGLE,
     MORE,
     OMEGA,
@@ -31,11 +31,11 @@ from .layout import (
     WHOLE,
     WIDTH,
     T,
-)  # fmt: skip
-from .machine import entry_run
+)
 from .motion import Array
+from .phases.choice import entry_run
+from .phases.slipping import ORDER, SERIES
 from .scene import Friction, Hoop, Landing, Release, Scene
-from .slipping import ORDER, SERIES
 from .solve import LEVEL, NOTHING_AT_ALL, TAPE_RECORDS, UNTIL_CODES, reason
 from .solve import STEPS as WORK
 

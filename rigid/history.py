@@ -5,10 +5,9 @@ from __future__ import annotations
 
 from math import inf
 
-from .angle import angle_of, trig
-from .flight import fly
-from .kernel import kernel
-from .layout import (
+from .kernel.angle import angle_of, trig
+from .kernel.compile import kernel
+from .kernel.layout import (  # fmt: skip
     ANGLE,
     FLIGHT,
     GAP,
@@ -28,14 +27,15 @@ from .layout import (
     X_C,
     XDOT,
     T,
-)  # fmt: skip
-from .pointmass import drop, roll_point_mass
-from .polynomial import polish, value
-from .pulse import energy
-from .rolling import rolling_forces
-from .slide import NOTHING_YET, carry, end_of_slip, step
-from .slipping import JAM, ORDER, S_D, S_P, S_T, normal_force
-from .swing import roll_on
+)
+from .kernel.polynomial import polish, value
+from .phases.flight import fly
+from .phases.pointmass import drop, roll_point_mass
+from .phases.rolling import rolling_forces
+from .phases.rolling_phase import roll_on
+from .phases.slipping import JAM, ORDER, S_D, S_P, S_T, normal_force
+from .phases.slipping_phase import NOTHING_YET, carry, end_of_slip, step
+from .record.pulse import energy
 
 MOST_STEPS = 400_000  # in one phase: beyond the work bound of the motion itself
 COLUMNS = 8  # phi, omega, x_C, height of the contact point, slip velocity, N, F, energy

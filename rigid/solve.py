@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 
 from . import history
-from . import layout as at
-from .angle import PI_LOW, angle_of, chart
-from .kernel import compiled
-from .machine import MOST_STALLS, entry_run
+from .kernel import layout as at
+from .kernel.angle import PI_LOW, angle_of, chart
+from .kernel.compile import compiled
 from .motion import Array, Kind, Motion, Phase, Pulse, States, Turn
+from .phases.choice import MOST_STALLS, entry_run
+from .phases.rolling_phase import LISTED_PERIODS
+from .phases.slipping import ORDER, SERIES
 from .scene import Scene
-from .slipping import ORDER, SERIES
-from .swing import LISTED_PERIODS
 
 KINDS = {
     at.ROLL: Kind.ROLL, at.SKID: Kind.SKID, at.SPIN: Kind.SPIN,
@@ -54,7 +54,7 @@ _interpreted_steps = 0
 
 
 def parameters(scene: Scene) -> list[float]:
-    """The constants of a motion, R = g = M = 1 (see :mod:`rigid.layout`)."""
+    """The constants of a motion, R = g = M = 1 (see :mod:`rigid.kernel.layout`)."""
     hoop, run = scene.hoop, scene.run
     gyr, one_minus_e, e = hoop.K, hoop.one_minus_e, hoop.e
     if gyr < 1e-100 and one_minus_e < 1e-40:
@@ -79,7 +79,7 @@ def parameters(scene: Scene) -> list[float]:
 
 
 def release_state(scene: Scene) -> list[float]:
-    """The state at t = 0 (see :mod:`rigid.layout`)."""
+    """The state at t = 0 (see :mod:`rigid.kernel.layout`)."""
     release = scene.release
     state = [0.0] * at.STATE
     turns = float(floor(release.phi0 / (2 * pi) + 0.5))

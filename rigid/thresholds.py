@@ -10,9 +10,9 @@ from math import inf, tan
 import numpy as np
 from scipy.optimize import brentq
 
-from .angle import trig
-from .layout import MU_S, ZETA
-from .rolling import ceiling, margin_polynomials, rolling_forces, turning_point
+from .kernel.angle import trig
+from .kernel.layout import MU_S, ZETA
+from .phases.rolling import ceiling, margin_polynomials, rolling_forces, turning_point
 from .scene import Friction, Hoop, Release, Scene
 from .solve import parameters, release_state
 

@@ -181,7 +181,7 @@ def reproduce(out: Path, progress: Progress | None = None) -> list[Row]:
     import matplotlib
     from matplotlib.figure import Figure
 
-    from .figures import STYLE
+    from .plots.pulse import STYLE
 
     out.mkdir(parents=True, exist_ok=True)
     figures = drawings()

@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 
 from rigid import Scene, SceneError, load_scene, scene_from_dict, scene_to_dict
 
-from .case import Case, Outcome
-from .files import trouble
-from .history import rows_to_csv
-from .measures import MEASURES
-from .runs import run_cases
-from .solvers import version
-from .workers import Pool
+from .running.case import Case, Outcome
+from .running.files import trouble
+from .running.history import rows_to_csv
+from .running.measures import MEASURES
+from .running.runs import run_cases
+from .running.solvers import version
+from .running.workers import Pool
 
 if TYPE_CHECKING:
     import pandas

@@ -53,7 +53,7 @@ def test_long_commands_run(tmp_path: Path) -> None:
 
 
 def renders() -> bool:
-    from meshes.renderer import renderer_problem
+    from meshes.draw.display import renderer_problem
 
     return renderer_problem() is None
 

@@ -13,7 +13,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
-from ..figures import OKABE_ITO, STYLE, save
+from ..plots.pulse import OKABE_ITO, STYLE, save
 from .race import Result, Row
 
 _MARKERS = "osv^DPX*<>h"

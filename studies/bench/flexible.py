@@ -9,10 +9,10 @@ from typing import Any
 import flexible
 from rigid import Motion, Scene
 
-from . import reference
-from .peers import installed
+from .peers.scipy_ivp import installed
 from .race import Claim, Contestant, Result, Row, race
 from .skipped import skipped
+from .truth import reference
 
 SCENE_A, SCENE_B, MASSLESS = "scene A, full roll", "scene B, pulse", "massless pulse"
 BEST = "rtol 1e-03"
@@ -44,7 +44,7 @@ def _motion(scene: Scene) -> Callable[[], reference.Measured]:
 
 def _hoop(scene: Scene, **options: int) -> Callable[[], reference.Measured]:
     """Scene B with another number of modes or contact points."""
-    from flexible.reduced import ReducedHoop
+    from flexible.models.reduced import ReducedHoop
 
     return lambda: reference.run_hoop(scene, ReducedHoop(scene, **options))
 
@@ -93,7 +93,7 @@ def contestants_rest(quick: bool) -> list[Contestant]:
 
 def _exudyn(quick: bool) -> list[Contestant]:
     """Exudyn's beam ring, where it is installed."""
-    from .exudyn_ring import turn
+    from .peers.exudyn_ring import turn
 
     true = reference.limit()
 

@@ -12,10 +12,10 @@ import numpy as np
 import rigid
 from rigid import Friction, Hoop, Release, Run, Scene, simulate, simulate_batch, solve
 
-from . import peers
-from .precision import DISKS, MU, MU_S, PHI0
-from .precision_values import TURNS
+from .peers import scipy_ivp as peers
 from .race import Claim, Contestant, Result, Row, race
+from .truth.precision import DISKS, MU, MU_S, PHI0
+from .truth.precision_values import TURNS
 
 TURNS_ASKED = 2
 TOLERANCES = (1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
@@ -138,7 +138,7 @@ def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[floa
 
 def _exudyn() -> list[Contestant]:
     """Exudyn's roll, for the disk of section 3.1 (smaller ones want smaller steps than anyone would wait for)."""
-    from .exudyn_roll import SETTINGS, roll_turns
+    from .peers.exudyn_roll import SETTINGS, roll_turns
 
     k = DISKS[0]
     return [

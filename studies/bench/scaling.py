@@ -9,9 +9,9 @@ import flexible
 from rigid import Release, load_scene, simulate
 from rigid.solve import PATIENCE
 
-from . import reference
 from .race import Claim, Contestant, Result, Row, exponent, race
 from .rigid import batch_of
+from .truth import reference
 
 STIFFNESS, CYCLES, PULSES, MESH, BATCH, WORKERS, STEPS = (
     "foundation", "turns (rigid)", "turns (flexible)", "elements", "scenes in a batch", "workers", "time of one run",
@@ -52,9 +52,9 @@ def _mesh(elements: int) -> Contestant:
 
 def _long_run(steps: int) -> Contestant:
     """A flexible run of so many steps without history."""
-    from flexible.march import march
-    from flexible.reduced import ReducedHoop
-    from flexible.start import hand_over
+    from flexible.handover import hand_over
+    from flexible.models.reduced import ReducedHoop
+    from flexible.time.adaptive import march
 
     scene = reference.scene_b(1e-3)
     scene = scene.replace(release=Release(2.9, 0.0), run={"t_end": 20.0}, solve={"start": "equilibrium"})

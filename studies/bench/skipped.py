@@ -11,8 +11,8 @@ from typing import Any
 import flexible
 from rigid import Scene, load_scene
 
-from . import reference
 from .race import Contestant, Row, race, wall_of
+from .truth import reference
 
 SCENE = "skipped"
 
@@ -22,7 +22,7 @@ def _command(*words: str) -> list[str]:
 
 
 def _forget_rings() -> None:
-    from flexible import ring
+    from flexible.ring import fem as ring
 
     for function in vars(ring).values():
         if hasattr(function, "cache_clear"):
@@ -30,7 +30,7 @@ def _forget_rings() -> None:
 
 
 def _fields(scene: Scene) -> None:
-    from flexible.fields import write_fields
+    from flexible.output.fields import write_fields
 
     motion = flexible.simulate(scene, history=True)
     with TemporaryDirectory() as folder:

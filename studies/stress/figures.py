@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from rigid import Scene
 
-from ..figures import STYLE, save
+from ..plots.pulse import STYLE, save
 from .run import FLEXIBLE, RIGID, Finding, Report
 
 _FLOOR = 1e-8  # margins below this are drawn as this

@@ -14,7 +14,7 @@ from typing import Any
 
 from rigid import Scene
 
-from ..workers import cores
+from ..running.workers import cores
 from .checks import Margins, toml
 
 RIGID, FLEXIBLE, CYCLES = "rigid", "flexible", "cycles"

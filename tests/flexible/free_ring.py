@@ -4,7 +4,7 @@ import numpy as np
 from scipy.sparse.linalg import eigsh, splu
 from skfem import ElementQuad2, ElementVector, FacetBasis, LinearForm
 
-from flexible.ring import Ring
+from flexible.ring.fem import Ring
 from meshes.ring import ring_mesh
 
 

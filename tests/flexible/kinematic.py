@@ -4,8 +4,8 @@ from math import pi
 
 import numpy as np
 
-from flexible.contact import BRUSH, UNDAMPED, contact_forces
-from flexible.points import element_at
+from flexible.contact.detection import element_at
+from flexible.contact.forces import BRUSH, UNDAMPED, contact_forces
 
 VERTEX = -pi + 2 * pi / 240 * np.arange(240)
 

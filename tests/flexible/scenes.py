@@ -4,9 +4,9 @@ from math import pi
 
 import numpy as np
 
-from flexible.contact import RESULTANTS, STICK
-from flexible.march import march
-from flexible.state import State
+from flexible.contact.forces import RESULTANTS, STICK
+from flexible.models.state import State
+from flexible.time.adaptive import march
 from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
 
 #: the hoop of the paper's sec. 3.3, on a floor soft enough to be quick

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from kinematic import VERTEX, Rim
 
-from flexible.contact import (
+from flexible.contact.detection import element_at
+from flexible.contact.forces import (
     BEYOND,
     BRISTLE_ENERGY,
     BRUSH,
@@ -20,7 +21,6 @@ from flexible.contact import (
     UNDAMPED,
     contact_forces,
 )
-from flexible.points import element_at
 
 EPS = 1e6
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from flexible import simulate
-from flexible.fields import FIELDS, write_fields
+from flexible.output.fields import FIELDS, write_fields
 from meshes import SeriesError, read
 from rigid import load_scene
 
@@ -230,7 +230,7 @@ def test_200_frames_below_two_seconds_and_50_megabytes(motion, tmp_path):
 
 def test_a_killed_run_leaves_whole_frames(tmp_path):
     code = (
-        "import sys; from flexible import simulate; from flexible.fields import write_fields\n"
+        "import sys; from flexible import simulate; from flexible.output.fields import write_fields\n"
         "from rigid import load_scene\n"
         "scene = load_scene('paper-3.3-massless').replace(run={'until': 'pulse'}, solve={'rtol': 1e-2})\n"
         "motion = simulate(scene, history=True)\n"

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from scenes import HOOP, energy, flying, steps_of
 
-from flexible.frame import RING_MASS, energies, inertia
-from flexible.full import FullHoop
-from flexible.nodal import inertia as nodal_inertia
-from flexible.reduced import ReducedHoop
-from flexible.trial import restart
+from flexible.models.full import FullHoop
+from flexible.models.reduced import ReducedHoop
+from flexible.ring.frame import RING_MASS, energies, inertia
+from flexible.ring.nodal import inertia as nodal_inertia
+from flexible.time.tr_bdf2 import restart
 
 COARSE = HOOP.replace(solve={"elements": 48})
 

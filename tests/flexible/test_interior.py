@@ -5,9 +5,9 @@ import pytest
 from scipy.sparse.linalg import spsolve
 
 from flexible import simulate
-from flexible.interior import ExactInterior, Interior, interior_of
-from flexible.profile import profile
-from flexible.ring import Ring
+from flexible.output.patch import profile
+from flexible.output.recovery import ExactInterior, Interior, interior_of
+from flexible.ring.fem import Ring
 from meshes import hoop_stress, ring_mesh
 from rigid import load_scene
 

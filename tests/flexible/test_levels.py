@@ -5,16 +5,16 @@ import pytest
 from scenes import HOOP
 
 import flexible
-from flexible.contact import BRUSH, NORMAL, SLIDE_RIGHT, UNDAMPED, contact_forces
-from flexible.exact import ExactElasticity, ExactHoop
-from flexible.full import FullHoop, NewtonMatrix, _Factored
-from flexible.levels import FAR, Range, hoop_of
-from flexible.march import march
-from flexible.nodal import inertia
-from flexible.reduced import ReducedHoop
-from flexible.ring import ring_of
-from flexible.start import Pose, equilibrium, undeformed
-from flexible.trial import MarchError
+from flexible.contact.forces import BRUSH, NORMAL, SLIDE_RIGHT, UNDAMPED, contact_forces
+from flexible.handover import Pose, equilibrium, undeformed
+from flexible.models.exact import ExactElasticity, ExactHoop
+from flexible.models.full import FullHoop, NewtonMatrix, _Factored
+from flexible.models.reduced import ReducedHoop
+from flexible.models.select import FAR, Range, hoop_of
+from flexible.ring.fem import ring_of
+from flexible.ring.nodal import inertia
+from flexible.time.adaptive import march
+from flexible.time.tr_bdf2 import MarchError
 from flexible.units import dimensionless
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
 

@@ -8,11 +8,11 @@ from scenes import HOOP, energy, flying, steps_of
 
 import flexible
 import rigid
-from flexible.contact import FRICTION, NORMAL, SLIDE_LEFT, SLIDE_RIGHT, STICK
-from flexible.march import march
-from flexible.reduced import ReducedHoop
-from flexible.start import Pose, equilibrium, hand_over, pose_at
-from flexible.trial import restart
+from flexible.contact.forces import FRICTION, NORMAL, SLIDE_LEFT, SLIDE_RIGHT, STICK
+from flexible.handover import Pose, equilibrium, hand_over, pose_at
+from flexible.models.reduced import ReducedHoop
+from flexible.time.adaptive import march
+from flexible.time.tr_bdf2 import restart
 
 #: just before its pulse, fast
 PULSE = HOOP.replace(release={"phi0": 2.4, "omega0": 1.5})

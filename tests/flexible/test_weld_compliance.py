@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 
-from flexible.reduction import reduce
-from flexible.ring import Ring, membrane_stiffness, ring_of
+from flexible.ring.fem import Ring, membrane_stiffness, ring_of
+from flexible.ring.reduction import reduce
 from meshes.ring import ring_mesh
 from rigid import Friction, Hoop, Release, Scene
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from meshes import Block, SeriesWriter, read
-from meshes.patch import patch_of
-from meshes.renderer import renderer_problem
-from meshes.setting import setting
-from meshes.subject import SeriesSubject
-from meshes.view import Camera
+from meshes.draw.display import renderer_problem
+from meshes.draw.patch import patch_of
+from meshes.draw.shots import SeriesSubject
+from meshes.view.pictures import Camera
+from meshes.view.setting import setting
 
 SIZE = (640, 480)
 TIMES = np.linspace(0, 1.2, 5)

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from meshes import SeriesError, SeriesWriter, read
-from meshes import renderer as renderer_module
-from meshes.lens import enlargement
-from meshes.renderer import probe, renderer_problem
-from meshes.setting import setting
-from meshes.stage import ABOVE_FLOOR, deformed
-from meshes.subject import Curves, MotionSubject, SeriesSubject
-from meshes.view import Camera, ViewError, animate, picture, render, window
+from meshes.draw import display as renderer_module
+from meshes.draw.display import probe, renderer_problem
+from meshes.draw.lens import enlargement
+from meshes.draw.shots import Curves, MotionSubject, SeriesSubject
+from meshes.draw.stage import ABOVE_FLOOR, deformed
+from meshes.view.pictures import Camera, ViewError, animate, picture, render, window
+from meshes.view.setting import setting
 from rigid import Friction, Hoop, Motion, Phase, Release, Scene, States, load_scene, simulate
 
 SIZE = (640, 480)
@@ -194,7 +194,7 @@ def test_a_series_of_one_frame_without_a_history(tmp_path, ring, ovals):
 
 @needs_renderer
 def test_the_window_steps_stretches_and_changes_colours(series):
-    from meshes.window import Window
+    from meshes.view.interactive import Window
 
     opened = Window(setting(series), off_screen=True, size=SIZE)
     before = opened.stage.image()

@@ -9,11 +9,11 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from rigid import Friction, Hoop, Kind, Landing, Release, Run, Scene, simulate
-from rigid.angle import chart
-from rigid.flight import height, touch_down
-from rigid.impact import strike
-from rigid.layout import ANGLE, OMEGA, SLIP, STATE, TOP, UN
-from rigid.pulse import energy, released
+from rigid.kernel.angle import chart
+from rigid.kernel.layout import ANGLE, OMEGA, SLIP, STATE, TOP, UN
+from rigid.phases.flight import height, touch_down
+from rigid.phases.impact import strike
+from rigid.record.pulse import energy, released
 from rigid.solve import parameters
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from rigid.polynomial import bernstein, first_positive, value, value_and_slope
+from rigid.kernel.polynomial import bernstein, first_positive, value, value_and_slope
 
 #: the margin of a rolling hoop: 0.1679, 0.4301 and a pair 0.012 beside 0.549, where it all but touches zero
 MARGIN = [

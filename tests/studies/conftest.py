@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from studies import cli
+from studies.cli import hoop as cli
 
 
 @pytest.fixture

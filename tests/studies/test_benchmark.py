@@ -10,9 +10,10 @@ from math import isfinite
 import pytest
 from command_line import is_one_sentence
 
-from studies.bench import peers, precision, precision_values, reference
+from studies.bench.peers import scipy_ivp as peers
 from studies.bench.race import Claim, Contestant, exponent, race
 from studies.bench.rigid import scene_of, worst
+from studies.bench.truth import precision, precision_values, reference
 
 
 @pytest.mark.parametrize("k", precision.DISKS)

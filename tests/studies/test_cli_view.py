@@ -5,7 +5,7 @@ import pytest
 from command_line import is_one_sentence
 
 from meshes import read
-from meshes.renderer import renderer_problem
+from meshes.draw.display import renderer_problem
 
 SCENE = """\
 [hoop]
@@ -29,7 +29,7 @@ needs_renderer = pytest.mark.skipif(renderer_problem() is not None, reason=str(r
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
     """The folder that `hoop flexible SCENE --out DIR --fields --frames 12` leaves."""
-    from studies import cli
+    from studies.cli import hoop as cli
 
     folder = tmp_path_factory.mktemp("view")
     file = folder / "scene.toml"

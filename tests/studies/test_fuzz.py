@@ -11,7 +11,7 @@ from command_line import is_one_sentence
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
-from studies import cli
+from studies.cli import hoop as cli
 
 KEYS = {
     "hoop": ["k", "r", "mass_ratio", "R", "m", "g", "point_mass"],

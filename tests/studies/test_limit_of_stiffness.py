@@ -8,9 +8,9 @@ import pytest
 
 from flexible.limit import rigid_limit
 from rigid import Contact, Friction, Hoop, Release, Scene, simulate
-from studies.ladder import Ladder
-from studies.stiffness import stiffness_study
-from studies.workers import cores, pool
+from studies.running.workers import cores, pool
+from studies.stiffness.ladder import Ladder
+from studies.stiffness.study import stiffness_study
 
 LAWS = [("patch", 0.35), ("brush", 0.35), ("brush", 0.3)]
 ENOUGH = 1e-3  # of the impulse ratio, and of m g R

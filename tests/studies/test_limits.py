@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from studies.limits import limit_of, observed_rate, richardson
+from studies.stiffness.limits import limit_of, observed_rate, richardson
 
 S = np.geomspace(1e7, 1e13, 9)
 

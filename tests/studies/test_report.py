@@ -11,9 +11,10 @@ import numpy as np
 import pytest
 
 from rigid import load_scene
-from studies import figures, history
-from studies.solvers import solver
-from studies.style import power_of_ten
+from studies.plots import pulse as figures
+from studies.plots.style import power_of_ten
+from studies.running import history
+from studies.running.solvers import solver
 
 SCENE = load_scene("paper-3.3-massless")
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
@@ -31,7 +32,7 @@ QUIET = [
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    from studies import cli
+    from studies.cli import hoop as cli
 
     out = tmp_path_factory.mktemp("study")
     arguments = [

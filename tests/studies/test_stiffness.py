@@ -11,10 +11,10 @@ from third_solver import OFF, RATE
 from flexible.limit import effective_mu_s, rigid_limit
 from rigid import Friction as Coefficients
 from rigid import Hoop, Release, Scene, SceneError, load_scene
-from studies.case import SHARE
-from studies.files import StudyError
-from studies.ladder import Ladder
-from studies.stiffness import stiffness_study
+from studies.running.case import SHARE
+from studies.running.files import StudyError
+from studies.stiffness.ladder import Ladder
+from studies.stiffness.study import stiffness_study
 
 THIRD = "third_solver:softened"
 
@@ -66,7 +66,7 @@ def test_rate_and_limit_come_out(study):
 
 
 def test_an_unreachable_tolerance_is_told_and_not_hidden(monkeypatch):
-    monkeypatch.setattr("studies.case.TIGHTEST", 1e-4)
+    monkeypatch.setattr("studies.running.case.TIGHTEST", 1e-4)
     scene = load_scene("paper-3.3-massless").replace(solve={"rtol": 1e-3})
     study = stiffness_study(scene, Ladder("contact", 1e9, 1e14, 6), solver=THIRD)
     assert not study.rungs[-1].outcome.resolved

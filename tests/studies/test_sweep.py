@@ -16,12 +16,12 @@ import pytest
 from command_line import SCENE, command, environment, is_one_sentence, process
 
 from rigid import SceneError, load_scene, scene_from_dict, scene_to_dict
-from studies.case import Case, run_case
-from studies.files import StudyError
-from studies.solvers import build
-from studies.store import Store
+from studies.running.case import Case, run_case
+from studies.running.files import StudyError
+from studies.running.solvers import build
+from studies.running.store import Store
+from studies.running.workers import Here, pool
 from studies.sweep import load_sweep, run_sweep, sweep_from_dict
-from studies.workers import Here, pool
 
 KS = "[0.1, 0.15, 0.2, 0.25, 0.3, 0.35]"
 
@@ -141,7 +141,7 @@ def test_one_key_for_one_scene():
 def test_a_result_of_another_version_is_not_taken_for_ours(monkeypatch):
     case = Case("rigid", load_scene("paper-3.1"))
     before = case.key
-    monkeypatch.setattr("studies.solvers.version", lambda: "99.0")
+    monkeypatch.setattr("studies.running.solvers.version", lambda: "99.0")
     build.cache_clear()
     assert Case("rigid", load_scene("paper-3.1")).key != before
     build.cache_clear()

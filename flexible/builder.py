@@ -1,0 +1,185 @@
+"""A motion put together from rigid and flexible pieces: phases, turns, pulses, and the ledger over all of them."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Hoop, Kind, Motion, Phase, Scene, States, Turn
+
+from .models.select import Hoop as FlexibleHoop
+from .models.select import Range
+from .models.state import Record, State
+from .motion import FlexibleMotion, FlexiblePulse, History, Kept, Ledger
+from .segment import Stretch
+from .time.adaptive import march
+from .units import with_units
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A part of the motion, rigid or flexible, between two times."""
+
+    t_start: float
+    t_end: float
+    stretch: Stretch | None = None
+    motion: Motion | None = None  # its clock starts at ``origin``
+    origin: float = 0.0
+    x_C: float = 0.0  # where the hoop's centre stands at the start of ``motion``
+
+    def states(self, t: Array) -> States:
+        if self.stretch is not None:
+            return self.stretch.states(t)
+        assert self.motion is not None
+        states = self.motion.at(np.clip(t - self.origin, 0.0, self.motion.t_end))
+        return replace(states, t=t, x_C=states.x_C + self.x_C)
+
+
+@dataclass(frozen=True)
+class Sampler:
+    """States of a motion made of pieces, in the units of its scene."""
+
+    pieces: tuple[Piece, ...]
+    scene: Scene
+
+    def __call__(self, t: Array) -> States:
+        flat = np.atleast_1d(np.asarray(t, dtype=float)).ravel() / self.scene.time_unit
+        starts = np.array([piece.t_start for piece in self.pieces])
+        owner = np.clip(np.searchsorted(starts, flat, side="right") - 1, 0, len(starts) - 1)
+        columns = {field.name: np.empty_like(flat) for field in dataclasses.fields(States)}
+        for i in np.unique(owner):
+            mask = owner == i
+            states = self.pieces[i].states(flat[mask])
+            for name, column in columns.items():
+                column[mask] = getattr(states, name)
+        return with_units(States(**{name: c.reshape(np.shape(t)) for name, c in columns.items()}), self.scene)
+
+
+class Builder:
+    """Collects the pieces of a motion, in the solver's units."""
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.hoop: Hoop = scene.hoop
+        self.pieces: list[Piece] = []
+        self.phases: list[Phase] = []
+        self.turns: list[Turn] = []
+        self.pulses: list[FlexiblePulse] = []
+        self.steps = 0
+        self.range: Range
+        self.kept: list[Kept] | None = None
+        self.completed = True
+        self.t = 0.0
+        self.x_C = 0.0
+        self.initial: float | None = None
+        self.hand_over = 0.0
+        self.friction_loss = 0.0
+        self.damping_loss = 0.0
+        self.numerical_loss = 0.0
+        self.held: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+
+    def _add_phase(self, phase: Phase) -> None:
+        if phase.t_end <= phase.t_start and phase.kind != Kind.IMPACT:
+            return
+        if self.phases and self.phases[-1].kind == phase.kind != Kind.IMPACT:
+            self.phases[-1] = replace(self.phases[-1], t_end=phase.t_end, phi_end=phase.phi_end)
+        else:
+            self.phases.append(phase)
+
+    def _meet(self, energy: float) -> None:
+        """Energy at the start of a piece; what differs from the end of the last one was handed over."""
+        if self.initial is None:
+            self.initial = energy
+        else:
+            self.hand_over += energy - sum(self.held)
+
+    def add_rigid(self, motion: Motion, until: float) -> None:
+        """The first ``until`` of a rigid motion that begins now."""
+        if until <= 0 and self.pieces:
+            return
+        ends = motion.at(np.array([0.0, until]))
+        self._meet(float(ends.energy[0]))
+        self.friction_loss += float(ends.energy[0] - ends.energy[1])
+        potential = float((1 + self.hoop.mass_ratio) * (ends.y_C[1] + self.hoop.e * np.cos(ends.phi[1])))
+        self.held = (float(ends.energy[1]) - potential, potential, 0.0, 0.0)
+        for phase in motion.phases:
+            if phase.t_start < until:
+                end = min(phase.t_end, until)
+                phi_end = phase.phi_end if end == phase.t_end else float(ends.phi[1])
+                self._add_phase(replace(phase, t_start=self.t + phase.t_start, t_end=self.t + end, phi_end=phi_end))
+        self.turns += [replace(turn, t=self.t + turn.t) for turn in motion.turns if turn.t <= until]
+        self.pieces.append(Piece(self.t, self.t + until, motion=motion, origin=self.t, x_C=self.x_C))
+        self.x_C += float(ends.x_C[1])
+        self.t += until
+
+    def add_flexible(self, records: list[Record], attempts: int) -> Stretch:
+        """A flexible stretch that begins now."""
+        stretch = Stretch(records, self.hoop)
+        held = stretch.held()
+        self._meet(float(held[0]))
+        friction, damping = float(stretch["friction_loss"][-1]), float(stretch["damping_loss"][-1])
+        self.friction_loss += friction
+        self.damping_loss += damping
+        self.numerical_loss += float(held[0] - held[-1]) - friction - damping
+        last = records[-1]
+        self.held = (last.kinetic, last.gravity, last.ring_strain, last.contact_spring)
+        for phase in stretch.phases():
+            self._add_phase(phase)
+        self.turns += stretch.turns()
+        self.pieces.append(Piece(stretch.t_start, stretch.t_end, stretch=stretch))
+        self.t, self.x_C = last.t, last.x_C
+        self.steps += attempts
+        return stretch
+
+    def march(
+        self, hoop: FlexibleHoop, state: State, *arguments: Any, **options: Any
+    ) -> tuple[State, list[Record], int, str]:
+        """:func:`march.march`, watching the ring's range, and the states if they are to be kept."""
+        progress = options.pop("progress", None)
+
+        def watch(now: State) -> object:
+            self.range(now)
+            return progress is not None and progress(now)
+
+        states: list[State] = []
+        if self.kept is not None:
+            options["keep"] = states.append
+        options["progress"] = watch
+        result = march(hoop, state, *arguments, **options)
+        if self.kept is not None:
+            self.kept.append(Kept(hoop, tuple(states)))
+        return result
+
+    def motion(self, scene: Scene, ended: str, history: bool) -> FlexibleMotion:
+        """The motion in the units of ``scene``."""
+        ledger = Ledger(
+            self.initial or 0.0, *self.held, self.friction_loss, self.damping_loss, self.hand_over, self.numerical_loss
+        )
+        return FlexibleMotion(
+            scene=scene,
+            phases=tuple(with_units(phase, scene) for phase in self.phases),
+            turns=tuple(with_units(turn, scene) for turn in self.turns),
+            pulses=tuple(with_units(pulse, scene) for pulse in self.pulses),
+            ended=ended,
+            completed=self.completed,
+            sample=Sampler(tuple(self.pieces), scene),
+            ledger=with_units(ledger, scene),
+            steps=self.steps,
+            history=with_units(self._history(), scene) if history else None,
+            kept=tuple(self.kept or ()),
+        )
+
+    def _history(self) -> History:
+        stretches = [piece.stretch for piece in self.pieces if piece.stretch is not None]
+        return History(
+            **{
+                field.name: np.concatenate([stretch[field.name] for stretch in stretches] or [np.empty(0)])
+                for field in dataclasses.fields(History)
+            }
+        )

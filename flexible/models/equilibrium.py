@@ -1,0 +1,228 @@
+"""The hoop at rest in the disk's frame: ring and patch in equilibrium under given forces of the floor.
+
+Any level's ring answers the same question: displacement of a window of rim nodes = offset + compliance x forces on
+them, exactly for a linear ring, near its present shape for the exact one, which is then moved and asked again.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+from scipy.sparse.linalg import splu
+
+from ..contact.forces import HIGH, LOW, MU, NORMAL, OUTSIDE, SLIDE_RIGHT, SPACING, UNDAMPED, contact_forces
+
+Array = NDArray[np.float64]
+Window = tuple[int, int]
+
+
+class RestingRing(Protocol):
+    """A ring at rest under the inertia of the frame's motion and forces on its rim."""
+
+    coordinates: Array
+
+    def linearise(self, share: float) -> None:
+        """Take ``share`` of the inertia and the present shape to ask from."""
+
+    def response(self, window: Window) -> tuple[Array, Array]:
+        """Offset (2 nodes,) and compliance (2 nodes, 2 nodes)."""
+
+    def move(self, window: Window, force: Array) -> float:
+        """Take the shape under rim forces; the largest change of a coordinate, relative to the largest."""
+
+
+class RestingModes:
+    """Modes and residual static compliance; ``arrays(window)`` gives modes and compliance on a window."""
+
+    def __init__(self, dynamic: Array, load: Array, arrays: Any) -> None:
+        self.arrays = arrays
+        self.inverse = np.linalg.inv(dynamic)
+        self.load = load
+        self.base = self.coordinates = np.zeros(len(load))
+
+    def linearise(self, share: float) -> None:
+        self.base = -share * (self.inverse @ self.load)
+
+    def response(self, window: Window) -> tuple[Array, Array]:
+        shapes, compliance = self.arrays(window)
+        return shapes @ self.base, compliance + shapes @ self.inverse @ shapes.T
+
+    def move(self, window: Window, force: Array) -> float:
+        self.coordinates = self.base + self.inverse @ (self.arrays(window)[0].T @ force)
+        return 0.0
+
+
+class RestingNodes:
+    """All free nodes of a :class:`flexible.models.full.NodalRing`.
+
+    Parameters
+    ----------
+    inertia : sparse
+        What the motion of the frame adds to the stiffness.
+    load : (n,) array
+        Its force on the undeformed ring.
+    """
+
+    def __init__(self, ring: Any, inertia: sp.csc_matrix, load: Array) -> None:
+        self.ring, self.inertia, self.load = ring, inertia, load
+        self.coordinates = np.zeros(ring.size)
+
+    def linearise(self, share: float) -> None:
+        u = self.coordinates
+        matrix = (self.ring.tangent(u) + share * self.inertia).tocsc()
+        self._solve = splu(matrix).solve
+        self.base = u - self._solve(self.ring.elastic(u) + share * (self.inertia @ u + self.load))
+        self._columns: dict[Window, Array] = {}
+
+    def _answer(self, window: Window) -> Array:
+        if window not in self._columns:
+            dofs = self.ring.dofs(*window)
+            unit = np.zeros((self.ring.size, len(dofs)))
+            unit[dofs, np.arange(len(dofs))] = 1.0
+            self._columns[window] = self._solve(unit)
+        return self._columns[window]
+
+    def response(self, window: Window) -> tuple[Array, Array]:
+        dofs = self.ring.dofs(*window)
+        return self.base[dofs], self._answer(window)[dofs]
+
+    def move(self, window: Window, force: Array) -> float:
+        moved = self.base + self._answer(window) @ force
+        change = float(np.abs(moved - self.coordinates).max() / max(np.abs(moved).max(), 1e-300))
+        self.coordinates = moved
+        return change
+
+
+class Patch:
+    """The patch of a hoop at rest at the angle ``phi`` that carries N and F.
+
+    Attributes
+    ----------
+    height : float
+        h, the hoop's centre above R.
+    window : (int, int)
+    u, nodal, res, bristles, flags :
+        See :func:`flexible.contact.forces.contact_forces`.
+    """
+
+    def __init__(self, hoop: Any, phi: float, normal: float, friction: float) -> None:
+        self.hoop, self.phi, self.normal = hoop, phi, normal
+        self.law = hoop.law.copy()
+        self.law[MU] = friction / normal  # shares any F over the patch like the pressure
+        self.half = (1.5 * normal / self.law[1]) ** (1 / 3)
+        self.low, self.high = -self.half, self.half
+        self.height = -(self.half**2) / 2
+        self.window: Window = (0, 0)
+        self.u: Array = np.zeros((0, 2))
+
+    def solve(self, ring: RestingRing, share: float) -> bool:
+        """Newton on height and rim for ``share`` of the forces; whether it converged."""
+        s, c = np.sin(self.phi), np.cos(self.phi)
+        empty, flags = np.empty((0, 3)), np.empty(0, np.int8)
+        wanted = share * self.normal
+        margin = self.half + self.hoop.element
+        last = np.inf
+        for iteration in range(60):
+            window = self.hoop.window(self.phi, self.low, self.high, margin)
+            if 2 * window[1] > len(self.hoop.vertex):
+                return False
+            if window != self.window or iteration == 0:
+                self._foresee(window, ring, wanted)
+            offset, compliance = ring.response(window)
+            pose = np.array([0.0, self.height, self.phi])
+            force, self.nodal, tangent, self.res, self.bristles, self.flags = contact_forces(
+                pose, self.u, window[0], self.hoop.vertex, self.law, SLIDE_RIGHT, pose, self.u, empty, flags, UNDAMPED
+            )
+            if self.res[OUTSIDE] != 0:
+                margin = 2 * margin + self.hoop.element
+                continue
+            flat = self.nodal.ravel()
+            misfit = self.u.ravel() - offset - compliance @ flat
+            # what a misfit of the rim makes of the force: patch and ring in series
+            scale = 1 + abs(tangent[1, 1]) / (1 + abs(tangent[1, 1]) * np.abs(compliance).max())
+            error = max(abs(force[1] - wanted), scale * np.abs(misfit).max())
+            floor = 1e-15 * (1 + abs(tangent[1, 1])) * (abs(self.height) + np.abs(self.u).max())
+            if error < 1e-10 * (1 + wanted) + floor:
+                self.low, self.high = self.res[LOW] - self.law[SPACING], self.res[HIGH] + self.law[SPACING]
+                return True
+            if self.res[NORMAL] == 0:
+                self.u = offset.reshape(-1, 2).copy()
+                self.height = -self._rise(self.u, s, c) - self.half**2 / 2
+                continue
+            n = len(flat)
+            matrix = np.empty((1 + n, 1 + n))
+            matrix[0, 0], matrix[0, 1:] = tangent[1, 1], tangent[1, 3:]
+            matrix[1:, 0] = -scale * (compliance @ tangent[3:, 1])
+            matrix[1:, 1:] = scale * (np.eye(n) - compliance @ tangent[3:, 3:])
+            step = np.linalg.solve(matrix, np.concatenate([[force[1] - wanted], scale * misfit]))
+            damping = 0.5 if iteration > 5 and error > last else 1.0
+            last = error
+            self.height -= damping * step[0]
+            self.u = self.u - damping * step[1:].reshape(-1, 2)
+        return False
+
+    def _foresee(self, window: Window, ring: RestingRing, wanted: float) -> None:
+        """Where Newton starts in a window: the forces found so far, scaled to the wanted N, as deep as before."""
+        offset, compliance = ring.response(window)
+        force = np.zeros_like(offset)
+        s, c = np.sin(self.phi), np.cos(self.phi)
+        if self.window[1] and self.res[NORMAL] > 0:
+            count = len(self.hoop.vertex)
+            place = {n % (2 * count): i for i, n in enumerate(self._nodes(window))}
+            pairs = force.reshape(-1, 2)
+            before = np.zeros_like(pairs)
+            for i, n in enumerate(self._nodes(self.window)):
+                if n % (2 * count) in place:
+                    pairs[place[n % (2 * count)]] = self.nodal[i]
+                    before[place[n % (2 * count)]] = self.u[i]
+        self.window = window
+        load = force.reshape(-1, 2) @ [c, -s]
+        if load.sum() > 0:
+            self.u = (offset + compliance @ force * (wanted / load.sum())).reshape(-1, 2)
+            self.height -= float(load @ ((self.u - before) @ [c, -s]) / load.sum())
+        else:  # as deep as the force asks for, on the shape that the ring has without it
+            self.u = offset.reshape(-1, 2).copy()
+            self.height = -self._rise(self.u, s, c) - self.half**2 / 2
+
+    def _nodes(self, window: Window) -> NDArray[np.int64]:
+        return np.arange(2 * window[0], 2 * (window[0] + window[1]) + 1)
+
+    def _rise(self, u: Array, s: float, c: float) -> float:
+        """Height of the lowest rim node of the window above where the undeformed rim would touch, at h = 0."""
+        theta = self.hoop.rim_angle(self._nodes(self.window))
+        psi = self.phi + theta - np.pi
+        return float((2 * np.sin(psi / 2) ** 2 + u[:, 0] * c - u[:, 1] * s).min())
+
+
+def settle(ring: RestingRing, patch: Patch) -> bool:
+    """Bring ring and patch to rest together, in steps of the load if one is too much; whether it worked."""
+    share, step = 0.0, 1.0
+    while share < 1:
+        start, known = ring.coordinates, dict(patch.__dict__)
+        if _settled(ring, patch, share + step):
+            share += step
+            step = min(2 * step, 1 - share)
+        else:
+            ring.coordinates = start
+            patch.__dict__ = known
+            step /= 2
+            if step < 1 / 256:
+                return False
+    return True
+
+
+def _settled(ring: RestingRing, patch: Patch, share: float) -> bool:
+    change = np.inf
+    for _ in range(15):
+        ring.linearise(share)
+        if not patch.solve(ring, share):
+            return False
+        last, change = change, ring.move(patch.window, patch.nodal.ravel())
+        if change < 1e-11 or (change < 1e-7 and change > last / 4):
+            return True
+        if not change < 10:
+            return False
+    return False

@@ -1,0 +1,249 @@
+"""The hoop with every node of its ring free: the reference for the reduced one.
+
+Newton's matrix is the ring's sparse one, which two stages share, bordered by the frame and by the contact: both
+borders are exact in every iteration, so that the ring's may lag behind.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos, sin
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse.linalg import splu
+
+from rigid import Scene
+
+from ..contact.forces import ELASTIC, EPS_N, EPS_T, HIGH, LENGTH, LOW, NORMAL, OUTSIDE, SLIP, contact_forces
+from ..ring.fem import Ring, ring_of
+from ..ring.frame import DISK_INERTIA, OFFSET, RING_INERTIA, RING_MASS
+from ..ring.nodal import Inertia, NodalRing, inertia, turned
+from .equilibrium import RestingNodes
+from .rim_contact import POINTS, RimContact
+from .state import State
+
+Array = NDArray[np.float64]
+Window = tuple[int, int]
+
+SLOW = 24  # modes of the ring by whose error steps are chosen, as many as the reduced ring has
+_LARGEST_LAG = 1e-3  # of beta times the change of omega since the ring's matrix was factored
+
+
+class _Factored:
+    """The ring's own part of Newton's matrix, factored, and its inverse on the columns of rim windows."""
+
+    def __init__(self, ring: NodalRing, u: Array, w: float, alpha: float, beta: float) -> None:
+        matrix = ring.tangent(u)
+        if not ring.massless:
+            matrix = matrix + ring.mass * (1 / beta**2 - w * w) + ring.gyro * (alpha + 2 * w / beta)
+        options = {"SymmetricMode": True}
+        self.solve = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options).solve
+        self.ring, self.w, self.beta = ring, w, beta
+        self._columns: dict[Window, Array] = {}
+
+    def serves(self, w: float, beta: float) -> bool:
+        """Whether it still is a good matrix."""
+        return self.ring.massless or (beta == self.beta and abs(w - self.w) * beta < _LARGEST_LAG)
+
+    def columns(self, window: Window) -> Array:
+        """The inverse's columns for the window's dofs, (n, 2 nodes)."""
+        if window not in self._columns:
+            dofs = self.ring.dofs(*window)
+            unit = np.zeros((self.ring.size, len(dofs)))
+            unit[dofs, np.arange(len(dofs))] = 1.0
+            self._columns[window] = self.solve(unit)
+        return self._columns[window]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class NewtonMatrix:
+    """Newton's matrix at a solution: the ring's part, the frame's border, the contact's tangent on the window."""
+
+    factored: _Factored
+    inertia: Inertia
+    contact: Array
+    window: Window
+
+    def solve(self, frame: Array, ring: Array) -> tuple[Array, Array]:
+        """Increments of frame and ring for a right-hand side."""
+        dofs = self.factored.ring.dofs(*self.window)
+        t = self.contact
+        ring_by_frame = self.inertia.ring_by_frame.copy()
+        ring_by_frame[dofs] -= t[3:, :3]
+        frame_by_ring = self.inertia.frame_by_ring.copy()
+        frame_by_ring[:, dofs] -= t[:3, 3:]
+        z = self.factored.solve(np.column_stack([ring, ring_by_frame]))
+        base, by_frame = z[:, 0], z[:, 1:]
+        # du = base - by_frame dx + columns t_uu w, with w = du on the window
+        by_window = self.factored.columns(self.window) @ t[3:, 3:]
+        n = len(dofs)
+        small = np.empty((3 + n, 3 + n))
+        small[:3, :3] = self.inertia.frame_by_frame - t[:3, :3] - frame_by_ring @ by_frame
+        small[:3, 3:] = frame_by_ring @ by_window
+        small[3:, :3] = by_frame[dofs]
+        small[3:, 3:] = np.eye(n) - by_window[dofs]
+        known = np.concatenate([frame - frame_by_ring @ base, base[dofs]])
+        x = np.linalg.solve(small, known)
+        return x[:3], base - by_frame @ x[:3] + by_window @ x[3:]
+
+
+class FullHoop(RimContact):
+    """Frame and all free nodes of a scene's ring; see :class:`flexible.models.state.Model`.
+
+    ``State.pos`` is (V, h, phi, u) with u the displacement of the free dofs in the order of ``Ring.free``.
+
+    Parameters
+    ----------
+    points, tolerance :
+        See :class:`flexible.models.rim_contact.RimContact`.
+    through : int
+        Elements through the wall.
+    """
+
+    def __init__(self, scene: Scene, points: int = POINTS, tolerance: float = 1e-9, through: int = 1) -> None:
+        self.ring = self._make_ring(scene, ring_of(scene, through))
+        super().__init__(scene, self.ring.vertex, points, tolerance)
+        self._factored: _Factored | None = None
+        #: momenta of the slow vibrations, by which steps are chosen, of a rate of the free dofs
+        self._slow = np.zeros((0, self.ring.size))
+        if not self.ring.massless:
+            shapes = self.ring.ring.modes(SLOW)[1]
+            self._slow = (self.ring.mass @ shapes).T / np.sqrt(scene.hoop.mass_ratio)
+
+    def _make_ring(self, scene: Scene, ring: Ring) -> NodalRing:
+        return NodalRing(scene, ring)
+
+    @property
+    def coordinates(self) -> int:
+        """Number of coordinates of the ring in ``State.pos``."""
+        return self.ring.size
+
+    def resting(self, omega: float, alpha: float, a1: float, a2: float) -> RestingNodes:
+        """The ring at rest in a frame with these rates and this acceleration of C, gravity included."""
+        ring = self.ring
+        load = a1 * ring.along[0] + a2 * ring.along[1] + alpha * ring.rotation - omega**2 * ring.stretching
+        return RestingNodes(ring, ring.gyro * alpha - ring.mass * omega**2, load)
+
+    def nodes(self, state: State) -> Array:
+        """Displacement (y1, y2) of every node of the mesh, (n_nodes, 2)."""
+        return self.ring.ring.expand(state.pos[3:])
+
+    def displacement(self, state: State, window: Window) -> Array:
+        """Displacement of the rim nodes of a window."""
+        return state.pos[3:][self.ring.dofs(*window)].reshape(-1, 2)
+
+    def stage(
+        self,
+        old: State,
+        mode: int,
+        damper: Array,
+        pos_pred: Array,
+        vel_pred: Array,
+        beta: float,
+        guess: Array,
+        near: tuple[Window, Array] | None = None,
+    ) -> Any:
+        """See :class:`flexible.models.state.Model`."""
+        if self.ring.massless:  # no inertia to go by: from where the ring was
+            guess = guess.copy()
+            guess[3:] = old.pos[3:] - pos_pred[3:]
+        expected = pos_pred + guess
+        low, high = self.reach(expected[2], expected[1], expected[3:][self.ring.ring.rim_dofs])
+        if old.res[NORMAL] > 0:
+            low, high = min(low, old.res[LOW]), max(high, old.res[HIGH])
+        margin = 0.3 * (high - low) + 0.1 * self.element
+        for _ in range(4):
+            window = self.window(pos_pred[2] + guess[2], low, high, margin)
+            solved, outside = self._newton(old, mode, damper, pos_pred, vel_pred, beta, guess, window)
+            if not outside:
+                break
+            margin = 2 * margin + self.element
+        return solved
+
+    def _newton(
+        self,
+        old: State,
+        mode: int,
+        damper: Array,
+        pos_pred: Array,
+        vel_pred: Array,
+        beta: float,
+        guess: Array,
+        window: Window,
+    ) -> tuple[Any, bool]:
+        """The stage in one window, and whether the patch left it."""
+        law, dofs = self.law, self.ring.dofs(*window)
+        u_old = self.displacement(old, window)
+        d = guess.copy()
+        last, lags = np.inf, True
+        ok = False
+        for iteration in range(25):
+            pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
+            u = pos[3:][dofs].reshape(-1, 2)
+            force, nodal, tangent, res, bristles, flags = contact_forces(
+                pos[:3], u, window[0], self.vertex, law, mode, old.pos[:3], u_old, old.bristles, old.flags, damper
+            )
+            own = inertia(self.ring, pos, vel, acc, beta)
+            frame, ring = own.frame - force, own.ring.copy()
+            ring[dofs] -= nodal.ravel()
+            worst = max(np.abs(frame).max(), np.abs(ring).max())
+            if not np.isfinite(worst):
+                break
+            small = self.tolerance * (1 + res[NORMAL])
+            if worst > small:
+                depth = abs(pos[1]) + np.abs(u).max()
+                small += 4e-16 * (law[EPS_N] + law[EPS_T]) * res[LENGTH] * depth
+                small += 1e-14 * (damper[0] + 1) * res[ELASTIC]
+                small += 1e-15 * damper[3] * (abs(res[SLIP]) + abs(damper[4])) + self.ring.round_off(pos[3:])
+                small += 4e-16 * np.abs(vel_pred[3:]).max(initial=0.0) / beta * self.ring.body[RING_MASS]
+            factored = self._factor(pos, vel, acc, beta, lags and iteration > 1 and worst > 0.05 * last)
+            matrix = NewtonMatrix(factored, own, tangent, window)
+            if worst <= small and iteration > 0:
+                ok = True
+                break
+            step_frame, step_ring = matrix.solve(frame, ring)
+            damping = 0.5 if iteration > 3 and worst > last else 1.0
+            last = worst
+            d[:3] -= damping * step_frame
+            d[3:] -= damping * step_ring
+        outside = bool(res[OUTSIDE] != 0)
+        if self.ring.massless:
+            acc[3:] = 0.0
+        return (ok and not outside, d, acc, matrix, window, u, nodal, res, bristles, flags), outside
+
+    def _factor(self, pos: Array, vel: Array, acc: Array, beta: float, anew: bool) -> _Factored:
+        if anew or self._factored is None or not self._factored.serves(vel[2], beta):
+            self._factored = _Factored(self.ring, pos[3:], vel[2], acc[2], beta)
+        return self._factored
+
+    def energies(self, state: State) -> tuple[float, float, float]:
+        """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
+        ring, body, pos, vel = self.ring, self.ring.body, state.pos, state.vel
+        offset, mass = body[OFFSET], body[RING_MASS]
+        s, c = sin(pos[2]), cos(pos[2])
+        w, u, v = vel[2], pos[3:], vel[3:]
+        vx, vy = vel[0] + w, vel[1]
+        dx, dy = vx + offset * w * c, vy - offset * w * s
+        kinetic = (dx * dx + dy * dy + body[DISK_INERTIA] * w * w) / 2
+        gravity = 1 + pos[1] + offset * c
+        if not ring.massless:
+            m_u, m_v = ring.mass @ u, ring.mass @ v
+            (s1, s1_v), (s2, s2_v) = ((l @ u, l @ v) for l in ring.along)
+            v1, v2 = vx * s + vy * c, vx * c - vy * s
+            moment = body[RING_INERTIA] + (2 * ring.stretching + m_u) @ u
+            kinetic += mass * (vx * vx + vy * vy) / 2 + v1 * (s1_v - w * s2) + v2 * (s2_v + w * s1)
+            kinetic += (moment * w * w + v @ m_v) / 2 + w * (v @ (ring.rotation + turned(m_u)))
+            gravity += mass * (1 + pos[1]) + s1 * c - s2 * s
+        return float(kinetic), float(gravity), ring.strain_energy(u)
+
+    def momentum_error(self, state: State, beta: float, matrix: NewtonMatrix, error: Array) -> float:
+        """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
+        ring, still = self.ring, np.zeros_like(state.vel)
+        with_error = inertia(ring, state.pos, still, error, beta)
+        without = inertia(ring, state.pos, still, still, beta)
+        load = (with_error.frame - without.frame) / beta**2, (with_error.ring - without.ring) / beta**2
+        frame, u = matrix.solve(*load)
+        slow = np.abs(self._slow @ u).max(initial=0.0)
+        return float(max(abs(frame[0] + frame[2]), abs(frame[1]), abs(frame[2]), slow))

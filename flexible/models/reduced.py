@@ -1,0 +1,109 @@
+"""The reduced hoop as a model for the march: windows of the rim, stages in compiled code."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Scene
+
+from ..contact.forces import HIGH, LOW, NORMAL
+from ..ring.frame import energies
+from ..ring.reduction import ReducedRing, reduce
+from .equilibrium import RestingModes
+from .rim_contact import POINTS, RimContact
+from .stage import filtered_error, solve_stage
+from .state import State
+
+Array = NDArray[np.float64]
+
+
+class ReducedHoop(RimContact):
+    """Frame, modes and residual static compliance of a scene's hoop."""
+
+    def __init__(self, scene: Scene, modes: int = 24, points: int = POINTS, tolerance: float = 1e-9) -> None:
+        self.ring: ReducedRing = reduce(scene, modes)
+        super().__init__(scene, self.ring.vertex, points, tolerance)
+        self._blocks: dict[tuple[int, int], tuple[Array, Array]] = {}
+
+    @property
+    def coordinates(self) -> int:
+        """Number of coordinates of the ring in ``State.pos``."""
+        return len(self.ring.modal)
+
+    def _arrays(self, window: tuple[int, int]) -> tuple[Array, Array]:
+        n = len(self.ring.vertex)
+        key = (window[0] % n, window[1])
+        if key not in self._blocks:
+            shapes, compliance = self.ring.window(*key)
+            self._blocks[key] = (np.ascontiguousarray(shapes), np.ascontiguousarray(compliance))
+        return self._blocks[key]
+
+    def resting(self, omega: float, alpha: float, a1: float, a2: float) -> RestingModes:
+        """The ring at rest in a frame with these rates and this acceleration of C, gravity included."""
+        square, l1, l2, rotation, stretching = self.ring.modal.T
+        dynamic = np.diag(square - omega**2) + alpha * self.ring.gyro
+        return RestingModes(dynamic, a1 * l1 + a2 * l2 + alpha * rotation - omega**2 * stretching, self._arrays)
+
+    def displacement(self, state: State, window: tuple[int, int]) -> Array:
+        """Displacement of the nodes of another window at a known state."""
+        if window == state.window:
+            return state.u
+        here, there = self.ring.dofs(*window), self.ring.dofs(*state.window)
+        moved = self.ring.rim_shapes[here] @ state.pos[3:]
+        if state.res[NORMAL] > 0:
+            moved = moved + self.ring.compliance(here, there) @ state.nodal.ravel()
+        return moved.reshape(-1, 2)
+
+    def stage(
+        self,
+        old: State,
+        mode: int,
+        damper: Array,
+        pos_pred: Array,
+        vel_pred: Array,
+        beta: float,
+        guess: Array,
+        near: tuple[tuple[int, int], Array] | None = None,
+    ) -> Any:
+        """See :class:`flexible.models.state.Model`."""
+        phi = pos_pred[2] + guess[2]
+        low, high = old.res[LOW], old.res[HIGH]
+        if old.res[NORMAL] == 0:  # a bent rim comes down anywhere
+            expected = pos_pred + guess
+            low, high = self.reach(expected[2], expected[1], self.ring.rim_shapes @ expected[3:])
+        margin = 0.3 * (high - low) + 0.1 * self.element
+        for _ in range(4):
+            window = self.window(phi, low, high, margin)
+            u_old = self.displacement(old, window)
+            shapes, compliance = self._arrays(window)
+            u_guess = near[1] if near is not None and near[0] == window else u_old
+            ring = self.ring
+            iterations, d, u, acc, matrix, nodal, res, bristles, flags = solve_stage(
+                ring.body, ring.modal, ring.gyro, shapes, compliance, window[0], ring.vertex, self.law, mode,
+                old.pos[:3], u_old, old.bristles, old.flags, damper, pos_pred, vel_pred, beta, guess, u_guess,
+                self.tolerance,
+            )  # fmt: skip
+            if iterations != -2:
+                break
+            margin = 2 * margin + self.element
+        return iterations >= 0, d, acc, matrix, window, u, nodal, res, bristles, flags
+
+    def energies(self, state: State) -> tuple[float, float, float]:
+        """Kinetic, gravity, ring strain (of the modes and of the static part)."""
+        ring = self.ring
+        kinetic, gravity, strain = energies(ring.body, ring.modal, ring.gyro, state.pos, state.vel)
+        if state.res[NORMAL] > 0:
+            compliance = self._arrays(state.window)[1]
+            force = state.nodal.ravel()
+            strain += float(force @ compliance @ force) / 2
+        return kinetic, gravity, strain
+
+    def momentum_error(self, state: State, beta: float, matrix: Array, error: Array) -> float:
+        """See :class:`flexible.models.state.Model`."""
+        ring = self.ring
+        error = filtered_error(ring.body, ring.modal, ring.gyro, state.pos, state.vel, state.acc, beta, matrix, error)
+        horizontal = abs(error[0] + error[2])
+        return float(max(horizontal, abs(error[1]), abs(error[2]), np.abs(error[3:]).max(initial=0.0)))

@@ -1,0 +1,85 @@
+"""What all levels of the hoop share: the law of the contact, the patch's damper, the window of rim near the floor."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Scene
+
+from ..contact.forces import EPS_T, LENGTH, element_at
+from .state import State
+
+Array = NDArray[np.float64]
+
+
+POINTS = 24  # to a patch, of a contact
+
+
+def contact_law(scene: Scene, points: int = POINTS) -> Array:
+    """Parameters of the contact, with ``points`` to the patch of a rigid hoop under the disk's weight."""
+    eps = scene.contact.stiffness
+    half_width = (1.5 / eps) ** (1 / 3)
+    spacing = min(2 * half_width / points, 2 * pi / scene.solve.elements / 8)
+    return np.array([spacing, eps, eps * scene.contact.tangential_ratio, scene.friction.mu_s, scene.friction.mu])
+
+
+def relaxation_time(scene: Scene) -> float:
+    """The damper's time theta = 2 zeta sqrt(m/k) with k the stiffness of the patch under the disk's weight."""
+    eps = scene.contact.stiffness
+    stiffness = 2 * eps * (1.5 / eps) ** (1 / 3)
+    return 2 * scene.contact.damping / stiffness**0.5
+
+
+class RimContact:
+    """The rim of a scene's hoop as the floor sees it.
+
+    Parameters
+    ----------
+    vertex : (n_elements,) array
+        Angles at which rim elements begin.
+    points : int
+        Contact points to a patch, see :func:`contact_law`.
+    tolerance : float
+        Of Newton, on forces relative to the disk's weight.
+    """
+
+    def __init__(self, scene: Scene, vertex: Array, points: int, tolerance: float) -> None:
+        self.scene = scene
+        self.vertex = vertex
+        middle = (vertex + np.append(vertex[1:], vertex[0] + 2 * pi)) / 2
+        self._rim_theta = np.column_stack([vertex, middle]).ravel()
+        self.law = contact_law(scene, points)
+        self.mu_s = scene.friction.mu_s
+        self.tolerance = tolerance
+        self.element = 2 * pi / scene.solve.elements
+        self.relaxation = relaxation_time(scene)
+
+    def patch_damping(self, state: State) -> float:
+        """See :class:`flexible.models.state.Model`."""
+        return float(self.relaxation * self.law[EPS_T] * state.res[LENGTH])
+
+    def window(self, phi: float, low: float, high: float, margin: float) -> tuple[int, int]:
+        """First rim element and number of elements of the part ``low`` to ``high`` (angles from the bottom)."""
+        theta = pi - phi
+        first = element_at(self.vertex, theta + low - margin)
+        last = element_at(self.vertex, theta + high + margin)
+        return first, last - first + 1
+
+    def reach(self, phi: float, height: float, moved: Array) -> tuple[float, float]:
+        """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is.
+
+        ``moved`` is the displacement of all rim nodes, (2 n_rim,), node by node.
+        """
+        u = moved.reshape(-1, 2)
+        psi = phi - pi + self.rim_angle(np.arange(len(u)))
+        psi -= 2 * pi * np.round(psi / (2 * pi))
+        gap = height + 2 * np.sin(psi / 2) ** 2 + u[:, 0] * np.cos(phi) - u[:, 1] * np.sin(phi)
+        below = psi[gap <= max(0.0, gap.min())]
+        return float(below.min()), float(below.max())
+
+    def rim_angle(self, nodes: NDArray[np.int64]) -> Array:
+        """Angles of rim nodes, counted round and round from the first element's first."""
+        return self._rim_theta[nodes % len(self._rim_theta)] + 2 * pi * (nodes // len(self._rim_theta))

@@ -1,0 +1,140 @@
+"""An instant of the flexible hoop, what is kept of it, and what a level of fidelity must be able to do."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..contact.forces import BRISTLE_ENERGY, FRICTION, LENGTH, NORMAL, NORMAL_ENERGY, STUCK
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class State:
+    """An instant of the flexible hoop; ``pos`` is (V, h, phi, q), with V counted anew in every step."""
+
+    t: float
+    x_C: float
+    pos: Array
+    vel: Array
+    acc: Array
+    mode: int
+    window: tuple[int, int]  # first rim element and number of elements
+    u: Array
+    nodal: Array
+    res: Array
+    bristles: Array
+    flags: NDArray[np.int8]
+    slip_velocity: float
+    elastic_rate: float = 0.0  # of N_el
+
+    @property
+    def normal_force(self) -> float:
+        return float(self.res[NORMAL])
+
+    @property
+    def friction_force(self) -> float:
+        return float(self.res[FRICTION])
+
+
+class Model(Protocol):
+    """What the march needs of a level of fidelity."""
+
+    mu_s: float
+    relaxation: float
+
+    def patch_damping(self, state: State) -> float:
+        """Damping coefficient of the sticking patch against slip."""
+
+    def stage(
+        self,
+        old: State,
+        mode: int,
+        damper: Array,
+        pos_pred: Array,
+        vel_pred: Array,
+        beta: float,
+        guess: Array,
+        near: tuple[tuple[int, int], Array] | None = None,
+    ) -> Any:
+        """Solve one stage: (ok, d, acc, matrix, window, u, nodal, res, bristles, flags).
+
+        ``guess`` starts the increment, ``near`` (a window and its displacement) the ring.
+        """
+
+    def energies(self, state: State) -> tuple[float, float, float]:
+        """Kinetic, gravity, ring strain."""
+
+    def momentum_error(self, state: State, beta: float, matrix: Any, error: Array) -> float:
+        """Size, as an impulse, of an error in the velocities after a step that ended with Newton's ``matrix``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """One accepted instant, and what was lost and transferred up to it (cumulative)."""
+
+    t: float
+    phi: float
+    omega: float
+    x_C: float
+    y_C: float
+    slip_velocity: float
+    approach_velocity: float
+    normal_force: float
+    friction_force: float
+    patch_length: float
+    stick_fraction: float
+    kinetic: float
+    gravity: float
+    ring_strain: float
+    contact_spring: float
+    normal_impulse: float
+    friction_impulse: float
+    friction_loss: float
+    damping_loss: float
+    off_floor: float
+    mode: int
+
+
+@dataclass(slots=True)
+class Books:
+    """Running totals of a march."""
+
+    normal_impulse: float = 0.0
+    friction_impulse: float = 0.0
+    friction_loss: float = 0.0
+    damping_loss: float = 0.0
+    off_floor: float = 0.0
+
+
+def record(model: Model, state: State, books: Books) -> Record:
+    """What is kept of an instant."""
+    kinetic, gravity, strain = model.energies(state)
+    res = state.res
+    return Record(
+        t=state.t,
+        phi=float(state.pos[2]),
+        omega=float(state.vel[2]),
+        x_C=state.x_C,
+        y_C=1 + float(state.pos[1]),
+        slip_velocity=state.slip_velocity,
+        approach_velocity=float(state.vel[1]),
+        normal_force=float(res[NORMAL]),
+        friction_force=float(res[FRICTION]),
+        patch_length=float(res[LENGTH]),
+        stick_fraction=float(res[STUCK]),
+        kinetic=kinetic,
+        gravity=gravity,
+        ring_strain=strain,
+        contact_spring=float(res[NORMAL_ENERGY] + res[BRISTLE_ENERGY]),
+        normal_impulse=books.normal_impulse,
+        friction_impulse=books.friction_impulse,
+        friction_loss=books.friction_loss,
+        damping_loss=books.damping_loss,
+        off_floor=books.off_floor,
+        mode=state.mode,
+    )

@@ -1,0 +1,6 @@
+"""The fields of a flexible motion, for files and pictures.
+
+``recovery``  displacement, velocity and stress of the whole ring at an instant
+``rim``, ``patch``, ``curves``  the rim as a line, pressure and friction along the patch, N(t) and F(t)
+``fields``    all of it as a PVD + VTU series
+"""

@@ -1,0 +1,316 @@
+"""The fields of a flexible motion as a PVD series: ring, rim, disk and floor at chosen instants.
+
+::
+
+    motion = simulate(scene, history=True)
+    write_fields(motion, "out")
+
+Instants between two steps are not interpolated: the march takes one more, shorter step to each, so the ring is in
+equilibrium with the contact in every frame. Between the pulses the hoop is rigid, and frames there show it undeformed.
+
+Units are the scene's. Its width b is no part of a scene: stresses, pressures and energy densities are those of a hoop
+of width R, and R/b times as large for another.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from math import floor, log10
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from meshes import (
+    Block,
+    Frame,
+    Placement,
+    SeriesError,
+    SeriesWriter,
+    bending_stress,
+    disk_block,
+    floor_block,
+    frame_times,
+    hoop_stress,
+    ring_block,
+    von_mises,
+)
+from meshes.draw.scales import tidy
+from meshes.draw.style import SI_UNITS, UNITS
+from rigid import Pulse, Scene
+
+from ..models.state import State
+from ..motion import FlexibleMotion, Kept
+from ..ring.fem import ring_of
+from ..time.tr_bdf2 import advanced
+from .curves import curves
+from .recovery import Interior, interior_of
+from .rim import RIM_FIELDS, rim_of
+
+Array = NDArray[np.float64]
+
+#: what is known of the ring, at its nodes; with the energy density comes the energy of every element
+RING_FIELDS = (
+    "displacement",
+    "velocity",
+    "stress",
+    "von_mises",
+    "hoop_stress",
+    "bending_stress",
+    "energy_density",
+)
+#: everything that can be asked for
+FIELDS = RING_FIELDS + RIM_FIELDS
+
+_TOGETHER = 50  # frames that are computed at once
+_AROUND = 0.25  # by default the frames begin and end this share of a pulse before and after it
+
+
+@dataclass(frozen=True, slots=True)
+class _Instant:
+    """A frame to be: where the hoop is, and the ring's state if it is elastic there, with its neighbours."""
+
+    t: float
+    place: Placement
+    velocity_C: tuple[float, float]
+    omega: float
+    kept: Kept | None = None
+    state: State | None = None
+    before: State | None = None
+    after: State | None = None
+
+
+def write_fields(
+    motion: FlexibleMotion,
+    directory: str | Path,
+    frames: int = 200,
+    times: ArrayLike | None = None,
+    fields: Sequence[str] = FIELDS,
+    pulse: int | None = 0,
+    progress: Callable[[float], None] | None = None,
+) -> None:
+    """Write a motion's fields as ``directory/fields.pvd`` and its frames.
+
+    Parameters
+    ----------
+    motion : FlexibleMotion
+        Of ``simulate(scene, history=True)``.
+    directory : path
+        Created if need be; a series that is already there is replaced.
+    frames : int
+        Number of frames, at least 2, through a pulse and a little before and after, denser where N changes.
+    times : array_like, optional
+        The instants themselves, in the scene's unit of time, in place of that.
+    fields : sequence of str
+        Out of ``FIELDS``; what is not asked for is not computed.
+    pulse : int or None
+        Number of the pulse, from 0; None, or no pulse at all, spreads the frames over the whole motion.
+    progress : callable, optional
+        Called with the fraction done, 0 to 1.
+
+    Raises
+    ------
+    SeriesError
+        No states in the motion, no such pulse, field or time, or a folder that cannot be written to.
+    """
+    asked = tuple(dict.fromkeys(fields))
+    unknown = [name for name in asked if name not in FIELDS]
+    if unknown or not asked:
+        raise SeriesError(f"fields = {', '.join(unknown) or 'none'} is not possible: they are {', '.join(FIELDS)}.")
+    if not motion.kept and motion.history is None:
+        raise SeriesError("the motion kept no states of the ring: simulate(scene, history=True) does.")
+    when = _times(motion, frames, times, pulse)
+    scene = motion.scene
+    si = not scene.hoop.R == scene.hoop.m == scene.hoop.g == 1
+    clocks = [np.array([state.t for state in kept.states]) for kept in motion.kept]
+    instants = [_instant(motion, clocks, float(t) / scene.time_unit, float(t)) for t in when]
+    painter = _Painter(scene, asked, instants)
+    with SeriesWriter(directory, SI_UNITS if si else UNITS, _title(scene)) as writer:
+        writer.history(**curves(motion, float(when[0]), float(when[-1])))
+        for start in range(0, len(instants), _TOGETHER):
+            for frame in painter.frames(instants[start : start + _TOGETHER]):
+                writer.add(frame)
+            if progress is not None:
+                progress(min(1.0, (start + _TOGETHER) / len(instants)))
+
+
+def _title(scene: Scene) -> str:
+    hoop, friction = scene.hoop, scene.friction
+    return (
+        f"k = {hoop.k:g}, r = {hoop.r:g}, m_h/m = {hoop.mass_ratio:g}, "
+        f"μ_s = {friction.mu_s:g}, μ = {friction.mu:g}, "
+        f"EI = {_short(scene.ring.bending_stiffness)} m g R², ε = {_short(scene.contact.stiffness)} m g/R²"
+    )
+
+
+def _short(value: float) -> str:
+    """1e4 as 10⁴."""
+    exponent = floor(log10(value) + 1e-9)
+    if -3 < exponent < 4:
+        return f"{value:.4g}"
+    mantissa = f"{value / 10.0**exponent:.3g}"
+    power = "10" + str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return power if mantissa == "1" else f"{mantissa}·{power}"
+
+
+def _times(motion: FlexibleMotion, frames: int, times: ArrayLike | None, pulse: int | None) -> Array:
+    end = motion.t_end
+    if times is not None:
+        listed = np.unique(np.asarray(times, dtype=float))
+        if not listed.size or not (listed[0] >= 0 and listed[-1] <= end * (1 + 1e-12)):
+            raise SeriesError(f"times are not possible: they must lie between 0 and {end:g}, the end of the motion.")
+        return listed
+    if frames < 2:
+        raise SeriesError(f"frames = {frames!r} is not possible: it takes at least 2.")
+    start = 0.0
+    if pulse is not None and motion.pulses:
+        if not 0 <= pulse < len(motion.pulses):
+            raise SeriesError(f"pulse = {pulse!r} is not possible: the motion has {len(motion.pulses)}.")
+        start, end = _around(motion, motion.pulses[pulse])
+    if not start < end:
+        raise SeriesError(f"there is no stretch of time to show from t = {start:g} on: {motion.ended}.")
+    history = motion.history
+    if history is None or not len(history.t):
+        return frame_times(start, end, frames)
+    return frame_times(start, end, frames, history.t, history.normal_force)
+
+
+def _around(motion: FlexibleMotion, pulse: Pulse) -> tuple[float, float]:
+    """From a little before a pulse to a little after it, as far as the hoop is flexible there."""
+    margin, unit = _AROUND * (pulse.t_end - pulse.t_start), motion.scene.time_unit
+    start, end = max(0.0, pulse.t_start - margin), min(motion.t_end, pulse.t_end + margin)
+    for kept in motion.kept:
+        first, last = kept.states[0].t * unit, kept.states[-1].t * unit
+        if first <= (pulse.t_start + pulse.t_end) / 2 <= last:
+            start, end = max(start, first), min(end, last)
+    return start, end
+
+
+def _instant(motion: FlexibleMotion, clocks: list[Array], t: float, told: float) -> _Instant:
+    """The state at ``t``, in the solver's units; ``told`` is the same time in the scene's.
+
+    ``clocks`` are the times of the kept states.
+    """
+    for kept, steps in zip(motion.kept, clocks, strict=True):
+        first, last = steps[0], steps[-1]
+        if not first - 1e-12 * last <= t <= last * (1 + 1e-12):
+            continue
+        i = min(max(int(np.searchsorted(steps, t, side="right")) - 1, 0), len(steps) - 2)
+        before, after = kept.states[i], kept.states[i + 1]
+        state: State | None = before
+        if t > before.t:
+            state = after if t >= after.t else advanced(kept.hoop, before, t)
+        if state is None:
+            state = min(before, after, key=lambda s: abs(s.t - t))
+        place = Placement(float(state.pos[2]), state.x_C, 1 + float(state.pos[1]))
+        velocity = (float(state.vel[0] + state.vel[2]), float(state.vel[1]))
+        return _Instant(told, place, velocity, float(state.vel[2]), kept, state, before, after)
+    now, R, unit = motion.at(told), motion.scene.hoop.R, motion.scene.velocity_unit
+    place = Placement(float(now.phi), float(now.x_C) / R, float(now.y_C) / R)
+    omega = float(now.omega) * motion.scene.time_unit
+    return _Instant(told, place, (omega + float(now.slip_velocity) / unit, 0.0), omega)
+
+
+class _Painter:
+    """Instants to frames, in the units of the scene."""
+
+    def __init__(self, scene: Scene, asked: tuple[str, ...], instants: list[_Instant]) -> None:
+        self.scene, self.asked = scene, set(asked)
+        self.interiors = {id(i.kept): interior_of(i.kept.hoop) for i in instants if i.kept is not None}
+        hoop = scene.hoop
+        self.length = hoop.R
+        self.stress = hoop.m * hoop.g / hoop.R**2
+        x = [i.place.x_C for i in instants]
+        R = self.length
+        self.floor = floor_block((min(x) - 2) * R, (max(x) + 2) * R, 0.1 * R)
+        self.mesh = next((interior.mesh for interior in self.interiors.values()), ring_of(scene).mesh)
+        self.factor = np.array([self._display_factor(instants)])
+
+    def frames(self, instants: list[_Instant]) -> Iterator[Frame]:
+        """Frames of some instants, those of one stretch done at once."""
+        done: dict[int, dict[str, Array]] = {}
+        for key in dict.fromkeys(id(i.kept) for i in instants if i.kept is not None):
+            own = [i for i in instants if id(i.kept) == key]
+            done.update(zip((id(i) for i in own), self._ring_fields(self.interiors[key], own), strict=True))
+        for instant in instants:
+            yield self._frame(instant, done.get(id(instant)))
+
+    def _ring_fields(self, interior: Interior, instants: list[_Instant]) -> Iterator[dict[str, Array]]:
+        """Nodal fields in the disk's frame, those that were asked for."""
+        states = [i.state for i in instants if i.state is not None]
+        u = interior.displacement(states)
+        found: dict[str, Array] = {"u": u}
+        if "velocity" in self.asked:
+            before = [i.before for i in instants if i.before is not None]
+            after = [i.after for i in instants if i.after is not None]
+            found["rate"] = interior.rate(states, before, after)
+        if self.asked & {"stress", "von_mises", "hoop_stress", "bending_stress", "energy_density"}:
+            found["stress"], found["density"] = interior.stress(u)
+            if "energy_density" in self.asked:
+                found["energy"] = interior.element_energy(u)
+        for number in range(len(instants)):
+            yield {name: values[..., number] for name, values in found.items()}
+
+    def _frame(self, instant: _Instant, found: dict[str, Array] | None) -> Frame:
+        mesh, place, R = self.mesh, instant.place, self.length
+        count = len(mesh.points)
+        if found is None:
+            found = {"u": np.zeros((count, 2)), "rate": np.zeros((count, 2)), "stress": np.zeros((count, 3))}
+            found |= {"density": np.zeros(count), "energy": np.zeros(len(mesh.quad9))}
+        points = R * place.points(mesh.points)
+        nodal: dict[str, Array] = {}
+        if "displacement" in self.asked:
+            nodal["displacement"] = R * place.vectors(found["u"])
+        if "velocity" in self.asked:
+            moving = place.velocities(mesh.points, found["u"], found["rate"], instant.velocity_C, instant.omega)
+            nodal["velocity"] = moving * self.scene.velocity_unit
+        if "stress" in found:
+            nodal |= self._stresses(place, self.stress * found["stress"])
+        ring = ring_block(mesh, points, **nodal)
+        if "energy_density" in self.asked:
+            ring = _with_energy(ring, self.stress * found["density"], self.scene.energy_unit * found["energy"])
+        ring = replace(ring, field_data={"display_factor": self.factor})
+        blocks = {"ring": ring}
+        if self.asked & set(RIM_FIELDS):
+            hoop = None if instant.kept is None else instant.kept.hoop
+            on_rim: dict[str, Array] = {n: nodal[n] for n in ("displacement", "velocity") if n in nodal}
+            blocks["rim"] = rim_of(mesh, points, on_rim, hoop, instant.state, place, self.asked, self.stress, R)
+        inner = 1 - self.scene.wall
+        radius = max(self.scene.hoop.k * inner, 0.025)  # a point mass has to be seen too
+        centre = R * place.points(np.array([[inner - radius, 0.0]]))[0]
+        blocks |= {"disk": disk_block(centre, R * radius, place.phi), "floor": self.floor}
+        return Frame(instant.t, blocks)
+
+    def _stresses(self, place: Placement, stress: Array) -> dict[str, Array]:
+        made: dict[str, Array] = {}
+        if "stress" in self.asked:
+            made["stress"] = place.stress(stress)
+        if "von_mises" in self.asked:
+            made["von_mises"] = von_mises(stress)
+        if self.asked & {"hoop_stress", "bending_stress"}:
+            hoop = hoop_stress(self.mesh, stress)
+            both = {"hoop_stress": hoop, "bending_stress": bending_stress(self.mesh, hoop)}
+            made |= {name: value for name, value in both.items() if name in self.asked}
+        return made
+
+    def _display_factor(self, instants: list[_Instant]) -> float:
+        """What makes the largest displacement about 6 % of R in pictures."""
+        elastic = [i for i in instants if i.state is not None]
+        some = elastic[:: max(1, len(elastic) // 30)]
+        largest = 0.0
+        for key, interior in self.interiors.items():
+            states = [i.state for i in some if id(i.kept) == key and i.state is not None]
+            if states:
+                u = interior.displacement(states)
+                largest = max(largest, float(np.sqrt((u**2).sum(axis=1)).max()))
+        return tidy(0.06 / largest) if largest > 0 else 1.0
+
+
+def _with_energy(ring: Block, density: Array, energy: Array) -> Block:
+    points: dict[str, Any] = {**ring.point_data, "energy_density": density}
+    return replace(ring, point_data=points, cell_data={"strain_energy": energy})
+
+
+__all__ = ["FIELDS", "RING_FIELDS", "write_fields"]

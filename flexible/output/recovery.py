@@ -1,0 +1,191 @@
+"""The inside of the ring at instants of the march: displacement, velocity, stress and strain energy.
+
+The reduced hoop knows its ring by modes and the rim. Here the same displacement is found at every node,
+
+    u = sum q_i Phi_i + (K^-1 - sum Phi_i Phi_i^T / lambda_i) f,
+
+with f the contact's forces on the rim: on the rim it is what the contact saw, to round-off. The other levels of the
+hoop march with all nodes. Many instants are done at once.
+
+Everything is in the disk's frame and in the solver's units, R = m = g = 1; stresses and energy densities are those of
+a ring of width R, for the width is no part of a scene.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from meshes.gradient import gauss_gradient, nodal_gradient
+
+from ..models.exact import ExactHoop
+from ..models.full import FullHoop
+from ..models.reduced import ReducedHoop
+from ..models.state import State
+from ..ring.fem import Ring
+from ..ring.reduction import ReducedRing
+
+Array = NDArray[np.float64]
+
+
+class Interior:
+    """Fields of a ring at its nodes, linear elasticity; states hold the displacement of its free dofs.
+
+    Parameters
+    ----------
+    ring : Ring
+    young : float
+        E b in m g/R, which is also E of a ring of width R.
+    mass : float
+        Of the ring over that of the disk.
+    """
+
+    def __init__(self, ring: Ring, young: float, mass: float) -> None:
+        self.ring, self.mesh = ring, ring.mesh
+        self.young, self.mass = young, mass
+
+    def free(self, states: Sequence[State]) -> Array:
+        """Displacement of the free dofs, (n_free, n_states)."""
+        return np.stack([state.pos[3:] for state in states], axis=1)
+
+    def _static(self, states: Sequence[State]) -> Array:
+        """The part of ``free`` whose rate is not a state of the march."""
+        return self.free(states) if self.mass == 0 else np.zeros((len(self.ring.free), len(states)))
+
+    def _dynamic_rate(self, states: Sequence[State]) -> Array | float:
+        return np.stack([state.vel[3:] for state in states], axis=1) if self.mass > 0 else 0.0
+
+    def displacement(self, states: Sequence[State]) -> Array:
+        """Displacement of the nodes, (n_nodes, 2, n_states)."""
+        return self._expanded(self.free(states))
+
+    def rate(self, states: Sequence[State], before: Sequence[State], after: Sequence[State]) -> Array:
+        """Rate of the displacement seen in the disk's frame, (n_nodes, 2, n_states).
+
+        That of what has inertia is the march's own; the static part has none there, and takes the difference from
+        the state ``before`` to the one ``after``.
+        """
+        elapsed = np.array([b.t - a.t for a, b in zip(before, after, strict=True)])
+        change = self._static(after) - self._static(before)
+        rate = np.divide(change, elapsed, out=np.zeros_like(change), where=elapsed > 0)
+        return self._expanded(rate + self._dynamic_rate(states))
+
+    def _expanded(self, free: Array) -> Array:
+        full = np.zeros((self.ring.basis.N, free.shape[1]))
+        full[self.ring.free] = free
+        return full[self.mesh.node_dofs]
+
+    @cached_property
+    def _at_nodes(self) -> tuple[sp.csr_matrix, sp.csr_matrix]:
+        return nodal_gradient(self.mesh)
+
+    @cached_property
+    def _at_gauss(self) -> tuple[sp.csr_matrix, sp.csr_matrix, Array]:
+        return gauss_gradient(self.mesh)
+
+    def stress(self, u: Array) -> tuple[Array, Array]:
+        """Cauchy stress (11, 22, 12) and strain energy density at the nodes of displacements as above.
+
+        Returns
+        -------
+        stress : (n_nodes, 3, n_states) array
+            In m g/R^2.
+        density : (n_nodes, n_states) array
+            In m g/R^2, per undeformed volume.
+        """
+        gradient = _gradient(*self._at_nodes, u)
+        strain = self._strain(gradient)
+        stress = self._elastic(strain)
+        return self._cauchy(gradient, stress), (strain * stress).sum(axis=1) / 2
+
+    def element_energy(self, u: Array) -> Array:
+        """Strain energy of every element, (n_elements, n_states); the sum is the ledger's ring strain."""
+        by_y1, by_y2, area = self._at_gauss
+        strain = self._strain(_gradient(by_y1, by_y2, u))
+        density = (strain * self._elastic(strain)).sum(axis=1) / 2
+        return (density.reshape(*area.shape, -1) * area[:, :, None]).sum(axis=1)
+
+    def _elastic(self, strain: Array) -> Array:
+        """Plane stress of a strain (11, 22, 2 x 12)."""
+        nu = self.ring.poisson
+        plane, shear = self.young / (1 - nu**2), self.young / (2 * (1 + nu))
+        first, second, slide = strain[:, 0], strain[:, 1], strain[:, 2]
+        return np.stack([plane * (first + nu * second), plane * (second + nu * first), shear * slide], axis=1)
+
+    def _strain(self, h: Array) -> Array:
+        return np.stack([h[:, 0, 0], h[:, 1, 1], h[:, 0, 1] + h[:, 1, 0]], axis=1)
+
+    def _cauchy(self, h: Array, stress: Array) -> Array:
+        return stress
+
+
+class ReducedInterior(Interior):
+    """The same of the reduced hoop, whose ring is known by modes and by the forces on the rim."""
+
+    def __init__(self, reduced: ReducedRing, mass: float) -> None:
+        super().__init__(reduced.ring, reduced.stiffness, mass)
+        self.reduced = reduced
+
+    @cached_property
+    def _modes(self) -> tuple[Array, Array]:
+        """lambda_i/(E b) and Phi_i on the free dofs, orthonormal in the unit mass."""
+        rim = self.reduced.rim_shapes
+        squares, shapes = self.ring.modes(rim.shape[1])
+        # the eigensolver may have run again since, for more modes, and returned some with the other sign
+        same = np.einsum("ij,ij->j", shapes[self.ring.rim_dofs], rim)
+        return squares, shapes * np.where(same < 0, -1.0, 1.0)
+
+    def free(self, states: Sequence[State]) -> Array:
+        """Displacement of the free dofs, (n_free, n_states)."""
+        moved = self._static(states)
+        if self.mass > 0:
+            moved += self._modes[1] @ super().free(states) / np.sqrt(self.mass)
+        return moved
+
+    def _static(self, states: Sequence[State]) -> Array:
+        load = np.zeros((len(self.ring.free), len(states)))
+        for column, state in zip(load.T, states, strict=True):
+            np.add.at(column, self.ring.rim_dofs[self.reduced.dofs(*state.window)], state.nodal.ravel())
+        moved: Array = self.ring.solve(load)
+        if self.mass > 0:
+            squares, shapes = self._modes
+            moved -= shapes @ ((shapes.T @ load) / squares[:, None])
+        return moved / self.young
+
+    def _dynamic_rate(self, states: Sequence[State]) -> Array | float:
+        rates = super()._dynamic_rate(states)
+        return self._modes[1] @ rates / np.sqrt(self.mass) if self.mass > 0 else rates
+
+
+class ExactInterior(Interior):
+    """The same of the geometrically exact ring: Green's strain, and Cauchy's stress F S F^T / det F."""
+
+    def _strain(self, h: Array) -> Array:
+        square = np.einsum("nkis,nkjs->nijs", h, h)
+        return super()._strain(h) + super()._strain(square) / 2
+
+    def _cauchy(self, h: Array, stress: Array) -> Array:
+        f = h + np.eye(2)[None, :, :, None]
+        tensor = stress[:, [[0, 2], [2, 1]]]
+        turned = np.einsum("niks,nkls,njls->nijs", f, tensor, f)
+        turned /= (f[:, 0, 0] * f[:, 1, 1] - f[:, 0, 1] * f[:, 1, 0])[:, None, None]
+        return np.stack([turned[:, 0, 0], turned[:, 1, 1], turned[:, 0, 1]], axis=1)
+
+
+def interior_of(hoop: ReducedHoop | FullHoop) -> Interior:
+    """The interior of a hoop of any level."""
+    mass = hoop.scene.hoop.mass_ratio
+    if isinstance(hoop, ReducedHoop):
+        return ReducedInterior(hoop.ring, mass)
+    kind = ExactInterior if isinstance(hoop, ExactHoop) else Interior
+    return kind(hoop.ring.ring, hoop.ring.stiffness, mass)
+
+
+def _gradient(by_y1: sp.csr_matrix, by_y2: sp.csr_matrix, u: Array) -> Array:
+    """H_ij = du_i/dy_j, (n, 2, 2, n_states)."""
+    flat = u.reshape(len(u), -1)
+    return np.stack([(by @ flat).reshape(-1, *u.shape[1:]) for by in (by_y1, by_y2)], axis=2)

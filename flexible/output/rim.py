@@ -1,0 +1,104 @@
+"""The rim as a line in a frame: the mesh's rim nodes and, where it touches the floor, the contact's own points."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from meshes import Block, Placement, RingMesh
+from meshes.fields import LINE
+
+from ..models.rim_contact import RimContact
+from ..models.state import State
+from .patch import FREE, Profile, profile
+
+Array = NDArray[np.float64]
+
+#: what is known of the rim, on its own line, which is much finer than the mesh where it touches
+RIM_FIELDS = ("pressure", "traction", "stick")
+
+
+def rim_of(
+    mesh: RingMesh,
+    points: Array,
+    nodal: dict[str, Array],
+    hoop: RimContact | None,
+    state: State | None,
+    place: Placement,
+    asked: set[str],
+    stress: float,
+    length: float,
+) -> Block:
+    """The rim's block.
+
+    Parameters
+    ----------
+    mesh : RingMesh
+    points : (n_nodes, 2) array
+        Undeformed nodes in the world.
+    nodal : mapping of (n_nodes, 2) arrays
+        Fields of the ring that the rim gets too.
+    hoop, state : RimContact, State or None
+        The contact at this instant; None while the hoop is rigid.
+    place : Placement
+    asked : set of str
+        Names out of ``RIM_FIELDS``.
+    stress, length : float
+        The scene's units.
+
+    Returns
+    -------
+    Block
+        Points once around by ascending material angle, which is the field ``theta``.
+    """
+    theta, rim = mesh.rim_theta, mesh.rim_nodes
+    at, on_line = points[rim], {name: value[rim] for name, value in nodal.items()}
+    columns: dict[str, NDArray[np.generic]] = {
+        "pressure": np.zeros(len(rim)),
+        "traction": np.zeros(len(rim)),
+        "stick": np.full(len(rim), FREE, np.int8),
+    }
+    patch = profile(hoop, state) if hoop is not None and state is not None else None
+    if patch is not None and len(patch.theta):
+        # from -pi on, as the mesh counts
+        extra = (patch.theta - theta[0]) % (2 * pi) + theta[0]
+        together = np.concatenate([theta, extra])
+        order = np.argsort(together, kind="stable")  # both edges are there twice, the order of which counts
+        at_nodes = _at(patch, theta)
+        for name, inside in (("pressure", patch.pressure), ("traction", patch.traction), ("stick", patch.stick)):
+            columns[name] = np.concatenate([at_nodes[name], inside])[order]
+        circle = length * place.points(np.column_stack([np.cos(extra), np.sin(extra)]))
+        at = np.concatenate([at, circle])[order]
+        shape, nodes = _quadratic(extra, theta)
+        for name, value in on_line.items():
+            here = np.einsum("ni,nij->nj", shape, value[nodes])
+            on_line[name] = np.concatenate([value, here])[order]
+        theta = together[order]
+    kept = {name: value if name == "stick" else stress * value.astype(float) for name, value in columns.items()}
+    kept = {name: value for name, value in kept.items() if name in asked}
+    start = np.arange(len(theta))
+    return Block(at, np.column_stack([start, np.roll(start, -1)]), LINE, {"theta": theta, **on_line, **kept})
+
+
+def _at(patch: Profile, theta: Array) -> dict[str, NDArray[np.generic]]:
+    """The profile at other angles: on its own lines, so that they change no integral."""
+    within = (theta - patch.theta[0]) % (2 * pi) + patch.theta[0]
+    i = np.clip(np.searchsorted(patch.theta, within, side="right") - 1, 0, len(patch.theta) - 2)
+    pressure, traction = (
+        np.interp(within, patch.theta, value, right=0.0) for value in (patch.pressure, patch.traction)
+    )
+    stick = np.where(patch.stick[i] != FREE, patch.stick[i], patch.stick[i + 1])
+    return {"pressure": pressure, "traction": traction, "stick": np.where(pressure > 0, stick, FREE).astype(np.int8)}
+
+
+def _quadratic(extra: Array, theta: Array) -> tuple[Array, NDArray[np.int64]]:
+    """Shape functions and rim positions of the elements that hold the angles ``extra``, both (n, 3)."""
+    vertex, count = theta[::2], len(theta)
+    element = np.clip(np.searchsorted(vertex, extra, side="right") - 1, 0, len(vertex) - 1)
+    ends = np.append(vertex, vertex[0] + 2 * pi)
+    xi = (extra - ends[element]) / (ends[element + 1] - ends[element])
+    shape = np.column_stack([(1 - xi) * (1 - 2 * xi), 4 * xi * (1 - xi), xi * (2 * xi - 1)])
+    positions = (2 * element[:, None] + np.arange(3)) % count
+    return shape, positions

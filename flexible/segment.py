@@ -1,0 +1,188 @@
+"""A flexible stretch of a motion: the march's records read as phases, turns, states and pulse measures.
+
+Everything is in the solver's units, R = m = g = 1.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Hoop, Kind, Phase, Pulse, States, Turn
+
+from .contact.forces import BRUSH, STICK
+from .models.state import Record
+from .motion import FlexiblePulse
+
+Array = NDArray[np.float64]
+
+
+def _hermite(x: Array, x0: Array, x1: Array, y0: Array, y1: Array, s0: Array, s1: Array) -> Array:
+    """Cubic through values and slopes at both ends."""
+    h = np.where(x1 > x0, x1 - x0, 1.0)
+    z = (x - x0) / h
+    a, b = s0 * h - (y1 - y0), -s1 * h + (y1 - y0)
+    return (1 - z) * y0 + z * y1 + z * (1 - z) * (a * (1 - z) + b * z)
+
+
+class Stretch:
+    """The records of one march as arrays, and what is read off them."""
+
+    def __init__(self, records: list[Record], hoop: Hoop) -> None:
+        self.hoop = hoop
+        self.columns: dict[str, Array] = {
+            field.name: np.array([getattr(r, field.name) for r in records], dtype=float)
+            for field in dataclasses.fields(Record)
+        }
+
+    def __getitem__(self, name: str) -> Array:
+        return self.columns[name]
+
+    @property
+    def t_start(self) -> float:
+        return float(self["t"][0])
+
+    @property
+    def t_end(self) -> float:
+        return float(self["t"][-1])
+
+    def held(self) -> Array:
+        """Energy held at every record."""
+        return self["kinetic"] + self["gravity"] + self["ring_strain"] + self["contact_spring"]
+
+    def value(self, name: str, t: Array) -> Array:
+        """A column at times ``t``: cubic where its rate is known too, linear otherwise."""
+        times = self["t"]
+        rate = {"phi": "omega", "normal_impulse": "normal_force", "friction_impulse": "friction_force"}.get(name)
+        if rate is None:
+            return np.interp(t, times, self[name])
+        i = np.clip(np.searchsorted(times, t, side="right") - 1, 0, len(times) - 2)
+        y, slope = self[name], self[rate]
+        return _hermite(t, times[i], times[i + 1], y[i], y[i + 1], slope[i], slope[i + 1])
+
+    def states(self, t: Array) -> States:
+        """The common vocabulary at times ``t``; energy is all that is held."""
+        columns = {name: self.value(name, t) for name in ("phi", "omega", "x_C", "y_C", "slip_velocity")}
+        forces = {name: self.value(name, t) for name in ("normal_force", "friction_force")}
+        return States(t=t, **columns, **forces, energy=np.interp(t, self["t"], self.held()))
+
+    def kinds(self) -> list[Kind]:
+        """What the patch does from each record to the next."""
+        kinds = []
+        for mode, normal, friction, stuck in zip(
+            self["mode"], self["normal_force"], self["friction_force"], self["stick_fraction"], strict=True
+        ):
+            if normal == 0:
+                kinds.append(Kind.FLIGHT)
+            elif mode == STICK or (mode == BRUSH and stuck > 0):
+                kinds.append(Kind.ROLL)
+            else:
+                kinds.append(Kind.SPIN if friction > 0 else Kind.SKID)
+        return kinds
+
+    def phases(self, first: float = -np.inf, last: float = np.inf) -> list[Phase]:
+        """Runs of one kind between the times ``first`` and ``last``."""
+        t, phi = self["t"], self["phi"]
+        kinds = self.kinds()
+        phases: list[Phase] = []
+        inside = [i for i in range(len(t) - 1) if t[i + 1] > max(first, t[i]) and t[i] < last]
+        for i in inside:
+            ends = np.array([max(t[i], first), min(t[i + 1], last)])
+            phi_0, phi_1 = self.value("phi", ends) if (ends != t[i : i + 2]).any() else phi[i : i + 2]
+            # a step belongs to what its end does, unless an event opened it
+            kind = kinds[i] if i and t[i] == t[i - 1] else kinds[i + 1] if kinds[i] == Kind.FLIGHT else kinds[i]
+            if phases and phases[-1].kind == kind:
+                phases[-1] = dataclasses.replace(phases[-1], t_end=float(ends[1]), phi_end=float(phi_1))
+            else:
+                phases.append(Phase(kind, float(ends[0]), float(ends[1]), float(phi_0), float(phi_1)))
+        return phases
+
+    def turns(self) -> list[Turn]:
+        """Instants at which omega changes its sign."""
+        t, w = self["t"], self["omega"]
+        turns = []
+        for i in np.nonzero((w[:-1] * w[1:] < 0) | ((w[1:] == 0) & (w[:-1] != 0)))[0]:
+            moment = np.array([t[i] + (t[i + 1] - t[i]) * w[i] / (w[i] - w[i + 1])])
+            state = self.states(moment)
+            turns.append(
+                Turn(float(moment[0]), float(state.phi[0]), float(state.slip_velocity[0]), float(state.energy[0]))
+            )
+        return turns
+
+    def crossing(self, phi: float, after: float) -> float | None:
+        """First time from ``after`` on at which the disk passes the angle ``phi``."""
+        t, angle = self["t"], self["phi"] - phi
+        for i in np.nonzero((angle[:-1] * angle[1:] <= 0) & (t[1:] > after))[0]:
+            low, high = max(t[i], after), t[i + 1]
+            f_low, f_high = (float(self.value("phi", np.array([x]))[0]) - phi for x in (low, high))
+            if f_low * f_high > 0:
+                continue
+            for _ in range(60):
+                middle = (low + high) / 2
+                f = float(self.value("phi", np.array([middle]))[0]) - phi
+                low, high, f_low = (middle, high, f) if f * f_low > 0 else (low, middle, f_low)
+            return (low + high) / 2
+        return None
+
+    def pulse(self, first: float, last: float) -> FlexiblePulse:
+        """Measures between the times ``first`` and ``last``."""
+        ends = np.array([first, last])
+        t = self["t"]
+        inside = (t > first) & (t < last)
+        grid = np.concatenate([[first], t[inside], [last]])
+
+        def gain(name: str) -> float:
+            return float(np.diff(self.value(name, ends))[0])
+
+        mass = 1 + self.hoop.mass_ratio
+        start = self.states(grid[:1])
+        # the mass centre's velocity, from its rigid place and then from the impulse
+        rise = np.interp(first, t, self["approach_velocity"])
+        y_rate = rise - self.hoop.e * np.sin(start.phi[0]) * start.omega[0]
+        impulse = self.value("normal_impulse", grid)
+        impulse = impulse - impulse[0]
+        velocity = y_rate + impulse / mass - (grid - first)
+        normal_force = self.value("normal_force", grid)
+        work = normal_force * velocity
+        gained = np.concatenate([[0.0], np.cumsum((work[1:] + work[:-1]) / 2 * np.diff(grid))])
+        split = int(np.argmax(velocity >= 0)) if (velocity >= 0).any() else len(grid) - 1
+        if split > 0 and velocity[split] > velocity[split - 1]:
+            part = -velocity[split - 1] / (velocity[split] - velocity[split - 1])
+        else:
+            part = 1.0
+        before = max(split - 1, 0)
+        compression = impulse[before] + part * (impulse[split] - impulse[before])
+        absorbed = gained[before] + part * (gained[split] - gained[before])
+        returned = gained[-1] - absorbed
+        phi = self.value("phi", ends)
+        held = np.interp(ends, t, self.held())
+        losses = gain("friction_loss"), gain("damping_loss")
+        strain, spring = (float(np.interp(grid, t, self[name]).max()) for name in ("ring_strain", "contact_spring"))
+        total = float(impulse[-1])
+        return FlexiblePulse(
+            t_start=first,
+            t_end=last,
+            phi_start=float(phi[0]),
+            phi_end=float(phi[1]),
+            normal_impulse=total,
+            friction_impulse=gain("friction_impulse"),
+            friction_loss=losses[0],
+            peak_normal_force=float(normal_force.max()),
+            newton_restitution=float(-velocity[-1] / velocity[0]) if velocity[0] else 0.0,
+            poisson_restitution=float((total - compression) / compression) if compression > 0 else 0.0,
+            energetic_restitution=sqrt(max(0.0, -returned / absorbed)) if absorbed < 0 else 0.0,
+            time_off_floor=gain("off_floor"),
+            ring_energy_peak=strain,
+            contact_energy_peak=spring,
+            damping_loss=losses[1],
+            numerical_loss=float(held[0] - held[1]) - sum(losses),
+            phases=tuple(self.phases(first, last)),
+        )
+
+
+def pulse_windows(pulses: tuple[Pulse, ...]) -> list[tuple[float, float]]:
+    """The phi-intervals over which the pulses of a rigid motion are measured, in the order of the sweep."""
+    return [(pulse.phi_start, pulse.phi_end) for pulse in pulses]

@@ -1,0 +1,116 @@
+"""One TR-BDF2 step of any level, with its error, impulses and losses; and the jump when the law of friction changes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..contact.forces import BEYOND, DRAG, ELASTIC, ETA, FRICTION, NORMAL, NORMAL_ENERGY, SLIP
+from ..models.stage import BETA, ERROR_WEIGHTS, TAU
+from ..models.state import Model, State
+
+Array = NDArray[np.float64]
+
+_QUADRATURE = (2**0.5 / 4, 2**0.5 / 4, BETA)  # of TR-BDF2 over a step
+
+
+class MarchError(RuntimeError):
+    """A step that could not be mended; the sentence says where and why."""
+
+
+@dataclass(slots=True)
+class Trial:
+    state: State
+    error: float
+    impulses: tuple[float, float]
+    friction_work: float
+    damped: float
+    off_floor: float
+
+
+def attempt(model: Model, old: State, h: float) -> Trial | None:
+    """One TR-BDF2 step of length ``h``; None if Newton failed or met a singular matrix."""
+    try:
+        return _stages(model, old, h)
+    except np.linalg.LinAlgError:
+        return None
+
+
+def _stages(model: Model, old: State, h: float) -> Trial | None:
+    """The two stages of a step, and what is measured of it."""
+    beta = BETA * h
+    rho, drag = model.relaxation / beta, model.patch_damping(old) / beta
+    pos0, vel0, acc0 = old.pos, old.vel, old.acc
+    elastic0 = old.res[ELASTIC]
+    elastic_pred = elastic0 + beta * old.elastic_rate
+    pos_pred, vel_pred = pos0 + 2 * beta * vel0 + beta**2 * acc0, vel0 + beta * acc0
+    damper = np.array([rho, elastic_pred, 1.0, drag, beta * old.slip_velocity, TAU / BETA])
+    first = model.stage(old, old.mode, damper, pos_pred, vel_pred, beta, beta**2 * acc0)
+    if not first[0]:
+        return None
+    d, acc_mid, res_mid = first[1], first[2], first[7]
+    pos_mid, vel_mid = pos_pred + d, vel_pred + d / beta
+    c_mid, c_old = 1 / (TAU * (2 - TAU)), -((1 - TAU) ** 2) / (TAU * (2 - TAU))
+    vel_pred = c_mid * vel_mid + c_old * vel0
+    pos_pred = c_mid * pos_mid + c_old * pos0 + beta * vel_pred
+    elastic_pred = c_mid * res_mid[ELASTIC] + c_old * elastic0
+    damper = np.array([rho, elastic_pred, 1.0, drag, c_mid * res_mid[SLIP], 1 / BETA])
+    guess = beta**2 * (acc_mid + (acc_mid - acc0) * (1 - TAU) / TAU)
+    second = model.stage(old, old.mode, damper, pos_pred, vel_pred, beta, guess, (first[4], first[5]))
+    if not second[0]:
+        return None
+    _, d, acc, matrix, window, u, nodal, res, bristles, flags = second
+    pos, vel = pos_pred + d, vel_pred + d / beta
+    error = h * (ERROR_WEIGHTS[0] * acc0 + ERROR_WEIGHTS[1] * acc_mid + ERROR_WEIGHTS[2] * acc)
+    slip_mid, slip = (r[SLIP] if r[NORMAL] > 0 else p[0] for r, p in ((res_mid, pos_mid), (res, pos)))
+    bend = (slip - slip_mid / TAU) / (1 - TAU)
+    forces = (old.res, res_mid, res)
+    impulses = [h * sum(w * r[i] for w, r in zip(_QUADRATURE, forces, strict=True)) for i in (NORMAL, FRICTION)]
+    work, damped = float(res[BEYOND]), 0.0
+    for a, b, moved in ((old.res, res_mid, slip_mid), (res_mid, res, slip - slip_mid)):
+        work += (a[FRICTION] - a[DRAG] + b[FRICTION] - b[DRAG]) / 2 * moved
+        damped -= (a[DRAG] + b[DRAG]) / 2 * moved
+        damped += (_eta(a, b) - 1) * (b[NORMAL_ENERGY] - a[NORMAL_ENERGY])
+    off = h * sum(w for w, r in zip(_QUADRATURE, forces, strict=True) if r[NORMAL] == 0)
+    x_C = old.x_C + pos[0] + (pos[2] - pos0[2])
+    pos = pos.copy()
+    pos[0] = 0.0
+    elastic_rate = float(res[ELASTIC] - elastic_pred) / beta
+    state = State(
+        old.t + h, x_C, pos, vel, acc, old.mode, window, u, nodal, res, bristles, flags,
+        float((slip + bend) / h), elastic_rate,
+    )  # fmt: skip
+    size = model.momentum_error(state, beta, matrix, error)
+    return Trial(state, size, (impulses[0], impulses[1]), work, damped, off)
+
+
+def _eta(first: Array, second: Array) -> float:
+    """Mean damping factor between two instants, of those in contact."""
+    factors = [float(res[ETA]) for res in (first, second) if res[ELASTIC] > 0]
+    return sum(factors) / len(factors) if factors else 1.0
+
+
+def restart(model: Model, state: State, mode: int) -> State:
+    """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
+    beta = 1e-7
+    damper = np.array([0.0, 0.0, state.res[ETA] if state.res[ELASTIC] > 0 else 1.0, 0.0, 0.0, 1.0])
+    try:
+        solved = model.stage(state, mode, damper, state.pos, state.vel, beta, beta**2 * state.acc)
+    except np.linalg.LinAlgError:
+        solved = (False,) * 10
+    ok, d, acc, _, window, u, nodal, res, bristles, flags = solved
+    if not ok:
+        raise MarchError(f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved")
+    pos = state.pos.copy()
+    pos[3:] += d[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
+    return replace(
+        state, pos=pos, acc=acc, mode=mode, window=window, u=u, nodal=nodal, res=res, bristles=bristles, flags=flags
+    )
+
+
+def advanced(model: Model, state: State, t: float) -> State | None:
+    """The state at ``t`` by a single step from ``state``, shorter than the one accepted there; None if it fails."""
+    trial = attempt(model, state, t - state.t)
+    return None if trial is None else trial.state

@@ -1,0 +1,7 @@
+"""What pictures are made of. Nothing is loaded from pyvista or matplotlib before something is drawn.
+
+``style``    colours, names, symbols         ``display``  is there anything to draw with?
+``shots``    what is shown at an instant     ``scales``   colours and sizes taken from the whole run
+``stage``    hoop, floor and arrows (VTK)    ``lens``     the contact, enlarged
+``patch``    pressure along the patch        ``sheet``    type, colour bar and curves around the stage
+"""

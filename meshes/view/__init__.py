@@ -1,0 +1,9 @@
+"""Pictures, animations and a window, of the fields of a flexible run or of any motion.
+
+``pictures``     picture, animate, window      ``setting``  what stays the same from one instant to the next
+``film``         pages in time as one file     ``interactive``  the window itself
+"""
+
+from .pictures import ViewError, animate, picture, render, window
+
+__all__ = ["ViewError", "animate", "picture", "render", "window"]

@@ -1,0 +1,253 @@
+"""Pictures, animations and a window, of the fields of a flexible run or of any motion.
+
+::
+
+    from meshes import read
+    from meshes.view import picture, animate, window
+
+    picture(read("out"), "pulse.png", time=1.8, field="von_mises")
+    animate(motion, "rolling.gif")
+
+pyvista and matplotlib are loaded when something is drawn and not before.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Motion
+
+from ..draw.display import ViewError, require_renderer, require_screen
+from ..draw.lens import Lens, enlargement
+from ..draw.sheet import Sheet
+from ..draw.shots import Shot, Subject
+from ..draw.stage import ABOVE_FLOOR, Stage
+from ..series import Series
+from ..times import frame_times
+from . import film
+from .setting import Setting, setting
+
+Image = NDArray[np.uint8]
+Progress = Callable[[int, int], None]
+
+__all__ = ["ViewError", "animate", "picture", "render", "window"]
+
+
+class Camera:
+    """Draws the pages of one setting at one size, from stage pictures ``oversampling`` times as fine."""
+
+    def __init__(self, chosen: Setting, size: tuple[int, int], oversampling: int = 2) -> None:
+        require_renderer()
+        self.setting, self.oversampling = chosen, oversampling
+        subject = chosen.subject
+        patches: tuple[Shot, ...] = chosen.patches if chosen.zoom == 1 else ()
+        self.sheet = Sheet(size, subject.curves, subject.span, chosen.colours, subject.units, subject.title, patches)
+        _, _, width, height = self.sheet.stage_box
+        pixels = (self.oversampling * width, self.oversampling * height)
+        self.stage = Stage(chosen.first, pixels, chosen.zoom, chosen.colours, chosen.largest)
+        self.height = self.stage.height
+        # where the hoop may be: left of the colour bar, right of the patch
+        right, left = self.sheet.covered, self.sheet.aside
+        self.width = self.height * (width - right - left) / height
+        self.aside = self.height * (right - left) / height / 2
+        self.scale = height / self.height
+        self.lens = None
+        if chosen.colours is not None and chosen.zoom == 1 and enlargement(chosen.first) >= 2:
+            self.lens = Lens(chosen.first, self.scale, chosen.colours, chosen.lens_factor)
+
+    def __enter__(self) -> Camera:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.stage.close()
+        if self.lens is not None:
+            self.lens.stage.close()
+
+    def page(self, time: float) -> Image:
+        """The page at ``time`` as (height, width, 3) bytes."""
+        shot = self.setting.subject.shot(time)
+        middle = self._middle(shot)
+        self.stage.show(shot, self.setting.factor, middle)
+        fine, more = self.stage.image(), self.oversampling
+        total = np.zeros((fine.shape[0] // more, fine.shape[1] // more, 3), dtype=np.uint16)
+        for i in range(more):
+            for j in range(more):
+                total += fine[i::more, j::more]
+        drawn, caption = (total // more**2).astype(np.uint8), None
+        if self.lens is not None and self.lens.fits(shot):
+            column = drawn.shape[1] / 2 + (float(shot.centre[0]) - middle) * self.scale
+            caption = self.lens.draw(drawn, shot, column, ABOVE_FLOOR * drawn.shape[0])
+        return self.sheet.fill(drawn, shot, self.setting.factor, caption)
+
+    def _middle(self, shot: Shot) -> float:
+        """The view stands still if the whole run fits in it, or else goes with the hoop."""
+        left, right = self.setting.reach
+        if self.sheet.aside:  # nothing of the legend is in the way
+            left += 0.5 * self.setting.first.radius
+        if self.setting.zoom > 1:
+            return float(shot.centre[0]) + self.aside
+        if right - left <= self.width:
+            return (left + right) / 2 + self.aside
+        half = self.width / 2
+        return float(np.clip(shot.centre[0], left + half, right - half)) + self.aside
+
+
+def render(
+    thing: Series | Motion,
+    time: float | None = None,
+    field: str | None = None,
+    factor: float | None = None,
+    zoom: float = 1.0,
+    size: tuple[int, int] = (1280, 900),
+) -> Image:
+    """The picture of one instant as (height, width, 3) bytes; see :func:`picture`."""
+    chosen = setting(thing, field, factor, zoom)
+    start, stop = chosen.subject.span
+    if time is None:
+        time = _liveliest(chosen.subject)
+    if not start <= time <= stop:
+        raise ViewError(f"time = {time!r} is not possible: the run goes from {start:g} to {stop:g}.")
+    with Camera(chosen, size, oversampling=3) as camera:
+        return camera.page(time)
+
+
+def picture(
+    thing: Series | Motion,
+    png: str | Path,
+    time: float | None = None,
+    field: str | None = None,
+    factor: float | None = None,
+    zoom: float = 1.0,
+    size: tuple[int, int] = (1280, 900),
+) -> None:
+    """Draw one instant into a PNG file.
+
+    Parameters
+    ----------
+    thing : Series or Motion
+        Fields of a flexible run, or any motion, drawn undeformed.
+    png : path
+        Where to.
+    time : float, optional
+        In the run's unit; a series shows its nearest frame. By default the instant of the largest N.
+    field : str, optional
+        What colours the ring: a point field of the series, "stress xx", "stress yy" or "stress xy"; by
+        default the von Mises stress.
+    factor : float, optional
+        Exaggeration of the deformation, printed in the picture; by default the series' own
+        ``display_factor``, or one that makes the largest displacement a few per cent of the radius.
+    zoom : float
+        1 shows the whole hoop, more enlarges what is about the contact.
+    size : (width, height)
+        In pixels.
+
+    Raises
+    ------
+    ViewError
+        Nothing to draw with, no such field or time.
+    SeriesError
+        A damaged series.
+    """
+    film.write_png(Path(png), render(thing, time, field, factor, zoom, size))
+
+
+def animate(
+    thing: Series | Motion,
+    path: str | Path,
+    field: str | None = None,
+    factor: float | None = None,
+    zoom: float = 1.0,
+    frames: int | None = None,
+    fps: int = 20,
+    start: float | None = None,
+    stop: float | None = None,
+    pace: str = "force",
+    size: tuple[int, int] | None = None,
+    progress: Progress | None = None,
+) -> None:
+    """Draw the run into a .gif, .mp4 or .html file.
+
+    The page (.html) is one file that needs nothing else: a slider for the time, keys to step and play.
+
+    Parameters
+    ----------
+    thing, field, factor, zoom
+        As for :func:`picture`.
+    path : path
+        The suffix chooses the kind.
+    frames : int, optional
+        Number of pictures; 60 for a gif or a page, 150 for a film.
+    fps : int
+        Pictures per second.
+    start, stop : float, optional
+        Stretch of time; the whole run by default.
+    pace : {"force", "time"}
+        "time" runs evenly in time; "force" spends half of its pictures where the normal force changes, so
+        that a pulse is seen in slow motion.
+    size : (width, height), optional
+        In pixels; 640 x 480 for a gif, 960 x 720 for a page, 1280 x 900 for a film.
+    progress : callable, optional
+        Called with the number of pictures done and their total.
+
+    Raises
+    ------
+    ViewError
+        As for :func:`picture`, and for another suffix.
+    """
+    path = Path(path)
+    kind = film.KINDS.get(path.suffix.lower())
+    if kind is None:
+        raise ViewError(f"{path} cannot be an animation: its name must end in .gif, .mp4 or .html.")
+    count = kind.frames if frames is None else frames
+    if count < 2 or fps < 1:
+        raise ViewError(f"{count} frames at {fps} per second are no animation: it takes 2 at 1 per second.")
+    chosen = setting(thing, field, factor, zoom)
+    first, last = chosen.subject.span
+    start, stop = first if start is None else start, last if stop is None else stop
+    if not first <= start < stop <= last:
+        raise ViewError(f"{start!r} to {stop!r} is not possible: the run goes from {first:g} to {last:g}.")
+    times = np.linspace(start, stop, count)
+    if pace == "force":
+        curves = chosen.subject.curves
+        times = frame_times(start, stop, count, curves.t, np.cbrt(curves.normal_force))
+    elif pace != "time":
+        raise ViewError(f"pace = {pace!r} is not possible: it is 'force' or 'time'.")
+
+    def pages() -> Iterator[Image]:
+        with Camera(chosen, size or kind.size) as camera:
+            for done, time in enumerate(times, 1):
+                yield camera.page(float(time))
+                if progress is not None:
+                    progress(done, count)
+
+    kind.write(path, pages(), fps, times)
+
+
+def window(thing: Series | Motion, field: str | None = None, factor: float | None = None, zoom: float = 1.0) -> None:
+    """Open a window with a time slider; space plays, [ and ] change the factor, c changes the field.
+
+    Raises
+    ------
+    ViewError
+        No screen, or as for :func:`picture`.
+    """
+    require_screen()
+    from .interactive import Window
+
+    chosen = setting(thing, field, factor, zoom)
+    if chosen.subject.span[0] == chosen.subject.span[1]:
+        raise ViewError("a window needs more than one frame: ask for a picture (--png).")
+    Window(chosen).open()
+
+
+def _liveliest(subject: Subject) -> float:
+    curves = subject.curves
+    if not len(curves.t):
+        return subject.span[0]
+    best: Any = curves.t[int(np.nanargmax(curves.normal_force))]
+    return float(np.clip(best, *subject.span))

@@ -1,0 +1,8 @@
+"""What the phases are computed with, and why it runs both interpreted and compiled.
+
+``compile``     functions that run as plain Python and, on demand, compiled
+``layout``      where things stand in the flat sequences that kernels work on
+``angle``       phi without loss of digits near the bottom or the top
+``polynomial``  all real roots on an interval, none stepped over
+``elliptic``    Carlson's integrals
+"""

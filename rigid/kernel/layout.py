@@ -1,0 +1,49 @@
+"""Where things stand in the flat sequences that the kernels work on, and the codes they exchange.
+
+Inside the kernels R = g = M = 1 with M the total mass; :mod:`rigid.solve` converts at the boundary.
+"""
+
+# What does not change during a motion.
+ECC, ONE_MINUS_E, GYR, ZETA, MU_S, MU, RESTITUTION, TURNS, T_END, UNTIL = range(10)
+PARAMETERS = 10
+NOTHING, FIRST_PULSE, REST = range(3)  # values of UNTIL
+
+# The state: the angle as (offset, chart, whole turns), see rigid.kernel.angle; UN and GAP are the normal velocity
+# of the contact point and its height, zero on the floor. XDOT and YDOT, the velocity of G, hold while the
+# hoop slips or flies: there phidot may be as large as 1/k, and SLIP and UN, which contain it, lose the digits
+# that the energy needs.
+T, ANGLE, TOP, WHOLE, OMEGA, SLIP, UN, GAP, X_C, XDOT, YDOT = range(11)
+MOVING = 11  # numbers of the state that a record keeps
+MODE, LAST_KIND, TURNS_DONE, STEPS, RECORDS, PULSES_DONE, PERIOD, STALLS, HOPS = range(11, 20)
+# The pulse that is being measured: whether it is open, whether the bottom was crossed, and the state at its
+# start.
+P_OPEN, P_CROSSED, P_T, P_ANGLE, P_TOP, P_WHOLE, P_XDOT, P_YDOT, P_H, P_ENERGY, P_PEAK, P_T_BOTTOM = range(20, 32)
+LOSSLESS_TURNS, SLIDES_DONE, LAST_ENERGY, LAST_TURNS, PHASE_T, SLIP_SCALE, PULL = range(32, 39)
+STATE = 39
+
+# Kinds of contact; CHOOSE stands for "find out".
+CHOOSE, ROLL, SKID, SPIN, FLIGHT, SKIM, IMPACT = range(7)
+
+# Records on the tape: a phase (tag = its kind) or END carries the state, a TURN the state and its energy, a
+# PULSE its measures.
+WIDTH = 18
+TURN_ENERGY = 12  # where in a TURN
+TURN, PULSE, END = 10, 11, 12
+
+# Why a kernel returns.
+(
+    MORE,
+    TURNS_REACHED,
+    TIME_REACHED,
+    PULSE_OVER,
+    ROLLS,
+    RESTS,
+    SLIDES,
+    HITS_FLOOR,
+    WORK_BOUND,
+    CREEPS,
+    LIFTED,
+    WHIRLS,
+    ROLLS_ON,
+    SETTLES,
+) = range(14)

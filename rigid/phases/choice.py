@@ -1,0 +1,237 @@
+"""The phase machine: which phase comes next, and each phase run to its end.
+
+``entry_run`` advances a state until its tape is full, its allowance of work is spent, or the motion is over;
+it can be called again to go on. Rules where Coulomb's law leaves a choice:
+
+* contact point at rest: roll if |F| <= mu_s N with N >= 0; else the slip starts in the direction in which the
+  contact point would move without friction. (That slip never lies in Painlevé's D < 0: if it did, rolling
+  would be admissible.)
+* slipping with D > 0: contact while 1 - e c phidot^2 > 0, else flight.
+* slipping with D < 0 (only a release or a landing can be there): flight if 1 - e c phidot^2 <= 0 (contact
+  would be consistent too), else an impact without collision.
+* a rebound slower than ``SLOWEST_HOP`` sqrt(g R) is no hop: the landing is taken without restitution. So an
+  accumulation of ever smaller hops ends.
+"""
+
+# mypy: allow-untyped-defs
+from __future__ import annotations
+
+from math import inf
+
+from ..kernel.angle import trig
+from ..kernel.compile import kernel
+from ..kernel.layout import (  # fmt: skip
+    ANGLE,
+    CHOOSE,
+    ECC,
+    FIRST_PULSE,
+    FLIGHT,
+    GAP,
+    GYR,
+    HOPS,
+    IMPACT,
+    LAST_ENERGY,
+    LAST_KIND,
+    LAST_TURNS,
+    MODE,
+    MORE,
+    MU,
+    MU_S,
+    OMEGA,
+    ONE_MINUS_E,
+    PULL,
+    PULSE_OVER,
+    RECORDS,
+    REST,
+    RESTITUTION,
+    ROLL,
+    SETTLES,
+    SKID,
+    SKIM,
+    SLIDES,
+    SLIDES_DONE,
+    SLIP,
+    SPIN,
+    STALLS,
+    STEPS,
+    T_END,
+    TIME_REACHED,
+    TOP,
+    TURNS_DONE,
+    TURNS_REACHED,
+    UN,
+    UNTIL,
+    WIDTH,
+    WORK_BOUND,
+    XDOT,
+    YDOT,
+    T,
+)
+from ..record.log import ROOM, begin, turn
+from ..record.pulse import energy, released, watch
+from .flight import fly, lifts, settle, touch_down
+from .impact import strike
+from .pointmass import choose_point_mass, roll_point_mass, skim
+from .rolling import TIE, rolling_forces
+from .rolling_phase import PHASE_OVER, roll
+from .slipping import JAM, denominator
+from .slipping_phase import slide
+
+SLOWEST_HOP = 1e-6
+MOST_STALLS = 50.0
+SLIPS, LEAST_LOSS = 100.0, 1e-4
+
+
+@kernel
+def choose_slip(par, state, tape):
+    """Slip, flight or a jam, where rolling is out of the question."""
+    a, top, omega = state[ANGLE], state[TOP], state[OMEGA]
+    s, c, h, _ = trig(a, top)
+    e, gyr, v = par[ECC], par[GYR], state[SLIP]
+    if lifts(e, omega, s, c):
+        begin(par, state, FLIGHT, tape)
+        return
+    pull = state[PULL]
+    state[PULL] = 0.0
+    if v == 0.0 and pull != 0.0:
+        # the end of a rolling knows which way F has pulled; where N is round-off, as when the contact force of a hoop
+        # of next to no inertia has died out, F = N e s/(1 + e c) changes sign with it, and the slip follows sin phi
+        n, _ = rolling_forces(par, omega, a, top)
+        v = -pull if abs(n) > 1e-14 * (1 + omega * omega) else s
+    elif v == 0.0:
+        # acceleration of the contact point under the normal force of a smooth floor
+        arm = par[ONE_MINUS_E] + e * h
+        n = gyr * (1 - e * c * omega * omega) / (gyr + e * e * s * s)
+        v = e * s * omega * omega - arm * e * s * n / gyr
+    sign = 1.0 if v > 0 else -1.0
+    if denominator(par, par[MU] * sign, a, top) > JAM * gyr:
+        begin(par, state, SKID if sign > 0 else SPIN, tape)
+    else:
+        state[MODE] = IMPACT
+
+
+@kernel
+def choose(par, state, tape):
+    """What the contact does from here on."""
+    if state[LAST_KIND] == CHOOSE:
+        released(par, state)
+    a, top, omega = state[ANGLE], state[TOP], state[OMEGA]
+    if state[GAP] > 0.0 or state[UN] > 0.0:
+        begin(par, state, FLIGHT, tape)
+        return
+    state[GAP] = 0.0
+    state[UN] = 0.0
+    if par[GYR] == 0.0:
+        choose_point_mass(par, state, tape)
+        return
+    if state[SLIP] == 0.0:
+        n, f = rolling_forces(par, omega, a, top)
+        if n >= 0.0 and abs(f) <= par[MU_S] * n * (1 + TIE):
+            begin(par, state, ROLL, tape)
+            return
+    choose_slip(par, state, tape)
+
+
+@kernel
+def soar(par, state, tape):
+    """Fly to the next touch-down and strike the floor."""
+    if watch(par, state, 0.0, tape) and par[UNTIL] == FIRST_PULSE:
+        return PULSE_OVER
+    time = touch_down(par[ECC], state[GAP], state[UN], state[OMEGA], state[ANGLE], state[TOP])
+    if state[T] + time >= par[T_END]:
+        fly(par, state, par[T_END] - state[T])
+        state[T] = par[T_END]
+        return TIME_REACHED
+    s, _, _, _ = trig(state[ANGLE], state[TOP])
+    a, top = state[ANGLE], state[TOP]
+    rise = state[GAP] + time * (state[UN] - par[ECC] * s * state[OMEGA] - 0.5 * time)
+    fly(par, state, time)
+    settle(par, state, a, top, rise)
+    state[GAP] = 0.0
+    state[UN] = min(state[UN], 0.0)
+    state[HOPS] += 1.0
+    return PHASE_OVER
+
+
+@kernel
+def hit(par, state, tape):
+    """An impact, and what follows it: a hop or contact."""
+    begin(par, state, IMPACT, tape)
+    omega, slip, un, xdot, ydot = state[OMEGA], state[SLIP], state[UN], state[XDOT], state[YDOT]
+    reverses = strike(par, state, par[RESTITUTION])
+    if state[UN] <= SLOWEST_HOP:
+        state[OMEGA], state[SLIP], state[UN], state[XDOT], state[YDOT] = omega, slip, un, xdot, ydot
+        reverses = strike(par, state, 0.0)
+        state[UN] = 0.0
+    if reverses and turn(par, state, tape):
+        return TURNS_REACHED
+    return PHASE_OVER
+
+
+@kernel
+def settles(par, state):
+    """Whether the last ``SLIPS`` slips have taken next to nothing and brought the end of the run no closer.
+
+    A motion whose slips shrink towards a rolling that just never slips does so algebraically, and would not
+    end.
+    """
+    if par[UNTIL] == FIRST_PULSE or par[T_END] < inf:
+        return False
+    state[SLIDES_DONE] += 1.0
+    if state[SLIDES_DONE] < SLIPS:
+        return False
+    now = energy(par, state)
+    idle = par[UNTIL] == REST or state[TURNS_DONE] == state[LAST_TURNS]
+    done = idle and state[LAST_ENERGY] > 0.0 and state[LAST_ENERGY] - now <= LEAST_LOSS * now
+    state[SLIDES_DONE], state[LAST_ENERGY], state[LAST_TURNS] = 0.0, now, state[TURNS_DONE]
+    return done
+
+
+@kernel
+def entry_run(par, state, work, tape):
+    """Run until the tape is full (MORE), the allowance of steps is spent (WORK_BOUND) or the motion is
+    over.
+    """
+    while True:
+        if state[RECORDS] * WIDTH + ROOM * WIDTH > len(tape):
+            return MORE
+        if state[STEPS] <= 0.0:
+            return WORK_BOUND
+        state[STEPS] -= 1.0
+        mode = state[MODE]
+        code = PHASE_OVER
+        before, angle, omega = state[T], state[ANGLE], state[OMEGA]
+        if mode == CHOOSE:
+            choose(par, state, tape)
+            continue
+        if mode == ROLL:
+            if par[GYR] == 0.0:
+                code = roll_point_mass(par, state, tape, par[T_END])
+            else:
+                code = roll(par, state, work, tape)
+                if code == PHASE_OVER:
+                    choose_slip(par, state, tape)
+        elif mode in (SKID, SPIN):
+            if settles(par, state):
+                return SLIDES if par[MU] == 0.0 else SETTLES
+            code = slide(par, state, work, tape)
+            if state[MODE] == FLIGHT:
+                begin(par, state, FLIGHT, tape)
+        elif mode == FLIGHT:
+            code = soar(par, state, tape)
+            if code == PHASE_OVER:
+                state[MODE] = IMPACT
+                continue
+        elif mode == IMPACT:
+            code = hit(par, state, tape)
+        elif mode == SKIM:
+            code = skim(par, state, tape)
+        if code != PHASE_OVER:
+            return code
+        # a phase of a tiny disk may be shorter than t resolves: one that moved counts less than one that did not
+        moved = state[ANGLE] != angle or state[OMEGA] != omega
+        state[STALLS] = 0.0 if state[T] != before else state[STALLS] + (0.02 if moved else 1.0)
+        if state[STALLS] > MOST_STALLS:
+            return WORK_BOUND
+        if state[MODE] == mode:
+            state[MODE] = CHOOSE

@@ -1,0 +1,189 @@
+"""The point mass on a massless hoop (k = 0, m_h = 0, r = 1), in closed form.
+
+Rolling, sin(phi/2) obeys S'' = S/4, so from rest sin(phi/2) = sin(phi0/2) cosh(t/2), with
+N = 2 cos^2(phi/2) - G/2 and F/N = tan(phi/2), G as in :mod:`rigid.phases.rolling`. Where mu_s cannot hold that, the
+hoop skims: the mass falls freely, N = F = 0, until it hits the floor, where the motion ends.
+"""
+
+# mypy: allow-untyped-defs
+from __future__ import annotations
+
+from math import asin, exp, inf, log, sqrt
+
+from ..kernel.angle import trig
+from ..kernel.compile import kernel
+from ..kernel.layout import (  # fmt: skip
+    ANGLE,
+    CREEPS,
+    FIRST_PULSE,
+    HITS_FLOOR,
+    LIFTED,
+    MU_S,
+    OMEGA,
+    PERIOD,
+    PULSE_OVER,
+    RESTS,
+    ROLL,
+    SKIM,
+    SLIP,
+    T_END,
+    TIME_REACHED,
+    TOP,
+    TURNS_REACHED,
+    UNTIL,
+    WHOLE,
+    X_C,
+    XDOT,
+    T,
+)
+from ..record.log import begin, turn
+from ..record.pulse import watch
+from .rolling import TIE
+from .rolling_phase import PHASE_OVER
+
+
+@kernel
+def choose_point_mass(par, state, tape):
+    """A point mass on a massless hoop rolls while |tan(phi/2)| <= mu_s and N >= 0, else the hoop skims, N =
+    F = 0.
+    """
+    s, _, h, _low = trig(state[ANGLE], state[TOP])
+    g = h + state[OMEGA] * state[OMEGA] * h
+    holds = h >= 0.5 * g * (1 - TIE) and abs(s) <= par[MU_S] * h * (1 + TIE)
+    if state[SLIP] == 0.0 and holds and h > 0.0:
+        begin(par, state, ROLL, tape)
+    else:
+        begin(par, state, SKIM, tape)
+
+
+@kernel
+def set_from_top(state, sine, right_of_top, cosine2):
+    """Set the angle from sin(phi/2) and cos^2(phi/2), phi within pi of the top number ``right_of_top``."""
+    sign = 1.0 if sine >= 0 else -1.0
+    if cosine2 <= 0.5:
+        offset = 2 * asin(sqrt(max(cosine2, 0.0)))
+        state[ANGLE], state[TOP] = -sign * offset, 0.0
+        state[WHOLE] = right_of_top if sign > 0 else right_of_top - 1.0
+    else:
+        state[ANGLE], state[TOP], state[WHOLE] = 2 * asin(max(-1.0, min(1.0, sine))), 1.0, right_of_top
+
+
+@kernel
+def roll_point_mass(par, state, tape, t_end):
+    """Roll to the turn, to where the hoop begins to skim, or to the time ``t_end``."""
+    if watch(par, state, 0.0, tape) and par[UNTIL] == FIRST_PULSE:
+        return PULSE_OVER
+    _s, _, h, low = trig(state[ANGLE], state[TOP])
+    omega = state[OMEGA]
+    g = h + omega * omega * h
+    # sin(phi/2) with phi measured from the nearest top, and its rate
+    top_number = state[WHOLE]
+    positive = state[ANGLE] >= 0
+    if state[TOP] == 0.0:
+        positive = state[ANGLE] <= 0
+        if not positive:
+            top_number += 1.0
+    sine = sqrt(0.5 * low) if positive else -sqrt(0.5 * low)
+    rate = 0.5 * sqrt(0.5 * h) * omega
+    grow, fade = 0.5 * sine + rate, 0.5 * sine - rate
+    x_start = state[X_C] - 2 * asin(sine)
+    time, limit, turn_at = inf, 0.0, inf
+    if grow != 0.0:
+        # N >= 0 is cos^2 >= G/4; |F| <= mu_s N is |tan| <= mu_s
+        mu_s = par[MU_S]
+        limit = sqrt(min(mu_s * mu_s / (1 + mu_s * mu_s), max(0.0, 1 - 0.25 * g)))
+        if rate * grow >= 0:
+            limit = max(limit, sine if grow > 0 else -sine)
+        time = max(0.0, 2 * log((limit + sqrt(max(0.0, limit * limit - 4 * grow * fade))) / (2 * abs(grow))))
+        if fade * grow > 0 and abs(fade) > abs(grow):
+            turn_at = log(fade / grow)
+    reason = PHASE_OVER
+    end = min(time, turn_at)
+    if state[T] + end >= t_end:
+        end, reason = max(0.0, t_end - state[T]), TIME_REACHED
+    if end == inf:
+        state[PERIOD] = inf
+        return RESTS if fade == 0.0 else CREEPS
+    up, down = grow * exp(0.5 * end), fade * exp(-0.5 * end)
+    sine = up + down
+    if reason == PHASE_OVER and time <= turn_at:
+        sine = limit if grow > 0 else -limit
+    cosine2 = 1 - sine * sine
+    set_from_top(state, sine, top_number, cosine2)
+    state[T] = t_end if reason == TIME_REACHED else state[T] + end
+    speed = sqrt(max(0.0, 0.5 * g / cosine2 - 1))
+    state[OMEGA] = speed if up > down else -speed
+    state[X_C] = x_start + 2 * asin(max(-1.0, min(1.0, sine)))
+    if reason == PHASE_OVER:
+        if turn_at < time:
+            state[OMEGA] = 0.0
+            return TURNS_REACHED if turn(par, state, tape) else PHASE_OVER
+        begin(par, state, SKIM, tape)
+    return reason
+
+
+@kernel
+def skim(par, state, tape):
+    """The point mass in free fall, the massless hoop skimming under it without a force, to the turn or to
+    the floor.
+    """
+    if watch(par, state, 0.0, tape) and par[UNTIL] == FIRST_PULSE:
+        return PULSE_OVER
+    a, top, omega = state[ANGLE], state[TOP], state[OMEGA]
+    s, _c, h, low = trig(a, top)
+    ydot = -s * omega
+    # height h + ydot t - t^2/2: to the floor, and over the reach of the hoop (h = 2) if it rises that high
+    to_floor = ydot + sqrt(ydot * ydot + 2 * h)
+    to_lift = inf
+    if ydot > 0 and ydot * ydot >= 2 * low:
+        to_lift = 2 * low / (ydot + sqrt(ydot * ydot - 2 * low))
+    to_turn = ydot if ydot > 0 else inf
+    time = min(to_floor, to_lift, to_turn)
+    reason = PHASE_OVER
+    if state[T] + time >= par[T_END]:
+        time, reason = par[T_END] - state[T], TIME_REACHED
+    elif time == to_lift:
+        reason = LIFTED
+    elif time == to_floor:
+        reason = HITS_FLOOR
+    drop(state, time)
+    if reason == PHASE_OVER:
+        state[OMEGA] = 0.0
+        if turn(par, state, tape):
+            return TURNS_REACHED
+    elif reason == TIME_REACHED:
+        state[T] = par[T_END]
+    return reason
+
+
+@kernel
+def drop(state, time):
+    """Advance a skimming point mass."""
+    a, top, whole, omega = state[ANGLE], state[TOP], state[WHOLE], state[OMEGA]
+    s, _c, h, low = trig(a, top)
+    xdot = state[XDOT]
+    ydot = -s * omega
+    fall = ydot * time - 0.5 * time * time
+    # the side of the hoop does not change on the way
+    right = s > 0 or (s == 0.0 and (omega > 0) == (top != 0.0))
+    h1, low1 = max(h + fall, 0.0), max(low - fall, 0.0)
+    if h1 <= 1.0:
+        offset, top1 = 2 * asin(sqrt(0.5 * h1)), 0.0
+    else:
+        offset, top1 = 2 * asin(sqrt(0.5 * low1)), 1.0
+    # phi in (0, pi) on the right, (pi, 2 pi) on the left of the hoop
+    turns = whole
+    if top != 0.0 and not right:
+        turns = whole - 1.0
+    if top1 == 0.0:
+        a1, whole1 = (-offset if right else offset), turns
+    else:
+        a1 = offset if right else -offset
+        whole1 = turns if right else turns + 1.0
+    s1, _, _, _ = trig(a1, top1)
+    v_y = ydot - time
+    state[OMEGA] = -v_y / s1 if s1 != 0.0 else 0.0
+    state[X_C] += xdot * time - (s1 - s)
+    state[SLIP] = xdot - state[OMEGA] * h1
+    state[ANGLE], state[TOP], state[WHOLE] = a1, top1, whole1
+    state[T] += time

@@ -1,0 +1,266 @@
+"""A slipping phase: Taylor steps in tau, cut at every event, so that each event is the end of a step.
+
+When D has fallen to round-off the configuration is frozen: the rest of the slip is an impact
+(:mod:`rigid.phases.impact`).
+
+Events: the slip stops, lift-off (1 - e c phidot^2 = 0), a turn, the bottom, N = M g, and the end of the run.
+All are roots of the step's own polynomials.
+"""
+
+# mypy: allow-untyped-defs
+from __future__ import annotations
+
+from math import inf
+
+from ..kernel.angle import next_angle, trig
+from ..kernel.compile import kernel
+from ..kernel.layout import (  # fmt: skip
+    ANGLE,
+    ECC,
+    FIRST_PULSE,
+    FLIGHT,
+    GAP,
+    GYR,
+    IMPACT,
+    LOSSLESS_TURNS,
+    MODE,
+    MORE,
+    MU,
+    OMEGA,
+    ONE_MINUS_E,
+    P_OPEN,
+    P_PEAK,
+    PULSE_OVER,
+    RECORDS,
+    REST,
+    SKID,
+    SLIDES,
+    SLIP,
+    SLIP_SCALE,
+    STEPS,
+    T_END,
+    TIME_REACHED,
+    TOP,
+    TURNS,
+    TURNS_REACHED,
+    UN,
+    UNTIL,
+    WHOLE,
+    WIDTH,
+    WORK_BOUND,
+    X_C,
+    XDOT,
+    T,
+)
+from ..kernel.polynomial import first_crossing, value, value_and_slope
+from ..record.log import ROOM, turn
+from ..record.pulse import cross_bottom, watch
+from .rolling_phase import PHASE_OVER
+from .slipping import (
+    JAM,
+    ORDER,
+    S_B,
+    S_D,
+    S_H,
+    S_N1,
+    S_OMEGA,
+    S_P,
+    S_SIN,
+    S_SLIP,
+    S_T,
+    S_YDOT,
+    normal_force,
+    series,
+)
+
+# what a step is cut at
+NOTHING_YET, STOPS, LIFTS, TIME_IS_UP, TURNS_BACK, AT_BOTTOM, AT_WEIGHT = range(7)
+
+
+@kernel
+def peak_force(gyr, work, length):
+    """Largest N = K b/D over a step."""
+    b, d = work[S_B], work[S_D]
+    top = 0.0
+    x0, slope0 = 0.0, 0.0
+    for k in range(3):
+        x = 0.5 * length * k
+        y, dy = value_and_slope(b, ORDER, x)
+        z, dz = value_and_slope(d, ORDER, x)
+        top = max(top, gyr * y / z)
+        slope = dy * z - y * dz
+        if k > 0 and slope0 > 0 and slope < 0:
+            low, high = x0, x
+            slope_low, slope_high = slope0, slope
+            middle = low
+            # regula falsi (Illinois): the peak is flat, so eight digits of its place are sixteen of its
+            # height
+            for _ in range(12):
+                middle = (low * slope_high - high * slope_low) / (slope_high - slope_low)
+                y, dy = value_and_slope(b, ORDER, middle)
+                z, dz = value_and_slope(d, ORDER, middle)
+                slope_m = dy * z - y * dz
+                if slope_m > 0:
+                    low, slope_low = middle, slope_m
+                    slope_high *= 0.5
+                else:
+                    high, slope_high = middle, slope_m
+                    slope_low *= 0.5
+                if high - low < 1e-9 * length or slope_m == 0.0:
+                    break
+            top = max(top, gyr * y / z)
+        x0, slope0 = x, slope
+    return top
+
+
+@kernel
+def carry(par, state, mu_hat, work, x):
+    """Advance the state along the series by x <= the step's length."""
+    e = par[ECC]
+    s0, h0, ydot, xdot = work[S_SIN][0], work[S_H][0], work[S_YDOT][0], state[XDOT]
+    dt = value(work[S_T], ORDER, x)
+    s1, h1, omega = value(work[S_SIN], ORDER, x), value(work[S_H], ORDER, x), value(work[S_OMEGA], ORDER, x)
+    a, top, whole = next_angle(s1, h1, state[TOP], state[WHOLE])
+    # xddot_G = -mu^ (1 + yddot_G), integrated twice
+    along = xdot * dt - mu_hat * (0.5 * dt * dt + e * (h1 - h0) - ydot * dt)
+    state[X_C] += along - e * (s1 - s0)
+    state[T] += dt
+    state[ANGLE], state[TOP], state[WHOLE] = a, top, whole
+    state[XDOT] -= mu_hat * (dt + (-e * s1 * omega - ydot))
+    state[OMEGA] = omega
+    state[SLIP] = value(work[S_SLIP], ORDER, x)
+
+
+@kernel
+def slip_now(par, state, h):
+    """The slip velocity: carried along, or anew from phidot and the velocity of G where that has more digits.
+
+    Past the bottom of a tiny hoop it was as large as phidot ~ 1/k, and has kept the round-off of that size.
+    """
+    turning = state[OMEGA] * (par[ONE_MINUS_E] + par[ECC] * h)
+    terms = abs(turning) + abs(state[XDOT])
+    if terms < 0.1 * state[SLIP_SCALE]:
+        state[SLIP], state[SLIP_SCALE] = state[XDOT] - turning, terms
+    state[SLIP_SCALE] = max(state[SLIP_SCALE], abs(state[SLIP]))
+    return state[SLIP]
+
+
+@kernel
+def step(par, state, mu_hat, p_known, work):
+    """The series of the next step, and how far it is good."""
+    s, c, h, _ = trig(state[ANGLE], state[TOP])
+    slip = slip_now(par, state, h)
+    length = series(par, mu_hat, s, c, h, state[OMEGA], slip, p_known, work)
+    b, v, om = work[S_B], work[S_SLIP], work[S_OMEGA]
+    if v[0] == 0.0:
+        # a slip that starts with mu_s = mu starts with no acceleration either, up to the round-off of its
+        # terms
+        gyr, es = par[GYR], par[ECC] * abs(work[S_SIN][0])
+        arm = par[ONE_MINUS_E] + par[ECC] * work[S_H][0]
+        terms = (gyr + es + par[MU] * arm) * abs(b[0]) + es * om[0] * om[0] * work[S_D][0]
+        if abs(v[1]) <= 1e-13 * terms:
+            v[1] = 0.0
+    if abs(b[0]) <= 1e-14 * (1 + par[ECC] * om[0] * om[0]):
+        b[0] = 0.0
+    return length
+
+
+@kernel
+def end_of_slip(work, length, sign):
+    """(how far, event): where the slip stops or the contact point lifts off; ``NOTHING_YET`` if neither happens."""
+    event = NOTHING_YET
+    x = first_crossing(work[S_SLIP], ORDER, length, sign)
+    if x >= 0:
+        length, event = x, STOPS
+    x = first_crossing(work[S_B], ORDER, length, 1.0)
+    if x >= 0:
+        length, event = x, LIFTS
+    return length, event
+
+
+@kernel
+def slide(par, state, work, tape):
+    """Slip until the contact point rests or lifts, or the run is over."""
+    sign = 1.0 if state[MODE] == SKID else -1.0
+    mu_hat = par[MU] * sign
+    gyr = par[GYR]
+    at_edge = False
+    p_known = inf
+    state[LOSSLESS_TURNS], whirled = 0.0, 0
+    state[SLIP_SCALE] = 0.0
+    n = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
+    if watch(par, state, n, tape) and par[UNTIL] == FIRST_PULSE:
+        return PULSE_OVER
+    while True:
+        if state[RECORDS] * WIDTH + ROOM * WIDTH > len(tape):
+            return MORE
+        if state[STEPS] <= 0.0:
+            return WORK_BOUND
+        state[STEPS] -= 1.0
+        length = step(par, state, mu_hat, p_known, work)
+        if work[S_D][0] <= JAM * gyr:
+            state[MODE] = IMPACT
+            return PHASE_OVER
+        om, n1, tt = work[S_OMEGA], work[S_N1], work[S_T]
+        length, event = end_of_slip(work, length, sign)
+        if par[T_END] - state[T] < value(tt, ORDER, length):
+            left = par[T_END] - state[T]
+            tt[0] = -left
+            x = first_crossing(tt, ORDER, length, -1.0)
+            tt[0] = 0.0
+            if x >= 0:
+                length, event = x, TIME_IS_UP
+        heading = om[0] if om[0] != 0.0 else om[1]
+        x = first_crossing(om, ORDER, length, 1.0 if heading > 0 else -1.0)
+        if x > 0:
+            length, event = x, TURNS_BACK
+        if state[TOP] == 0.0:
+            a = state[ANGLE]
+            # sin phi has the sign of -a
+            side = a if a != 0.0 else heading
+            x = first_crossing(work[S_SIN], ORDER, length, -1.0 if side > 0 else 1.0)
+            if x > 0:
+                length, event = x, AT_BOTTOM
+        if at_edge:
+            n1[0] = 0.0
+        x = first_crossing(n1, ORDER, length, 1.0 if state[P_OPEN] != 0.0 else -1.0)
+        if x > 0 or (x == 0.0 and not at_edge):
+            length, event = x, AT_WEIGHT
+        at_edge = False
+        if state[P_OPEN] != 0.0:
+            state[P_PEAK] = max(state[P_PEAK], peak_force(gyr, work, length))
+        p_known = value(work[S_P], ORDER, length)
+        if length > 0.0:
+            carry(par, state, mu_hat, work, length)
+        if event == STOPS:
+            state[SLIP] = 0.0
+        # without friction the slip stops where the hoop turns, to the last digit
+        if event == TURNS_BACK or (state[OMEGA] == 0.0 and om[0] != 0.0):
+            state[OMEGA] = 0.0
+            state[LOSSLESS_TURNS] += 1.0
+            whirled = 0
+            if turn(par, state, tape):
+                return TURNS_REACHED
+        if event == STOPS:
+            return PHASE_OVER
+        if event == LIFTS:
+            state[GAP] = 0.0
+            state[UN] = 0.0
+            state[MODE] = FLIGHT
+            return PHASE_OVER
+        if event == TIME_IS_UP:
+            state[T] = par[T_END]
+            return TIME_REACHED
+        if event == AT_BOTTOM:
+            state[ANGLE] = 0.0
+            state[LOSSLESS_TURNS] += 0.5
+            whirled += 1
+            cross_bottom(state)
+        elif event == AT_WEIGHT:
+            at_edge = True
+            if watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, tape) and par[UNTIL] == FIRST_PULSE:
+                return PULSE_OVER
+        if par[MU] == 0.0 and par[UNTIL] == REST and state[LOSSLESS_TURNS] >= 3.0:
+            return SLIDES
+        if par[MU] == 0.0 and whirled >= 3 and par[TURNS] < inf:
+            return SLIDES  # round and round: there is no turn to wait for

@@ -1,0 +1,58 @@
+"""What a motion leaves behind: phases, turns and pulses, one record of ``WIDTH`` numbers each on a flat
+tape.
+"""
+
+# mypy: allow-untyped-defs
+from __future__ import annotations
+
+from ..kernel.compile import kernel
+from ..kernel.layout import (  # fmt: skip
+    IMPACT,
+    LAST_KIND,
+    MODE,
+    MOVING,
+    PHASE_T,
+    RECORDS,
+    TURN,
+    TURN_ENERGY,
+    TURNS,
+    TURNS_DONE,
+    WIDTH,
+    XDOT,
+    YDOT,
+    T,
+)
+from .pulse import energy, velocity_of_g
+
+ROOM = 8  # records that one turn of a loop may add
+
+
+@kernel
+def record(state, tag, tape):
+    """Put the state on the tape."""
+    r = int(state[RECORDS]) * WIDTH
+    tape[r] = tag
+    for i in range(MOVING):
+        tape[r + 1 + i] = state[i]
+    state[RECORDS] += 1
+
+
+@kernel
+def begin(par, state, kind, tape):
+    """Enter a phase; one that goes on with the same kind is no new phase."""
+    state[MODE] = kind
+    state[XDOT], state[YDOT] = velocity_of_g(par, state)
+    if state[LAST_KIND] != kind or kind == IMPACT:
+        record(state, kind, tape)
+        state[LAST_KIND] = kind
+        state[PHASE_T] = state[T]
+
+
+@kernel
+def turn(par, state, tape):
+    """phidot = 0: note it; True if it was the last one wanted."""
+    r = int(state[RECORDS]) * WIDTH
+    record(state, TURN, tape)
+    tape[r + TURN_ENERGY] = energy(par, state)
+    state[TURNS_DONE] += 1
+    return state[TURNS_DONE] >= par[TURNS]

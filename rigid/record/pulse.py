@@ -1,0 +1,146 @@
+"""Inside a pulse: the stretch around a bottom crossing in which N > M g, and its measures.
+
+Everything follows from the states at both ends: the impulses are those of the momentum of G, the friction
+loss is the lost energy. A pulse is cut short by the release or by the end of the motion; a release exactly at
+the bottom is no crossing, so it opens no pulse.
+"""
+
+# mypy: allow-untyped-defs
+from __future__ import annotations
+
+from math import sqrt
+
+from ..kernel.angle import trig
+from ..kernel.compile import kernel
+from ..kernel.layout import (  # fmt: skip
+    ANGLE,
+    ECC,
+    GAP,
+    GYR,
+    OMEGA,
+    ONE_MINUS_E,
+    P_ANGLE,
+    P_CROSSED,
+    P_ENERGY,
+    P_H,
+    P_OPEN,
+    P_PEAK,
+    P_T,
+    P_T_BOTTOM,
+    P_TOP,
+    P_WHOLE,
+    P_XDOT,
+    P_YDOT,
+    PULSE,
+    PULSES_DONE,
+    RECORDS,
+    SLIP,
+    TOP,
+    UN,
+    WHOLE,
+    WIDTH,
+    XDOT,
+    YDOT,
+    T,
+)
+
+
+@kernel
+def velocity_of_g(par, state):
+    """(xdot_G, ydot_G): while the hoop rolls, that of the rotation; on the floor, nothing but it upwards."""
+    if state[UN] != 0.0 or state[GAP] != 0.0:
+        return state[XDOT], state[YDOT]
+    s, _, h, _ = trig(state[ANGLE], state[TOP])
+    omega = state[OMEGA]
+    along = state[XDOT] if state[SLIP] != 0.0 else omega * (par[ONE_MINUS_E] + par[ECC] * h)
+    return along, -par[ECC] * s * omega
+
+
+@kernel
+def released(par, state):
+    """Give G the velocity that belongs to the rotation and to the velocity of the contact point."""
+    s, _, h, _ = trig(state[ANGLE], state[TOP])
+    state[XDOT] = state[SLIP] + state[OMEGA] * (par[ONE_MINUS_E] + par[ECC] * h)
+    state[YDOT] = state[UN] - par[ECC] * s * state[OMEGA]
+
+
+@kernel
+def energy(par, state):
+    """Kinetic and potential energy over M g R, 0 when G is at floor level."""
+    x, y = velocity_of_g(par, state)
+    _, _, h, _ = trig(state[ANGLE], state[TOP])
+    height = state[GAP] + par[ONE_MINUS_E] + par[ECC] * h
+    return 0.5 * (x * x + y * y + par[GYR] * state[OMEGA] * state[OMEGA]) + height
+
+
+@kernel
+def watch(par, state, normal_force, tape):
+    """Open or close the pulse at the present state, N being the force from here on; True if one was closed
+    and counted.
+    """
+    if normal_force > 1.0:
+        if state[P_OPEN] == 0.0:
+            open_pulse(par, state)
+        state[P_PEAK] = max(state[P_PEAK], normal_force)
+        return False
+    return close_pulse(par, state, tape)
+
+
+@kernel
+def open_pulse(par, state):
+    """Note the state at the start of a stretch with N > M g."""
+    _, _, h, _ = trig(state[ANGLE], state[TOP])
+    state[P_OPEN], state[P_CROSSED], state[P_PEAK] = 1.0, 0.0, 0.0
+    state[P_T], state[P_ANGLE], state[P_TOP], state[P_WHOLE] = (
+        state[T],
+        state[ANGLE],
+        state[TOP],
+        state[WHOLE],
+    )
+    state[P_XDOT], state[P_YDOT] = velocity_of_g(par, state)
+    state[P_H] = h
+    state[P_ENERGY] = energy(par, state)
+
+
+@kernel
+def cross_bottom(state):
+    """The disk passes its lowest point."""
+    if state[P_OPEN] != 0.0 and state[P_CROSSED] == 0.0:
+        state[P_CROSSED] = 1.0
+        state[P_T_BOTTOM] = state[T]
+
+
+@kernel
+def close_pulse(par, state, tape):
+    """End the stretch; True if it was a pulse, which is then on the tape."""
+    if state[P_OPEN] == 0.0:
+        return False
+    state[P_OPEN] = 0.0
+    if state[P_CROSSED] == 0.0:
+        return False
+    x, y = velocity_of_g(par, state)
+    _, _, h, _ = trig(state[ANGLE], state[TOP])
+    e, y0 = par[ECC], state[P_YDOT]
+    normal = y - y0 + (state[T] - state[P_T])
+    compression = -y0 + (state[P_T_BOTTOM] - state[P_T])
+    work_in = -0.5 * y0 * y0 - e * state[P_H]
+    work_out = 0.5 * y * y + e * h
+    r = int(state[RECORDS]) * WIDTH
+    tape[r] = PULSE
+    tape[r + 1], tape[r + 2], tape[r + 3], tape[r + 4] = (
+        state[P_T],
+        state[P_ANGLE],
+        state[P_TOP],
+        state[P_WHOLE],
+    )
+    tape[r + 5], tape[r + 6], tape[r + 7], tape[r + 8] = state[T], state[ANGLE], state[TOP], state[WHOLE]
+    tape[r + 9] = normal
+    tape[r + 10] = x - state[P_XDOT]
+    tape[r + 11] = max(0.0, state[P_ENERGY] - energy(par, state))
+    tape[r + 12] = state[P_PEAK]
+    tape[r + 13] = -y / y0 if y0 != 0 else 0.0
+    tape[r + 14] = (normal - compression) / compression if compression > 0 else 0.0
+    tape[r + 15] = sqrt(work_out / -work_in) if work_in < 0 else 0.0
+    state[RECORDS] += 1
+    state[PULSES_DONE] += 1
+    return True

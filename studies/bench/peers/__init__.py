@@ -1,0 +1,1 @@
+"""The same problems in other people's programs, written as a competent user of each would."""

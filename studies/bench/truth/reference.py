@@ -1,0 +1,132 @@
+"""What the flexible benchmark takes for true: runs of all nodes, brought to the limit of fine steps, mesh and contact.
+
+Scene B: k = 0.1, r = 1.02, m_h/m = 0.1, E I/(m g R^2) = 65.3, brush law, from the undeformed ring at phi = 2.9 with
+phidot = 4 (R0 = 1) to t = 0.1426; units R = m = g = 1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import radians, sqrt
+from typing import Any
+
+from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
+
+R = 1.02  # outer radius in the inner one, in which scenes A and B are given
+BENDING = 1e8 * (1 - 1 / R) ** 3 / 12
+FOUNDATION = 1e7 * R**2
+END_OF_A = 6.72  # in the inner radius
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What is compared: impulses, friction loss, largest normal force."""
+
+    normal_impulse: float
+    friction_impulse: float
+    friction_loss: float
+    peak_normal_force: float
+
+    def __add__(self, other: Measured) -> Measured:
+        return Measured(*(a + b for a, b in zip(_row(self), _row(other), strict=True)))
+
+    def __sub__(self, other: Measured) -> Measured:
+        return Measured(*(a - b for a, b in zip(_row(self), _row(other), strict=True)))
+
+
+def _row(measured: Measured) -> tuple[float, ...]:
+    return (
+        measured.normal_impulse,
+        measured.friction_impulse,
+        measured.friction_loss,
+        measured.peak_normal_force,
+    )
+
+
+#: (elements, rtol, contact points) -> all nodes, found by :func:`run_all_nodes`
+ALL_NODES = {
+    (120, 1e-3, 24): Measured(2.1288058, -0.0047870, 0.0110789, 31.25767),
+    (240, 1e-3, 24): Measured(2.1279063, -0.0050500, 0.0111525, 31.40263),
+    (240, 3e-4, 24): Measured(2.1281578, -0.0050655, 0.0111823, 31.45239),
+    (240, 1e-4, 24): Measured(2.1281936, -0.0050960, 0.0111924, 31.47712),
+    (480, 3e-4, 24): Measured(2.1279737, -0.0051096, 0.0112034, 31.52099),
+    (240, 3e-4, 48): Measured(2.1281584, -0.0050695, 0.0111817, 31.48824),
+}
+STEP_ORDER = 1.5  # of these errors in rtol, between 3e-4 and 1e-4
+
+
+def scene_b(rtol: float = 1e-3, elements: int = 240, level: str = "reduced") -> Scene:
+    """Rolling into the floor with an undeformed ring."""
+    return Scene(
+        Hoop(k=0.1, r=R, mass_ratio=0.1),
+        Friction(0.35, 0.3),
+        Release(2.9, 4.0 * sqrt(R)),
+        Run(t_end=0.1426 / sqrt(R)),
+        ring=Ring(bending_stiffness=BENDING),
+        contact=Contact(law="brush", stiffness=FOUNDATION, tangential_ratio=1.0),
+        solve=Solve(resolve="all", start="undeformed", rtol=rtol, elements=elements, level=level),
+    )
+
+
+def scene_a(rtol: float = 1e-3) -> Scene:
+    """A full roll from rest at ten degrees, through the pulse, to phi = 4."""
+    scene = scene_b(rtol)
+    return scene.replace(
+        release=Release(radians(10)), run={"t_end": END_OF_A / sqrt(R)}, solve={"start": "equilibrium"}
+    )
+
+
+def massless_pulse(rtol: float = 1e-3) -> Scene:
+    """The pulse of the massless hoop on a foundation of 1e10."""
+    return Scene(
+        Hoop(k=0.1, r=R),
+        Friction(0.35, 0.3),
+        Release(radians(10)),
+        Run(until="pulse"),
+        ring=Ring(bending_stiffness=1e5),
+        contact=Contact(stiffness=1e10),
+        solve=Solve(rtol=rtol, level="reduced"),
+    )
+
+
+def run_hoop(scene: Scene, hoop: Any) -> Measured:
+    """Scene B through a hoop of any level, modes and points."""
+    from flexible.handover import hand_over
+    from flexible.time.adaptive import march
+    from rigid import simulate
+
+    state = hand_over(hoop, simulate(scene), 0.0, scene.contact.law)
+    end = scene.run.t_end
+    assert end is not None
+    _, records, _, trouble = march(hoop, state, lambda now: now.t - end, scene.solve.rtol)
+    if trouble:
+        raise RuntimeError(trouble)
+    last = records[-1]
+    peak = max(record.normal_force for record in records)
+    return Measured(last.normal_impulse, last.friction_impulse, last.friction_loss, peak)
+
+
+def run_all_nodes(elements: int, rtol: float, points: int) -> Measured:
+    """Find an entry of ``ALL_NODES`` anew (3 s to 25 s)."""
+    from flexible.models.full import FullHoop
+
+    scene = scene_b(rtol, elements)
+    return run_hoop(scene, FullHoop(scene, points=points))
+
+
+def limit() -> Measured:
+    """Richardson in the step, in the mesh with its fitted order, and the change to twice the contact points."""
+    finest, before = ALL_NODES[240, 1e-4, 24], ALL_NODES[240, 3e-4, 24]
+    step = [(a - b) / (3**STEP_ORDER - 1) for a, b in zip(_row(finest), _row(before), strict=True)]
+    coarse = _row(ALL_NODES[240, 1e-3, 24] - ALL_NODES[120, 1e-3, 24])
+    fine = _row(ALL_NODES[480, 3e-4, 24] - before)
+    # successive changes fall by a/b: what is left beyond the finest is b/(a/b - 1)
+    mesh = [b + b / (max(a / b, 2.0) - 1) for a, b in zip(coarse, fine, strict=True)]
+    points = ALL_NODES[240, 3e-4, 48] - before
+    return finest + Measured(*step) + Measured(*mesh) + points
+
+
+def errors(found: Measured, true: Measured) -> tuple[float, float]:
+    """Of impulses and loss, over J_N (or, the loss, m g R); of the peak, relative."""
+    gap = _row(found - true)
+    return max(map(abs, gap[:3])) / true.normal_impulse, abs(gap[3]) / true.peak_normal_force

@@ -1,0 +1,80 @@
+"""`hoop bench` and `hoop stress`: run time against error, and stability over everything a user can type."""
+
+from __future__ import annotations
+
+import importlib
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from ..running.files import folder, to_json, write_text
+
+if TYPE_CHECKING:
+    from ..bench.race import Result
+
+
+@click.command()
+@click.argument("what", type=click.Choice(["rigid", "flexible", "scaling"]))
+@click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
+@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Write table and figures into this folder.")
+@click.option("--peers", "peers_too", is_flag=True, help="Also the other solvers that are installed (Exudyn).")
+@click.option("--check", is_flag=True, help="Exit with status 1 if a stated ratio does not hold.")
+@click.option("--quick", is_flag=True, help="Fewer settings, fewer repeats.")
+@click.pass_context
+def bench(
+    ctx: click.Context, what: str, as_json: bool, out: Path | None, peers_too: bool, check: bool, quick: bool
+) -> None:
+    """Run time against error, peak memory, and the ratios that are stated."""
+    from ..running.progress import bar
+
+    target = folder(out) if out is not None else None
+    run = importlib.import_module(f"studies.bench.{what}").bench
+    with bar(f"bench {what}") as progress:
+        result: Result = run(quick, peers_too, progress)
+    if target is not None:
+        from ..bench.figures import draw
+
+        write_text(target / f"bench-{what}.json", to_json(result.to_dict()))
+        draw(what, result, target)
+    if as_json:
+        click.echo(to_json(result.to_dict()))
+    else:
+        from ..bench.tables import bench_tables
+        from .tables import show
+
+        show(*bench_tables(result))
+        if target is not None:
+            click.echo(f"Table and figures are in {target}.")
+    missed = [claim for claim in result.claims if not claim.holds]
+    if check and missed:
+        click.echo(f"hoop: {len(missed)} of {len(result.claims)} stated ratios do not hold.", err=True)
+        ctx.exit(1)
+
+
+@click.command()
+@click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
+@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Write the map of margins here.")
+@click.option("--seed", type=click.IntRange(0, 2**31), default=0, metavar="N", help="Another sequence of scenes.")
+@click.option("--scenes", type=click.IntRange(1, 1_000_000), metavar="N", help="How many scenes; 3000 by default.")
+@click.option("--quick", is_flag=True, help="At most a minute.")
+@click.pass_context
+def stress(ctx: click.Context, as_json: bool, out: Path | None, seed: int, scenes: int | None, quick: bool) -> None:
+    """Numerical stability over everything a user can type."""
+    from ..running.progress import bar
+    from ..stress.run import run_stress
+
+    target = folder(out) if out is not None else None
+    with bar("stress") as progress:
+        report = run_stress(scenes, seed, quick, progress)
+    if target is not None:
+        from ..stress.figures import draw
+
+        write_text(target / "stress.json", to_json(report.to_dict()))
+        draw(report, target)
+    if as_json:
+        click.echo(to_json(report.to_dict()))
+    else:
+        click.echo(report.text())
+    if report.failures:
+        ctx.exit(1)

@@ -1,0 +1,217 @@
+"""The command line: parse, call, print. What is computed lives elsewhere and is imported only when asked for.
+
+Exit status: 0 done; 1 done, but some case of a sweep failed; 2 something the user can mend, in one sentence;
+130 interrupted.
+"""
+
+from __future__ import annotations
+
+import errno
+import os
+import shlex
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+from rigid import Motion, Scene, SceneError, load_scene
+
+from ..running.files import StudyError, folder, to_json, trouble
+from .bench import bench, stress
+from .study import study
+from .view import view
+
+NEWCOMER = """\
+A light hoop with a heavy disk inside its rim rolls on a rough floor. Each time the disk sweeps past the floor
+the contact force spikes: an interaction pulse. `rigid` computes the motion in closed form, `flexible` with an
+elastic hoop on a compliant floor, `study` what happens between the two as stiffness grows.
+
+\b
+Try, in this order:
+  hoop rigid paper-3.1                                the paper's example, phase by phase
+  hoop flexible paper-3.3-massless                    the same kind of hoop, elastic
+  hoop study stiffness paper-3.3-massless --out study the limit; then open study/report.html
+  hoop scenes                                         what else is ready to run
+  hoop view paper-3.1 --gif rolling.gif               a moving picture
+  hoop COMMAND -h                                     the options of a command
+
+SCENE is the name of a shipped scene or a TOML file; `hoop scenes NAME` prints one to start from.
+"""
+
+
+class InOrder(click.Group):
+    """Commands are listed in the order a newcomer meets them."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(self.commands)
+
+
+CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 110}
+
+
+@click.group(cls=InOrder, invoke_without_command=True, help=NEWCOMER, context_settings=CONTEXT)
+@click.option("--version", "show_version", is_flag=True, help="Show the version and exit.")
+@click.pass_context
+def hoop(ctx: click.Context, show_version: bool) -> None:
+    if show_version:
+        from ..running.solvers import versions
+
+        click.echo(", ".join(f"{package} {number}" for package, number in versions().items()))
+    elif ctx.invoked_subcommand is None:
+        click.echo(ctx.get_help())
+
+
+as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
+out_folder = click.option(
+    "--out", type=click.Path(path_type=Path), metavar="DIR", help="Write results into this folder."
+)
+
+
+@hoop.command()
+@click.argument("scene")
+@as_json
+@out_folder
+def rigid(scene: str, as_json: bool, out: Path | None) -> None:
+    """Motion of the rigid hoop: phases, turns, pulses."""
+    _one_motion(load_scene(scene), "rigid", as_json, out)
+
+
+@hoop.command()
+@click.argument("scene")
+@as_json
+@out_folder
+@click.option(
+    "--fields", is_flag=True, help="With --out: also the ring's fields, a PVD series for ParaView, pyvista, hoop view."
+)
+@click.option(
+    "--frames", type=click.IntRange(2, 100_000), metavar="N", help="Frames through the first pulse, 200 by default."
+)
+@click.option("--times", metavar="T,T,...", help="Frames at these times instead.")
+@click.option("--only", metavar="NAME,NAME,...", help="Only these fields, von_mises,displacement for instance.")
+def flexible(
+    scene: str,
+    as_json: bool,
+    out: Path | None,
+    fields: bool,
+    frames: int | None,
+    times: str | None,
+    only: str | None,
+) -> None:
+    """Motion of the flexible hoop, measured like the rigid one, and where the energy went."""
+    from .output import field_wishes
+
+    if fields and out is None:
+        raise StudyError("--fields needs --out DIR: the fields are files.")
+    if not fields and (frames or times or only):
+        raise StudyError("--frames, --times and --only need --fields, which writes the frames.")
+    wishes = field_wishes(frames, times, only) if fields else None
+    _one_motion(load_scene(scene), "flexible", as_json, out, wishes)
+
+
+def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, wishes: dict[str, Any] | None = None) -> None:
+    from ..running.progress import bar, first_time
+    from ..running.solvers import solver
+
+    target = folder(out) if out is not None else None
+    compiling = first_time() if name == "flexible" else ""
+    with bar(f"{name} hoop{compiling}") as progress:
+        motion = solver(name)(scene, history=target is not None, progress=progress)
+    if target is not None:
+        from .output import write_fields, write_motion
+
+        write_motion(motion, target)
+        if wishes is not None:
+            with bar("fields") as progress:
+                write_fields(motion, target, progress, **wishes)
+    _print_motion(motion, as_json)
+
+
+def _print_motion(motion: Motion, as_json: bool) -> None:
+    if as_json:
+        click.echo(to_json(motion.to_dict()))
+    else:
+        from .tables import motion_tables, show
+
+        show(*motion_tables(motion))
+
+
+@hoop.command()
+@click.argument("name", required=False)
+def scenes(name: str | None) -> None:
+    """List the shipped scenes, or print one as TOML to start your own from."""
+    from .scenes import listing, text
+
+    click.echo(text(name) if name else listing(), nl=False)
+
+
+@hoop.command()
+@click.argument("scene")
+@click.argument("file", type=click.Path(path_type=Path))
+def mesh(scene: str, file: Path) -> None:
+    """Write the ring's mesh; the suffix of FILE says in which format (.msh, .vtu, ...)."""
+    from .output import write_mesh
+
+    click.echo(write_mesh(load_scene(scene), file))
+
+
+hoop.add_command(study)
+hoop.add_command(view)
+
+
+@hoop.command()
+@out_folder
+def paper(out: Path | None) -> None:
+    """Every figure and number of the paper, ours beside the printed one."""
+    from ..paper import reproduce
+    from ..running.progress import bar
+
+    target = folder(out if out is not None else Path("out-paper"))
+    with bar("paper") as told:
+        reproduce(target, progress=lambda done, total, _: told(done / total))
+    click.echo(f"The paper's figures and numbers are in {target}.", err=True)
+
+
+hoop.add_command(bench)
+hoop.add_command(stress)
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Run one command line and return its exit status; what a user can mend is one sentence on stderr."""
+    line = list(arguments) if arguments is not None else sys.argv[1:]
+    try:
+        status: Any = hoop.main(line, prog_name="hoop", standalone_mode=False, obj=shlex.join(["hoop", *line]))
+        sys.stdout.flush()
+        return status if isinstance(status, int) else 0
+    except (SceneError, StudyError) as error:
+        return _say(str(error), 2)
+    except click.ClickException as error:
+        context = getattr(error, "ctx", None)
+        hint = f" See {context.command_path} -h." if context is not None else ""
+        sentence = " ".join(error.format_message().split())
+        return _say((sentence if sentence.endswith((".", "?")) else sentence + ".") + hint, 2)
+    except (KeyboardInterrupt, click.Abort):
+        return _say("Interrupted; what was finished is kept.", 130)
+    except ImportError as error:
+        return _say(f"A part of the installation is missing or broken: {error}.", 2)
+    except OSError as error:
+        _forget_stdout()
+        if error.errno == errno.EPIPE:  # the reader of our output has seen enough
+            return 141
+        return _say(trouble(error), 2)
+
+
+def _say(sentence: str, status: int) -> int:
+    click.echo(f"hoop: {sentence}", err=True)
+    return status
+
+
+def _forget_stdout() -> None:
+    """Stop the interpreter from trying, and failing, to flush stdout once more as it leaves."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def main() -> None:
+    """Entry point of the command ``hoop``."""
+    sys.exit(run())

@@ -1,0 +1,120 @@
+"""What a single run leaves in its folder."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from rigid import Motion, Run, Scene
+
+from ..running import history
+from ..running.files import StudyError, to_json, trouble, write_text
+
+
+def write_motion(motion: Motion, out: Path) -> None:
+    """``motion.json``, ``history.csv`` and, where there is a pulse, ``pulse.png`` into ``out``."""
+    write_text(out / "motion.json", to_json(motion.to_dict()))
+    write_text(out / "history.csv", history.to_csv(history.whole(motion)))
+    if not motion.pulses:
+        return
+    from ..plots import pulse as figures
+
+    through = history.dimensionless(history.through(motion, motion.pulses[0]), motion.scene)
+    figures.save(figures.pulse([("", through, figures.RIGID)], "The first pulse"), out / "pulse.png")
+    if (ledger := figures.energy(through, "Where the energy is during the first pulse")) is not None:
+        figures.save(ledger, out / "energy.png")
+
+
+def field_wishes(frames: int | None = None, times: str | None = None, only: str | None = None) -> dict[str, Any]:
+    """What a user typed about fields as arguments of :func:`write_fields`, checked before anything runs.
+
+    Raises
+    ------
+    StudyError
+        Times that are no numbers, or fields that do not exist.
+    """
+    from flexible.output.fields import FIELDS
+
+    wishes: dict[str, Any] = {}
+    if frames is not None:
+        wishes["frames"] = frames
+    if times is not None:
+        if frames is not None:
+            raise StudyError("--frames and --times cannot both be: the times say how many frames there are.")
+        try:
+            wishes["times"] = [float(entry) for entry in times.split(",")]
+        except ValueError:
+            raise StudyError(f"--times {times} is not possible: it takes numbers with commas between them.") from None
+    if only is not None:
+        names = [name.strip() for name in only.split(",") if name.strip()]
+        unknown = [name for name in names if name not in FIELDS]
+        if unknown or not names:
+            raise StudyError(f"--only {only} is not possible: the fields are {', '.join(FIELDS)}.")
+        wishes["fields"] = names
+    return wishes
+
+
+def write_fields(motion: Motion, out: Path, progress: Callable[[float], None], **wishes: Any) -> None:
+    """The ring's displacement, stress and the rest as ``fields.pvd`` and its frames.
+
+    Parameters
+    ----------
+    motion : Motion
+        A flexible motion with its history.
+    out : Path
+        Folder of the series.
+    progress : callable
+        Told the fraction done.
+    **wishes
+        From :func:`field_wishes`; by default all fields through the first pulse.
+
+    Raises
+    ------
+    StudyError
+        No such instants, or a folder that cannot be written to.
+    """
+    from flexible.motion import FlexibleMotion
+    from flexible.output.fields import write_fields as write
+    from meshes import SeriesError
+
+    if not isinstance(motion, FlexibleMotion):
+        raise StudyError("Only a flexible motion has fields.")
+    try:
+        write(motion, out, progress=progress, **wishes)
+    except SeriesError as error:
+        raise StudyError(str(error)) from None
+    except OSError as error:
+        raise StudyError(trouble(error, out)) from None
+
+
+def write_first_pulse(scene: Scene, out: Path, progress: Callable[[float], None]) -> None:
+    """Run the scene's first pulse, at the scene's own stiffness, and write its fields."""
+    from ..running.solvers import solver
+
+    motion = solver("flexible")(scene.replace(run=Run(until="pulse")), history=True)
+    write_fields(motion, out, progress)
+
+
+def write_mesh(scene: Scene, path: Path) -> str:
+    """Write the mesh of a scene's ring, in units of R, and say how good it is.
+
+    Raises
+    ------
+    StudyError
+        A format that cannot be written.
+    """
+    from flexible.ring.fem import ring_of
+    from meshes import MeshError
+    from meshes.exchange import save_mesh
+
+    ring = ring_of(scene).mesh
+    try:
+        save_mesh(ring, path)
+    except MeshError as error:
+        raise StudyError(str(error)) from None
+    quality = ring.quality()
+    return (
+        f"{path}: {quality.elements} nine-node quads, {quality.nodes} nodes; area off by {quality.area_error:.1e}, "
+        f"outer length by {quality.outer_length_error:.1e}; elements up to {quality.aspect:.2f} times longer than wide."
+    )

@@ -1,0 +1,201 @@
+"""`hoop study ...`: the limit of stiffness, and sweeps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from rigid import load_scene
+
+from ..running.files import folder, to_json, write_text
+
+if TYPE_CHECKING:
+    from ..stiffness.study import StiffnessStudy
+
+as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
+workers = click.option(
+    "--workers",
+    type=click.IntRange(1, 1024),
+    metavar="N",
+    help="Processes side by side; by default one for each core.",
+)
+scheduler = click.option(
+    "--scheduler", metavar="ADDRESS", help="Run on the Dask cluster of this scheduler, tcp://host:8786."
+)
+
+
+@click.group()
+def study() -> None:
+    """Both solvers over many scenes: the limit of stiffness, sweeps over anything."""
+
+
+@study.command()
+@click.argument("scene")
+@as_json
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Write table, figures, report.html and the ring's fields here; finished cases are kept and found again.",
+)
+@click.option(
+    "--along",
+    type=click.Choice(["both", "contact", "bending"]),
+    default="both",
+    help="What is raised: contact foundation, ring bending, or both in the scene's ratio (default).",
+)
+@click.option("--low", type=float, metavar="S", help="Softest rung; by default 1e-2 of the scene's own stiffness.")
+@click.option("--high", type=float, metavar="S", help="Stiffest rung; by default 1e4 of it.")
+@click.option("--count", type=int, default=9, metavar="N", help="Number of rungs, 9 by default.")
+@click.option("--law", type=click.Choice(["patch", "brush"]), help="Contact law, in place of the scene's.")
+@click.option(
+    "--rate",
+    type=float,
+    metavar="P",
+    help="Rate of the extrapolation where it is known (1/3 is 0.3333); by default it is fitted.",
+)
+@click.option(
+    "--damping",
+    type=float,
+    metavar="D",
+    help="Damping ratio of the patch's approach; by default the scene's own, or 1 where that is 0.",
+)
+@click.option("--all-pulses", is_flag=True, help="All pulses of the scene's run, not the first alone.")
+@click.option(
+    "--solver",
+    "solver_name",
+    default="flexible",
+    metavar="NAME",
+    help="Another solver to compare, as module:function.",
+)
+@workers
+@scheduler
+@click.pass_context
+def stiffness(
+    ctx: click.Context,
+    scene: str,
+    as_json: bool,
+    out: Path | None,
+    law: str | None,
+    along: str,
+    low: float | None,
+    high: float | None,
+    count: int,
+    rate: float | None,
+    damping: float | None,
+    all_pulses: bool,
+    solver_name: str,
+    workers: int | None,
+    scheduler: str | None,
+) -> None:
+    """The flexible hoop against the rigid one as stiffness grows."""
+    from ..running.progress import bar, first_time
+    from ..running.solvers import solver
+    from ..running.workers import pool
+    from ..stiffness.ladder import Ladder
+    from ..stiffness.study import stiffness_study
+
+    described = load_scene(scene)
+    if law is not None:
+        described = described.replace(contact={"law": law})
+    ladder = Ladder.around(described, along, low, high, count)
+    solver(solver_name)
+    target = folder(out) if out is not None else None
+    compiling = first_time() if solver_name == "flexible" else ""
+    with bar(f"{ladder.count} cases{compiling}") as progress, pool(workers, scheduler) as place:
+        found = stiffness_study(
+            described,
+            ladder,
+            solver=solver_name,
+            damping=damping,
+            all_pulses=all_pulses,
+            exponent=rate,
+            pool=place,
+            out=target,
+            progress=progress,
+        )
+    if target is not None:
+        with bar("figures and report") as progress:
+            _write_study(found, target, ctx.obj, progress)
+    if as_json:
+        click.echo(to_json(found.to_dict()))
+    else:
+        from .tables import show, study_tables
+
+        show(*study_tables(found))
+        if target is not None:
+            click.echo(f"Figures, table and report are in {target}; open {target / 'report.html'}.")
+    if target is not None and solver_name == "flexible":  # last, so that nothing is lost if it fails
+        from .output import write_first_pulse
+
+        with bar("fields of the first pulse") as progress:
+            write_first_pulse(found.scene, target, progress)
+    if found.failures:
+        ctx.exit(1)
+
+
+def _write_study(found: StiffnessStudy, target: Path, line: str, progress: Callable[[float], None]) -> None:
+    from ..plots.style import save
+    from ..stiffness.figures import of_study
+    from ..stiffness.report import stiffness_report
+
+    write_text(target / "study.json", to_json(found.to_dict()))
+    drawn = of_study(found)
+    images = {}
+    for number, (name, figure) in enumerate(drawn.items()):
+        images[name] = save(figure, target / f"{name}.png")
+        progress((number + 1) / (len(drawn) + 1))
+    stiffness_report(found, images, line, target / "report.html")
+
+
+@study.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@as_json
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Folder of the results, by default FILE without .toml; cases finished there are not run again.",
+)
+@workers
+@scheduler
+@click.pass_context
+def sweep(
+    ctx: click.Context,
+    file: Path,
+    as_json: bool,
+    out: Path | None,
+    workers: int | None,
+    scheduler: str | None,
+) -> None:
+    """The product of everything that FILE lists.
+
+    FILE is a scene in which any value may be a list. A table [sweep] may name the `solvers` ("rigid",
+    "flexible"; both by default), a `scene` from which all starts, and ask for `histories = true`.
+    """
+    from ..running.progress import bar, first_time
+    from ..running.workers import pool
+    from ..sweep import load_sweep, run_sweep
+
+    asked = load_sweep(file)
+    target = folder(out if out is not None else file.with_suffix("") if file.suffix else Path(f"{file}-results"))
+    compiling = first_time() if "flexible" in asked.solvers else ""
+    with (
+        bar(f"{len(asked.points) * len(asked.solvers)} cases{compiling}") as progress,
+        pool(workers, scheduler) as place,
+    ):
+        table = run_sweep(asked, place, target, progress)
+    write_text(target / "table.csv", table.to_csv())
+    if as_json:
+        click.echo(to_json({"rows": table.records(), "failures": table.failures}))
+    else:
+        from .tables import show, sweep_table
+
+        show(sweep_table(table))
+        click.echo(f"The table is in {target / 'table.csv'}.")
+    if table.failures:
+        click.echo(f"hoop: {table.failures} of {len(table.rows)} cases failed; their rows say why.", err=True)
+        ctx.exit(1)

@@ -1,0 +1,102 @@
+"""`hoop view ...`: pictures and animations of a run, or a window to look around in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import click
+
+from rigid import load_scene
+
+from ..running.files import StudyError
+
+FILE = click.Path(path_type=Path, dir_okay=False)
+
+
+@click.command()
+@click.argument("path")
+@click.option("--png", type=FILE, metavar="FILE", help="Draw one instant, at --time or else at the peak of N.")
+@click.option("--time", type=float, metavar="T", help="The instant of --png.")
+@click.option("--gif", type=FILE, metavar="FILE", help="Animate the run.")
+@click.option("--mp4", type=FILE, metavar="FILE", help="Animate the run.")
+@click.option("--html", type=FILE, metavar="FILE", help="Animate the run in a page with a slider.")
+@click.option("--field", metavar="NAME", help="What is coloured, von_mises for instance.")
+@click.option("--factor", type=float, metavar="X", help="How much the deformation is exaggerated.")
+@click.option("--zoom", type=float, metavar="X", help="Enlarge what is about the contact, X from 1.")
+@click.option("--start", type=float, metavar="T", help="Begin the animation at this time.")
+@click.option("--stop", type=float, metavar="T", help="End it at this time.")
+@click.option("--frames", type=click.IntRange(2, 100_000), metavar="N", help="Frames of the animation.")
+@click.option("--fps", type=click.IntRange(1, 120), metavar="N", help="Frames per second, 20 by default.")
+@click.option(
+    "--pace",
+    type=click.Choice(["force", "time"]),
+    help="Slow motion where N changes (default), or even in time.",
+)
+def view(
+    path: str,
+    png: Path | None,
+    time: float | None,
+    gif: Path | None,
+    mp4: Path | None,
+    html: Path | None,
+    field: str | None,
+    factor: float | None,
+    zoom: float | None,
+    start: float | None,
+    stop: float | None,
+    frames: int | None,
+    fps: int | None,
+    pace: str | None,
+) -> None:
+    """Look at a run.
+
+    PATH is the folder of `hoop flexible ... --out DIR --fields`, or a scene, whose rigid motion is shown.
+    Without a file to draw into, a window opens: space plays, [ and ] change the factor, c the field.
+    """
+    films = [file for file in (gif, mp4, html) if file is not None]
+    given = {"start": start, "stop": stop, "frames": frames, "fps": fps, "pace": pace}
+    pacing: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+    if pacing and not films:
+        raise StudyError(f"--{next(iter(pacing))} needs --gif, --mp4 or --html: it is about an animation.")
+    for file, suffix in ((png, ".png"), (gif, ".gif"), (mp4, ".mp4"), (html, ".html")):
+        if file is not None and file.suffix.lower() != suffix:
+            raise StudyError(f"{file} is not possible: a file for --{suffix[1:]} ends in {suffix}.")
+    if time is not None and png is None:
+        raise StudyError("--time needs --png FILE: it is the instant that is drawn.")
+
+    from meshes import SeriesError
+    from meshes.view.pictures import ViewError, animate, picture, window
+
+    from ..running.progress import bar
+
+    look: dict[str, Any] = {"field": field, "factor": factor, "zoom": 1.0 if zoom is None else zoom}
+    try:
+        thing = _thing(path)
+        if png is not None:
+            picture(thing, png, time, **look)
+        for file in films:
+            with bar(file.name) as told:
+                animate(thing, file, progress=partial(_fraction, told), **look, **pacing)
+        if png is None and not films:
+            window(thing, **look)
+    except (ViewError, SeriesError) as error:
+        raise StudyError(str(error)) from None
+
+
+def _fraction(told: Callable[[float], None], done: int, total: int) -> None:
+    told(done / max(total, 1))
+
+
+def _thing(path: str) -> Any:
+    """The field series at ``path``, or the rigid motion of the scene that it names."""
+    place = Path(path)
+    if place.is_dir() or place.suffix in (".pvd", ".vtu", ".vtk", ".vtp"):
+        from meshes import read
+
+        return read(place)
+    from ..running.solvers import solver
+
+    return solver("rigid")(load_scene(path))

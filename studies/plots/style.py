@@ -1,0 +1,70 @@
+"""How figures look: their frame, their colours, and how they are written to a file.
+
+Colours are told apart by every kind of colour vision: the rigid hoop is black, stiffness runs through viridis
+(which also grows lighter), and areas take the Okabe-Ito set.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+from ..running.files import write_whole
+
+STYLE: Any = {
+    "figure.dpi": 110,
+    "font.size": 10,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "0.9",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "legend.frameon": False,
+    "legend.fontsize": 9,
+    "lines.linewidth": 1.4,
+    "savefig.facecolor": "white",
+}
+
+RIGID = "black"
+UNDER: Any = {"linewidth": 3.2, "zorder": 1.8}
+"""How the rigid hoop's line is drawn: wide, and under those of the flexible one."""
+
+OKABE_ITO = {
+    "kinetic": "#0072B2",
+    "gravity": "#56B4E9",
+    "ring_strain": "#009E73",
+    "contact_spring": "#E69F00",
+    "friction_loss": "#D55E00",
+    "damping_loss": "#CC79A7",
+    "numerical_loss": "#999999",
+}
+
+
+def blank(width: float, height: float) -> Figure:
+    """An empty figure of a size in inches."""
+    figure = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def save(figure: Figure, path: Path) -> Path:
+    """Write a figure as PNG, whole or not at all."""
+    return write_whole(path, lambda part: figure.savefig(part, format="png", dpi=150))
+
+
+def colours(count: int) -> list[tuple[float, float, float, float]]:
+    """Colours for growing stiffness, dark to light, the yellow end left out as too faint for a line."""
+    return [tuple(c) for c in matplotlib.colormaps["viridis"](np.linspace(0.0, 0.88, max(count, 1)))]
+
+
+def power_of_ten(value: float) -> str:
+    """A stiffness as 10^7 or 3.2·10^7."""
+    exponent = int(np.floor(np.log10(value) + 1e-9))
+    mantissa = value / 10.0**exponent
+    return f"$10^{{{exponent}}}$" if abs(mantissa - 1) < 0.02 else f"${mantissa:.2g}\\cdot 10^{{{exponent}}}$"

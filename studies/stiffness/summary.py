@@ -1,0 +1,158 @@
+"""What is told of a stiffness study, in rows and sentences; the screen and the page print the same."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import TYPE_CHECKING
+
+from ..running.measures import MEASURES
+
+if TYPE_CHECKING:
+    from .study import Rung, StiffnessStudy
+
+
+def number(value: float | None, digits: int = 6) -> str:
+    """A number for a table; a dash for none."""
+    if value is None or not isfinite(value):
+        return "-"
+    return f"{value:.{digits}g}"
+
+
+CASE_HEADING = [
+    "foundation",
+    "bending",
+    "J_F/J_N",
+    "±",
+    "friction loss",
+    "±",
+    "J_N",
+    "peak N",
+    "off the floor",
+    "seconds",
+]
+
+
+def case_cells(rung: Rung) -> list[str]:
+    """The row of a rung: its stiffness, the tied measures with their error, and what else one looks at
+    first."""
+    stiffness = [number(rung.contact_stiffness, 3), number(rung.bending_stiffness, 3)]
+    if rung.outcome.failure:
+        return stiffness
+    cells = []
+    for name in ("impulse_ratio", "friction_loss"):
+        cells += [f"{rung.measure(name):.5f}", number(rung.error(name), 2)]
+    rest = [number(rung.measure(name), 5) for name in ("normal_impulse", "peak_normal_force", "time_off_floor")]
+    star = "" if rung.outcome.resolved else " *"
+    return [*stiffness, *cells, *rest, f"{rung.outcome.seconds:.2f}{star}"]
+
+
+def rigid_cells(study: StiffnessStudy) -> list[str]:
+    """The row of the rigid hoop that the limit should be."""
+    p = study.reference.pulses[0]
+    rest = [number(p[name], 5) for name in ("normal_impulse", "peak_normal_force", "time_off_floor")]
+    return [
+        "rigid",
+        "",
+        f"{p['impulse_ratio']:.5f}",
+        "",
+        f"{p['friction_loss']:.5f}",
+        "",
+        *rest,
+        f"{study.reference.seconds:.2f}",
+    ]
+
+
+def limit_rows(study: StiffnessStudy) -> list[list[str]]:
+    """One row for each limit."""
+    rows = []
+    for name, limit in study.limits.items():
+        low, high = limit.rate_interval
+        rows.append(
+            [
+                MEASURES[name].symbol,
+                f"{limit.value:.6f}",
+                number(limit.uncertainty, 2),
+                f"{limit.rigid:.6f}",
+                number(limit.error, 2),
+                "yes" if limit.rigid_inside else "no",
+                number(limit.rate, 3),
+                f"{number(low, 3)} to {number(high, 3)}",
+                number(limit.distance, 2),
+            ]
+        )
+    return rows
+
+
+def side_heading(study: StiffnessStudy) -> list[str]:
+    """Columns of the side-by-side table: the rigid hoop, then every rung that came through."""
+    return [
+        "measure",
+        "rigid",
+        *(number(r.contact_stiffness, 3) for r in study.rungs if not r.outcome.failure),
+    ]
+
+
+def side_rows(study: StiffnessStudy) -> list[list[str]]:
+    """Every measure of the first pulse, rigid and at each rung."""
+    columns = [study.reference, *(r.outcome for r in study.rungs if not r.outcome.failure)]
+    rows = []
+    for name, entry in MEASURES.items():
+        unit = entry.unit_in(study.scene)
+        rows.append(
+            [
+                f"{entry.symbol}, {unit}" if unit else entry.symbol,
+                *(number(c.pulses[0].get(name), 5) for c in columns),
+            ]
+        )
+    rows.append(["phases", *(shortened(c.phases[0]) for c in columns)])
+    return rows
+
+
+def verdict(study: StiffnessStudy) -> str:
+    """The answer in one or two sentences."""
+    said = []
+    for name, limit in study.limits.items():
+        if name == "normal_impulse":
+            continue
+        inside = "inside" if limit.rigid_inside else "outside"
+        said.append(
+            f"{MEASURES[name].symbol} tends to {limit.value:.5f} ± {number(limit.uncertainty, 2)}; "
+            f"the rigid hoop has {limit.rigid:.5f}, {inside} that interval, "
+            f"{number(abs(limit.error), 2)} from its middle."
+        )
+    if study.failures:
+        said.append(f"{len(study.failures)} of {len(study.rungs)} cases failed.")
+    return " ".join(said)
+
+
+def law_sentence(study: StiffnessStudy) -> str:
+    """Which rigid hoop the limit is compared with, and why."""
+    mu_s, mu = study.scene.friction.mu_s, study.scene.friction.mu
+    if study.scene.contact.law == "patch":
+        return f"The stick threshold acts on the patch's resultants: it keeps mu_s = {mu_s:g} and mu = {mu:g}."
+    if study.reference_mu_s == mu_s:
+        return f"A brush with mu_s = mu = {mu:g} tends to the rigid hoop of the same coefficients."
+    paper = study.rigid.pulses[0]
+    return (
+        "A brush breaks away from its rear, so its limit is the rigid hoop with mu_s replaced by "
+        f"mu_eff = {study.reference_mu_s:.5f}; the paper's law, mu_s = {mu_s:g}, would give "
+        f"J_F/J_N = {paper['impulse_ratio']:.5f} and a friction loss of {paper['friction_loss']:.5f}."
+    )
+
+
+def damping_sentence(study: StiffnessStudy) -> str:
+    """How the contact was damped, and what an undamped one does."""
+    damping = study.scene.contact.damping
+    if damping > 0:
+        return f"The approach of the patch is damped at {damping:g} of critical."
+    return (
+        "The contact is undamped: where slip ends or begins the normal force jumps, and the patch then rings "
+        "with an amplitude that no stiffness makes smaller, so the limit need not be the rigid hoop."
+    )
+
+
+def shortened(phases: list[str], most: int = 6) -> str:
+    """Phases in a row, the middle of a long row left out."""
+    if len(phases) <= most:
+        return " ".join(phases)
+    return " ".join([*phases[: most - 1], f"… {len(phases)} phases, ends with", phases[-1]])

@@ -1,0 +1,100 @@
+"""The structure of the code: imports point one way, among the packages and among the rooms of each.
+
+A room is a folder of modules. The modules at the top of a package are a room too; the faces (``__init__``) only pass
+on what their room holds.
+"""
+
+from __future__ import annotations
+
+import ast
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+PACKAGES = ("rigid", "meshes", "flexible", "studies")  # an import never points to one further right
+MOST = 9  # modules of a room, its face not counted
+
+
+def name_of(path: Path) -> str:
+    parts = path.relative_to(ROOT).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+SOURCES = {name_of(path): path for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py"))}
+
+
+def room_of(module: str) -> str:
+    return module if SOURCES[module].name == "__init__.py" else module.rpartition(".")[0]
+
+
+def imported(module: str) -> set[str]:
+    """Modules of this project that a module imports, wherever in it."""
+    path = SOURCES[module]
+    package = room_of(module).split(".")
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            base = package[: len(package) - node.level + 1] if node.level else []
+            start = ".".join([*base, *([node.module] if node.module else [])])
+            names = [f"{start}.{alias.name}" if f"{start}.{alias.name}" in SOURCES else start for alias in node.names]
+        else:
+            continue
+        found.update(name for name in names if name in SOURCES)
+    return found
+
+
+IMPORTS = {module: imported(module) for module in SOURCES}
+
+
+def test_imports_point_from_studies_to_rigid() -> None:
+    upward = [
+        (module, target)
+        for module, targets in IMPORTS.items()
+        for target in targets
+        if PACKAGES.index(target.split(".")[0]) > PACKAGES.index(module.split(".")[0])
+    ]
+    assert not upward
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_rooms_import_one_way(package: str) -> None:
+    graph: dict[str, set[str]] = {}
+    for module, targets in IMPORTS.items():
+        if module.split(".")[0] != package or SOURCES[module].name == "__init__.py":
+            continue
+        rooms = graph.setdefault(room_of(module), set())
+        rooms.update(
+            room_of(target) for target in targets if target.split(".")[0] == package and target not in (package, module)
+        )
+        rooms.discard(room_of(module))
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        pytest.fail(f"rooms import each other: {' <- '.join(error.args[1])}")
+
+
+def test_no_module_imports_itself_in_a_circle() -> None:
+    deep = {module: {t for t in targets if SOURCES[t].name != "__init__.py"} for module, targets in IMPORTS.items()}
+    try:
+        TopologicalSorter(deep).prepare()
+    except CycleError as error:
+        pytest.fail(f"modules import each other: {' <- '.join(error.args[1])}")
+
+
+def test_a_room_has_at_most_nine_modules() -> None:
+    rooms: dict[str, list[str]] = {}
+    for module, path in SOURCES.items():
+        if path.name != "__init__.py":
+            rooms.setdefault(room_of(module), []).append(path.stem)
+    assert not {room: modules for room, modules in rooms.items() if len(modules) > MOST}
+
+
+def test_every_room_is_installed() -> None:
+    import tomllib
+
+    listed = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["setuptools"]["packages"]
+    assert set(listed) == {name for name, path in SOURCES.items() if path.name == "__init__.py"}
