@@ -12,15 +12,27 @@ import numpy as np
 
 from rigid import Scene
 
-from .body import rolling_forces, sliding_force
-from .bristles import bristles, set_stretch
-from .creep import creep, half_width
-from .events import Passage, passage
-from .inner import (
-    BRUSH, FRICTION_IMPULSE, FRICTION_WORK, HEIGHT, NORMAL_IMPULSE, OMEGA, PATCH, PSI, SLIDE_LEFT, SLIDE_RIGHT, SLIP,
-    STATE, STICK, march,
+from ..inner.body import rolling_forces, sliding_force
+from ..inner.bristles import bristles, set_stretch
+from ..inner.creep import creep, half_width
+from ..inner.events import Passage, passage
+from ..inner.march import (
+    BRUSH,
+    FRICTION_IMPULSE,
+    FRICTION_WORK,
+    HEIGHT,
+    NORMAL_IMPULSE,
+    OMEGA,
+    PATCH,
+    PSI,
+    SLIDE_LEFT,
+    SLIDE_RIGHT,
+    SLIP,
+    STATE,
+    STICK,
+    march,
 )  # fmt: skip
-from .scales import epsilon
+from ..inner.scales import epsilon
 
 _POINTS = 64  # of a brush to its patch where the pulse begins; at its peak there are several times as many
 _SPARSE = 1e9  # steps to a record: none but those at events
@@ -87,7 +99,7 @@ def _start(way: Passage, eps: float) -> tuple[np.ndarray, int, object]:
         curve = np.array([slip * half / abs(first.omega), slip / first.omega, 0.0])
     else:
         slip = way.first_slip / eps
-        curve = np.array([-half**2 / 2, 0.0, 0.5]) * first.pull / way.contact.kappa
+        curve = np.array([-(half**2) / 2, 0.0, 0.5]) * first.pull / way.contact.kappa
         if way.contact.law == PATCH:
             mode = SLIDE_RIGHT if first.pull > 0 else SLIDE_LEFT
         kept.sliding[:] = np.sign(first.pull)

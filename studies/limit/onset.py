@@ -25,10 +25,10 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.special import ai_zeros
 
-from .body import Body, arms, rolling_forces, rolling_inertia
-from .creep import half_width
-from .events import Event
-from .inner import ScaledContact
+from ..inner.body import Body, arms, rolling_forces, rolling_inertia
+from ..inner.creep import half_width
+from ..inner.events import Event
+from ..inner.march import ScaledContact
 from .outer import Shift, passed
 
 EXPONENTS = {"brush": 6 / 5, "brush, mu_s > mu": 2 / 3, "regularised": 4 / 5}

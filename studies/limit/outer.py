@@ -16,9 +16,10 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from .body import Body, arms, rolling_forces, rolling_inertia, sliding_force
-from .creep import Creep, creep
-from .inner import ScaledContact
+from ..inner.body import Body, arms, rolling_forces, rolling_inertia, sliding_force
+from ..inner.creep import Creep, creep
+from ..inner.events import Stretch
+from ..inner.march import ScaledContact
 
 NO_CREEP = Creep(0.0, 0.0)
 _ACCURACY: Any = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-13}
@@ -33,17 +34,6 @@ class Shift:
     t: float
     damping_loss: float = 0.0
     """What the damper has taken of the energy so far."""
-
-
-@dataclass(frozen=True, slots=True)
-class Stretch:
-    """A phase of the rigid motion between two angles; ``pull`` is F/N where it slides, None where it rolls."""
-
-    psi_start: float
-    psi_end: float
-    omega: float
-    """phidot at the start."""
-    pull: float | None
 
 
 def roll_along(body: Body, contact: ScaledContact | None, stretch: Stretch, shift: Shift) -> tuple[Shift, float]:
@@ -90,7 +80,12 @@ def slide_along(body: Body, stretch: Stretch, shift: Shift) -> tuple[Shift, floa
         normal = body.gyration * (1 - ec * w) / d
         slipping = pull * normal - b * alpha + a * w
         by_w = -ec * (pull * body.gyration - b * lever) / d + a
-        return [2 * alpha, -2 * ec * lever / d * dw, by_w * dw / omega - slipping * dw / (2 * omega * w), -dw / (2 * omega * w)]
+        return [
+            2 * alpha,
+            -2 * ec * lever / d * dw,
+            by_w * dw / omega - slipping * dw / (2 * omega * w),
+            -dw / (2 * omega * w),
+        ]
 
     start = [stretch.omega**2, 2 * stretch.omega * shift.omega, shift.slip, shift.t]
     w, dw, slip, t = solve_ivp(rates, (stretch.psi_start, stretch.psi_end), start, **_ACCURACY).y[:, -1]

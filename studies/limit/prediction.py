@@ -17,14 +17,14 @@ from numpy.typing import NDArray
 
 from rigid import Scene
 
+from ..inner.body import arms, rolling_forces, rolling_inertia
+from ..inner.creep import creep
+from ..inner.events import REVERSAL, START, Event, Passage, Stretch, passage
+from ..inner.layers import slip_behind
+from ..inner.march import BRUSH, PATCH, REGULARISED
+from ..inner.scales import epsilon
 from . import onset
-from .body import arms, rolling_forces, rolling_inertia
-from .creep import creep
-from .events import REVERSAL, START, Event, Passage, passage
-from .inner import BRUSH, PATCH, REGULARISED
-from .layers import slip_behind
-from .outer import Shift, Stretch, delay_of_break, delay_of_stop, grown, passed, roll_along, slide_along
-from .scales import epsilon
+from .outer import Shift, delay_of_break, delay_of_stop, grown, passed, roll_along, slide_along
 
 MEASURES = ("normal_impulse", "friction_impulse", "impulse_ratio", "friction_loss", "damping_loss")
 NOTHING = Shift(0.0, 0.0, 0.0)
@@ -79,7 +79,7 @@ def predict(scene: Scene) -> Prediction:
     Raises
     ------
     StudyError
-        See :func:`studies.limit.events.passage`.
+        See :func:`studies.inner.events.passage`.
     """
     way = passage(scene)
     law, mu_s, mu = way.contact.law, way.contact.mu_s, way.contact.mu
@@ -176,8 +176,5 @@ def _with_units(scene: Scene, way: Passage, found: dict[float, NDArray[np.float6
         losses = (-energy - damped) * scene.energy_unit, damped * scene.energy_unit
         for kept, value in zip(powers, (normal, friction, ratio, *losses), strict=True):
             kept.append((exponent, float(value)))
-    terms = {
-        name: Term(float(limit), tuple(kept)) for name, limit, kept in zip(MEASURES, limits, powers, strict=True)
-    }
+    terms = {name: Term(float(limit), tuple(kept)) for name, limit, kept in zip(MEASURES, limits, powers, strict=True)}
     return Prediction("v_s" if regularised else "eps", terms)
-

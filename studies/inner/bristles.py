@@ -6,9 +6,9 @@ the stretch of a bristle is what X has gained since its point touched:
 
     z(s, tau) = X(tau) - X_in(xi),     z_tau + Omega z_s = V.
 
-``patch``: X_in is a table over xi that grows where points enter and is cut where they leave; the pull of all bristles is
--kappa (2 A X - the integral of X_in over the patch), one look-up at each edge. ``brush``: every point of a grid in xi
-carries its own stretch, held to mu_s p or, once it slides, to mu p.
+``patch``: X_in is a table over xi that grows where points enter and is cut where they leave; the pull of all bristles
+is -kappa (2 A X - the integral of X_in over the patch), one look-up at each edge. ``brush``: every point of a grid in
+xi carries its own stretch, held to mu_s p or, once it slides, to mu p.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ on; ``ends`` are the first and last entry. ``brush``: point n has the label n ``
 
 def bristles(spacing: float) -> Any:
     """Empty tables; ``spacing`` of the points (brush) or of the table's entries (patch)."""
-    table = [np.zeros(SIZE) for _ in range(3)]
-    return Bristles(*table, np.zeros(SIZE, np.int8), np.zeros(2, np.int64), np.zeros(3), spacing)
+    label, way, area = np.zeros((3, SIZE))
+    return Bristles(label, way, area, np.zeros(SIZE, np.int8), np.zeros(2, np.int64), np.zeros(3), spacing)
 
 
 @njit(cache=True, error_model="numpy")
@@ -122,8 +122,8 @@ def brush_pull(
 ) -> tuple[float, float]:
     """Pull of the brush's bristles, and the part of the patch that sticks; ``commit`` makes the step a step taken.
 
-    The traction is held to ``eta`` times the pressure (A^2 - s^2)/2 times mu_s, or mu where a point slides. The sum over
-    the points is scaled by what the same sum makes of the pressure, so that gross slip has exactly mu N.
+    The traction is held to ``eta`` times the pressure (A^2 - s^2)/2 times mu_s, or mu where a point slides. The sum
+    over the points is scaled by what the same sum makes of the pressure, so that gross slip has exactly mu N.
     """
     gap, kappa = kept.spacing, contact.kappa
     low, high = int(ceil((-half - rolled) / gap)), int(floor((half - rolled) / gap))

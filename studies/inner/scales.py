@@ -7,7 +7,7 @@ With eps = (eps_n R^2/(M g))^(-1/3), M the total mass, everything fast near an i
 
 from __future__ import annotations
 
-from flexible.touch import relaxation_time
+from flexible.models.rim_contact import relaxation_time
 from rigid import Scene
 
 

@@ -6,7 +6,7 @@ forces about the mass centre,
 
     K alpha = N a - F B,   ddot h = N - 1 + a alpha + e c w,   dot v = F - B alpha + a w,   w = phidot^2.
 
-The functions are plain Python on scalars; :mod:`studies.limit.inner` compiles the ones it needs.
+The functions are plain Python on scalars; :mod:`studies.inner.march` compiles the ones it needs.
 """
 
 from __future__ import annotations

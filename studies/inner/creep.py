@@ -11,9 +11,7 @@ from math import inf, sqrt
 
 from scipy.optimize import brentq
 
-from .inner import BRUSH, REGULARISED, ScaledContact
-
-assert ScaledContact  # the parameters of every function here
+from .march import BRUSH, REGULARISED, ScaledContact
 
 
 @dataclass(frozen=True, slots=True)

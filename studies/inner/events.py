@@ -9,10 +9,9 @@ from flexible.limit import rigid_limit
 from flexible.solve import LEAD
 from rigid import Kind, Motion, Pulse, Run, Scene, simulate
 
-from ..files import StudyError
+from ..running.files import StudyError
 from .body import Body, body_of
-from .inner import LAWS, ScaledContact
-from .outer import Stretch
+from .march import LAWS, ScaledContact
 from .scales import epsilon, theta_of
 
 START, STOP, REVERSAL = "slip starts", "slip stops", "slip reverses"
@@ -36,6 +35,17 @@ class Event:
     def phi(self) -> float:
         """Angle from the top, of the turn in which the pulse lies."""
         return self.psi + pi
+
+
+@dataclass(frozen=True, slots=True)
+class Stretch:
+    """A phase of the rigid motion between two angles; ``pull`` is F/N where it slides, None where it rolls."""
+
+    psi_start: float
+    psi_end: float
+    omega: float
+    """phidot at the start."""
+    pull: float | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +74,9 @@ def scaled_contact(scene: Scene, damping: float | None = None) -> ScaledContact:
     contact, friction = scene.contact, scene.friction
     mu_s = friction.mu if contact.law == "regularised" else friction.mu_s
     scale = getattr(contact, "slip_velocity_scale", 0.0) / epsilon(scene)
-    return ScaledContact(LAWS[contact.law], contact.tangential_ratio, mu_s, friction.mu, theta_of(scene, damping), scale)
+    return ScaledContact(
+        LAWS[contact.law], contact.tangential_ratio, mu_s, friction.mu, theta_of(scene, damping), scale
+    )
 
 
 def passage(scene: Scene) -> Passage:

@@ -1,7 +1,7 @@
 """The inner problem: hoop and scaled patch around an instant of the rigid motion, without any stiffness left in it.
 
     p = max(0, -H - s^2/2),    N_el = (2/3) A^3,   A = sqrt(-2 H),    N = N_el + theta N_el' >= 0
-    psi' = eps Omega,   Omega' = eps alpha,   H'' = ddot h,   V' = dot v     (:mod:`studies.limit.body`, ' = d/dtau)
+    psi' = eps Omega,   Omega' = eps alpha,   H'' = ddot h,   V' = dot v     (:mod:`studies.inner.body`, ' = d/dtau)
 
 With ``eps`` = 0 the angle and phidot stand still: the inner problem proper, the same for every stiffness. With eps > 0
 the same equations are the whole rigid ring on a foundation of eps^-3, to relative order eps, and run through a pulse.
@@ -137,6 +137,10 @@ def _switch(state: Any, contact: Any, mode: int, kept: Any) -> int:
 def _note(row: Any, tau: float, state: Any, contact: Any, mode: int, kept: Any) -> None:
     """Fill a record."""
     row[1], row[2] = _forces(state, contact, mode, kept)
+    if contact.law == BRUSH:  # it sticks as long as any of its bristles does
+        half, _, eta = _normal(state, contact.theta)
+        if half > 0 and brush_pull(kept, contact, half, state[ROLLED], state[WAY], eta, False)[1] == 0:
+            mode = SLIDE_RIGHT if row[2] > 0 else SLIDE_LEFT
     row[0], row[3], row[4], row[5] = tau, state[SLIP], state[HEIGHT], mode
     row[6], row[7] = state[PSI], state[OMEGA]
 

@@ -10,8 +10,8 @@ import numpy as np
 from .body import Body
 from .creep import half_width
 from .events import Event
-from .inner import PATCH, ScaledContact
 from .layers import Layer, layer, outer_forces, period_of
+from .march import PATCH, ScaledContact
 
 _THETAS = np.geomspace(8.0, 1e-3, 40)  # of the patch's period over 2 pi: far over critical to next to none
 _ACCURACY = 1e-5

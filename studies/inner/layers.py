@@ -12,8 +12,21 @@ from .body import Body, accelerations, contact_mobility, rolling_forces, sliding
 from .bristles import SIZE, bristles, set_stretch
 from .creep import creep, half_width
 from .events import START, Event
-from .inner import (
-    BRUSH, COLUMNS, HEIGHT, OMEGA, PATCH, PSI, RATE, REGULARISED, SLIDE_LEFT, SLIDE_RIGHT, SLIP, STATE, STICK, ScaledContact,
+from .march import (
+    BRUSH,
+    COLUMNS,
+    HEIGHT,
+    OMEGA,
+    PATCH,
+    PSI,
+    RATE,
+    REGULARISED,
+    SLIDE_LEFT,
+    SLIDE_RIGHT,
+    SLIP,
+    STATE,
+    STICK,
+    ScaledContact,
     march,
 )  # fmt: skip
 
@@ -39,7 +52,7 @@ class Layer:
     switches: tuple[tuple[float, int], ...]
     """(tau, mode) of every change of what the patch does."""
     end: Array
-    """State at the end, see :mod:`studies.limit.inner`."""
+    """State at the end, see :mod:`studies.inner.march`."""
     period: float
     """Of the patch's approach, linearised where the layer tends."""
 
@@ -82,7 +95,9 @@ def period_of(body: Body, event: Event) -> float:
     return 2 * pi / sqrt(2 * half_width(normal) * (by_normal + pull * across))
 
 
-def layer(body: Body, contact: ScaledContact, event: Event, duration: float | None = None, fineness: float = FINENESS) -> Layer:
+def layer(
+    body: Body, contact: ScaledContact, event: Event, duration: float | None = None, fineness: float = FINENESS
+) -> Layer:
     """Solve the inner problem of an event.
 
     Parameters
