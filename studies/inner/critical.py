@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 from .body import Body
 from .creep import half_width
 from .events import Event
-from .layers import Layer, layer, outer_forces, period_of
+from .layers import layer, outer_forces, period_of
 from .march import PATCH, ScaledContact
 
 _THETAS = np.geomspace(8.0, 1e-3, 40)  # of the patch's period over 2 pi: far over critical to next to none
@@ -46,8 +45,3 @@ def critical_theta(body: Body, contact: ScaledContact, event: Event) -> float | 
         middle = (low + high) / 2
         low, high = (low, middle) if follows(middle) else (middle, high)
     return float(high)
-
-
-def unbroken(body: Body, contact: ScaledContact, event: Event) -> Layer:
-    """The layer of a patch that never breaks: its largest |F|/N says how much holding it takes to stay faithful."""
-    return layer(body, contact._replace(mu_s=inf), replace(event))

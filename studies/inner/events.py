@@ -94,7 +94,8 @@ def passage(scene: Scene) -> Passage:
     pulse = motion.pulses[0]
     first = max(0.0, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
     turn = pi + 2 * pi * round(((pulse.phi_start + pulse.phi_end) / 2 - pi) / (2 * pi))
-    stretches, events = [], []
+    stretches: list[Stretch] = []
+    events: list[Event] = []
     inside = [p for p in motion.phases if p.t_end > first and p.t_start < pulse.t_end]
     pulls = {Kind.ROLL: None, Kind.SPIN: scene.friction.mu, Kind.SKID: -scene.friction.mu}
     for number, phase in enumerate(inside):

@@ -41,6 +41,7 @@ class Layer:
     """The history of an inner problem, in the scaled units of R = g = M = 1."""
 
     event: Event
+    law: int
     tau: Array
     normal_force: Array
     friction_force: Array
@@ -64,10 +65,18 @@ class Layer:
 
     @property
     def resticks(self) -> float | None:
-        """tau from which on the patch sticks for good; None if it slides at the end."""
-        if self.mode[-1] != STICK:
+        """tau from which on the patch sticks for good; None if it slides at the end, or has no stick."""
+        if self.law == REGULARISED or self.mode[-1] != STICK:
             return None
-        return self.switches[-1][0] if self.switches else 0.0
+        slides = np.flatnonzero(self.mode != STICK)
+        return float(self.tau[slides[-1] + 1]) if slides.size else 0.0
+
+    def settled(self, normal: float, share: float = 0.02) -> float | None:
+        """tau from which on N is within a ``share`` of the force it tends to; None if it is not by the end."""
+        off = np.flatnonzero(np.abs(self.normal_force - normal) > share * normal)
+        if not off.size:
+            return 0.0
+        return float(self.tau[off[-1] + 1]) if off[-1] + 1 < self.tau.size else None
 
     @property
     def faithful(self) -> bool:
@@ -129,7 +138,7 @@ def layer(
     )
     columns = dict(zip(COLUMNS, records.T, strict=True))
     return Layer(
-        event, columns["tau"], columns["normal_force"], columns["friction_force"], columns["slip"], columns["height"],
+        event, contact.law, columns["tau"], columns["normal_force"], columns["friction_force"], columns["slip"], columns["height"],
         columns["mode"].astype(int), tuple((float(t), int(m)) for t, m in switches), end, period,
     )  # fmt: skip
 

@@ -1,18 +1,18 @@
 """How a slip starts under a law whose creep grows without end as the friction force nears its most.
 
 Near the instant t = 0 at which the rigid hoop begins to slip (sigma the sign of F, gamma the rate at which the margin
-mu N - |F| of rolling closes, m the part of dot v that the margin feels) the creep can no longer follow: with the mean slip
-velocity as the unknown the balance of the contact is a first-order equation without a parameter.
+mu N - |F| of rolling closes, m the part of dot v that the margin feels) the creep can no longer follow: with the mean
+slip velocity as the unknown the balance of the contact is a first-order equation without a parameter.
 
-``brush``, mu_s = mu: the sticking part b of the patch obeys m eps U ds/dt = -gamma t - mu N b^3, U = mu A |Omega|/kappa;
-scaled, y' = -x - y^3. It sticks until y = 0 at x_0 and has then slipped behind the rigid hoop by x_0^2/2: a change of v of
-order eps^(6/5).
+``brush``, mu_s = mu: the sticking part b of the patch obeys m eps U db/dt = -gamma t - mu N b^3, U = mu A |Omega|/kappa;
+scaled, y' = -x - y^3. It sticks until y = 0 at x_0 and has then slipped behind the rigid hoop by x_0^2/2: a change of v
+of order eps^(6/5).
 
-``brush``, mu_s > mu: about the b at which the patch carries most, y' = -x - y^2, which runs away at Airy's first zero: the
-slip starts late by a time of order eps^(2/3).
+``brush``, mu_s > mu: about the b at which the patch carries most, y' = -x - y^2, which runs away at Airy's first zero:
+the slip starts late by a time of order eps^(2/3).
 
-``regularised``: y' = x + 1/y^2 for the slip itself, which runs ahead of the rigid hoop's x^2/2 by a constant: a change of v
-of order v_s^(4/5).
+``regularised``: y' = x + 1/y^2 for the slip itself, which runs ahead of the rigid hoop's x^2/2 by a constant: a change
+of v of order v_s^(4/5).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """How a perturbation of order eps travels along the rigid motion: its own sensitivities, phase by phase.
 
-A :class:`Shift` is the derivative by eps of phidot, slip velocity and time at a fixed angle psi. Sliding, it follows the
-linearised slip equations. Rolling, v = eps V is prescribed by the creep, and the moment of momentum about the contact
+A :class:`Shift` is the derivative by eps of phidot, slip velocity and time at a fixed angle psi. Sliding, it follows
+the linearised slip equations. Rolling, v = eps V is prescribed by the creep, and the moment of momentum about the contact
 point, L = I phidot + B v with I = K + a^2 + B^2, is what no contact force can change:
 
     dL/dpsi = -(alpha/w) (L - B V) - a V,   phidot's shift = (L - B V)/I,   dt/dpsi's shift = -(phidot's shift)/w.
@@ -80,12 +80,8 @@ def slide_along(body: Body, stretch: Stretch, shift: Shift) -> tuple[Shift, floa
         normal = body.gyration * (1 - ec * w) / d
         slipping = pull * normal - b * alpha + a * w
         by_w = -ec * (pull * body.gyration - b * lever) / d + a
-        return [
-            2 * alpha,
-            -2 * ec * lever / d * dw,
-            by_w * dw / omega - slipping * dw / (2 * omega * w),
-            -dw / (2 * omega * w),
-        ]
+        faster = dw / (2 * omega)
+        return [2 * alpha, -2 * ec * lever / d * dw, by_w * dw / omega - slipping * faster / w, -faster / w]
 
     start = [stretch.omega**2, 2 * stretch.omega * shift.omega, shift.slip, shift.t]
     w, dw, slip, t = solve_ivp(rates, (stretch.psi_start, stretch.psi_end), start, **_ACCURACY).y[:, -1]
