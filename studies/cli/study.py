@@ -1,4 +1,4 @@
-"""`hoop study ...`: the limit of stiffness, and sweeps."""
+"""`hoop study ...`: the limit of stiffness, observed and solved, and sweeps."""
 
 from __future__ import annotations
 
@@ -135,6 +135,65 @@ def stiffness(
             write_first_pulse(found.scene, target, progress)
     if found.failures:
         ctx.exit(1)
+
+
+@study.command()
+@click.argument("scene")
+@as_json
+@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Write limit.json and figures here.")
+@click.option("--law", type=click.Choice(["patch", "brush"]), help="Contact law, in place of the scene's.")
+@click.option(
+    "--damping",
+    type=click.FloatRange(0),
+    metavar="D",
+    help="Damping ratio of the patch's approach; by default the scene's own, or 1 where that is 0.",
+)
+@click.option(
+    "--flexible",
+    "foundations",
+    type=click.FloatRange(0, min_open=True),
+    multiple=True,
+    metavar="S",
+    help="Observe the flexible solver at this foundation too; may be given several times.",
+)
+@workers
+@scheduler
+def limit(
+    scene: str,
+    as_json: bool,
+    out: Path | None,
+    law: str | None,
+    damping: float | None,
+    foundations: tuple[float, ...],
+    workers: int | None,
+    scheduler: str | None,
+) -> None:
+    """The limit of infinite stiffness solved, not fitted: events, critical damping, and how fast a pulse gets there."""
+    from ..limit.study import limit_study
+    from ..running.progress import bar, first_time
+    from ..running.workers import pool
+
+    described = load_scene(scene)
+    if law is not None:
+        described = described.replace(contact={"law": law})
+    target = folder(out) if out is not None else None
+    with bar(f"inner problems{first_time()}") as progress, pool(workers, scheduler) as place:
+        found = limit_study(described, damping=damping, flexible=foundations, pool=place, out=target, progress=progress)
+    if target is not None:
+        from ..limit.figures import of_limit
+        from ..plots.style import save
+
+        write_text(target / "limit.json", to_json(found.to_dict()))
+        for name, figure in of_limit(found).items():
+            save(figure, target / f"{name}.png")
+    if as_json:
+        click.echo(to_json(found.to_dict()))
+        return
+    from .tables import limit_tables, show
+
+    show(*limit_tables(found))
+    if target is not None:
+        click.echo(f"Figures and limit.json are in {target}.")
 
 
 def _write_study(found: StiffnessStudy, target: Path, line: str, progress: Callable[[float], None]) -> None:

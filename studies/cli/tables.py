@@ -26,6 +26,7 @@ from ..stiffness.summary import (
 )
 
 if TYPE_CHECKING:
+    from ..limit.study import LimitStudy
     from ..stiffness.study import StiffnessStudy
     from ..sweep import Table as SweepTable
 
@@ -112,6 +113,27 @@ def study_tables(study: StiffnessStudy) -> list[Any]:
     loose = any(not r.outcome.resolved for r in study.rungs if not r.outcome.failure)
     star = ["* The numerical error is more than a tenth of the distance to the rigid hoop."] if loose else []
     return [ladder, *star, *failed, limits, law_sentence(study), damping_sentence(study), verdict(study)]
+
+
+def limit_tables(study: LimitStudy) -> list[Any]:
+    """The answer, the events, the prediction and what is observed."""
+    from ..limit import summary
+
+    def table(title: str, heading: list[str], rows: list[list[str]]) -> Table:
+        made = Table(*heading, title=title, title_justify="left")
+        for row in rows:
+            made.add_row(*row)
+        return made
+
+    return [
+        summary.verdict(study),
+        *summary.damping_sentences(study),
+        "J_F/J_N by what is compliant: " + "; ".join(summary.other_sentences(study)) + ".",
+        table("Events of the first pulse, their layers on the clock τ = (t − t*)/ε", summary.EVENT_HEADING,
+              summary.event_rows(study)),
+        table("Prediction", summary.TERM_HEADING, summary.term_rows(study)),
+        table("Observed", summary.SIGHT_HEADING, summary.sight_rows(study)),
+    ]  # fmt: skip
 
 
 def sweep_table(sweep: SweepTable, most: int = 40) -> Table:

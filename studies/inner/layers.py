@@ -138,9 +138,14 @@ def layer(
     )
     columns = dict(zip(COLUMNS, records.T, strict=True))
     return Layer(
-        event, contact.law, columns["tau"], columns["normal_force"], columns["friction_force"], columns["slip"], columns["height"],
-        columns["mode"].astype(int), tuple((float(t), int(m)) for t, m in switches), end, period,
-    )  # fmt: skip
+        event=event,
+        law=contact.law,
+        **{name: columns[name] for name in ("tau", "normal_force", "friction_force", "slip", "height")},
+        mode=columns["mode"].astype(int),
+        switches=tuple((float(t), int(m)) for t, m in switches),
+        end=end,
+        period=period,
+    )
 
 
 def slip_behind(body: Body, contact: ScaledContact, event: Event) -> float:

@@ -4,9 +4,9 @@ Near the instant t = 0 at which the rigid hoop begins to slip (sigma the sign of
 mu N - |F| of rolling closes, m the part of dot v that the margin feels) the creep can no longer follow: with the mean
 slip velocity as the unknown the balance of the contact is a first-order equation without a parameter.
 
-``brush``, mu_s = mu: the sticking part b of the patch obeys m eps U db/dt = -gamma t - mu N b^3, U = mu A |Omega|/kappa;
-scaled, y' = -x - y^3. It sticks until y = 0 at x_0 and has then slipped behind the rigid hoop by x_0^2/2: a change of v
-of order eps^(6/5).
+``brush``, mu_s = mu: the sticking part b of the patch obeys m eps U db/dt = -gamma t - mu N b^3 with
+U = mu A |Omega|/kappa; scaled, y' = -x - y^3. It sticks until y = 0 at x_0 and has then slipped behind the rigid hoop
+by x_0^2/2: a change of v of order eps^(6/5).
 
 ``brush``, mu_s > mu: about the b at which the patch carries most, y' = -x - y^2, which runs away at Airy's first zero:
 the slip starts late by a time of order eps^(2/3).
@@ -30,9 +30,6 @@ from ..inner.creep import half_width
 from ..inner.events import Event
 from ..inner.march import ScaledContact
 from .outer import Shift, passed
-
-EXPONENTS = {"brush": 6 / 5, "brush, mu_s > mu": 2 / 3, "regularised": 4 / 5}
-"""Of eps, or of v_s, in the term that such a start adds to a pulse's measures."""
 
 
 @cache

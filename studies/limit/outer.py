@@ -1,8 +1,8 @@
 """How a perturbation of order eps travels along the rigid motion: its own sensitivities, phase by phase.
 
 A :class:`Shift` is the derivative by eps of phidot, slip velocity and time at a fixed angle psi. Sliding, it follows
-the linearised slip equations. Rolling, v = eps V is prescribed by the creep, and the moment of momentum about the contact
-point, L = I phidot + B v with I = K + a^2 + B^2, is what no contact force can change:
+the linearised slip equations. Rolling, v = eps V is prescribed by the creep, and the moment of momentum about the
+contact point, L = I phidot + B v with I = K + a^2 + B^2, is what no contact force can change:
 
     dL/dpsi = -(alpha/w) (L - B V) - a V,   phidot's shift = (L - B V)/I,   dt/dpsi's shift = -(phidot's shift)/w.
 """
