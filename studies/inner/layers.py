@@ -105,7 +105,13 @@ def period_of(body: Body, event: Event) -> float:
 
 
 def layer(
-    body: Body, contact: ScaledContact, event: Event, duration: float | None = None, fineness: float = FINENESS
+    body: Body,
+    contact: ScaledContact,
+    event: Event,
+    duration: float | None = None,
+    *,
+    fineness: float = FINENESS,
+    eps: float = 0.0,
 ) -> Layer:
     """Solve the inner problem of an event.
 
@@ -115,6 +121,8 @@ def layer(
         In tau; by default ten periods and five passages of a point through the patch.
     fineness : float
         Step over the fastest time at work.
+    eps : float
+        0 is the inner problem; otherwise angle and phidot go on, as at that stiffness.
     """
     normal, friction = outer_forces(body, event, False)
     half = half_width(normal)
@@ -134,7 +142,7 @@ def layer(
         set_stretch(kept, half, np.array([-most * half**2 / 2, 0.0, most / 2]), contact.law == BRUSH)
         kept.sliding[:] = np.sign(friction)
     records, switches, end = march(
-        body, contact, 0.0, state, mode, kept, np.array([duration, np.inf * np.sign(event.omega), fineness, 1.0])
+        body, contact, eps, state, mode, kept, np.array([duration, np.inf * np.sign(event.omega), fineness, 1.0])
     )
     columns = dict(zip(COLUMNS, records.T, strict=True))
     return Layer(

@@ -57,8 +57,18 @@ class Passed:
 
 def go_through(scene: Scene, fineness: float = 0.1) -> Passed:
     """The first pulse of a scene at its own foundation, from the state at which the flexible hoop is handed over."""
-    way = passage(scene)
-    eps = epsilon(scene)
+    gained, switches = march_through(passage(scene), epsilon(scene), fineness)
+    gained, eps = gained * (1 + scene.hoop.mass_ratio), epsilon(scene)
+    return Passed(
+        float(gained[NORMAL_IMPULSE] * eps * scene.impulse_unit),
+        float(gained[FRICTION_IMPULSE] * eps * scene.impulse_unit),
+        float(-gained[FRICTION_WORK] * eps**2 * scene.energy_unit),
+        switches,
+    )
+
+
+def march_through(way: Passage, eps: float, fineness: float = 0.1) -> tuple[np.ndarray, int]:
+    """What the state of the march gains over a pulse (R = g = M = 1, scaled), and how often it breaks or sticks."""
     state, mode, kept = _start(way, eps)
     switches, before = 0, np.zeros(STATE)
     for psi in way.edges:
@@ -69,14 +79,7 @@ def go_through(scene: Scene, fineness: float = 0.1) -> Passed:
             switches = len(turned)
         if psi == way.edges[0]:
             before = state
-    mass = 1 + scene.hoop.mass_ratio
-    gained = (state - before) * mass
-    return Passed(
-        float(gained[NORMAL_IMPULSE] * eps * scene.impulse_unit),
-        float(gained[FRICTION_IMPULSE] * eps * scene.impulse_unit),
-        float(-gained[FRICTION_WORK] * eps**2 * scene.energy_unit),
-        switches,
-    )
+    return state - before, switches
 
 
 def _start(way: Passage, eps: float) -> tuple[np.ndarray, int, object]:

@@ -82,6 +82,11 @@ def predict(scene: Scene) -> Prediction:
         See :func:`studies.inner.events.passage`.
     """
     way = passage(scene)
+    return _with_units(scene, way, powers(way))
+
+
+def powers(way: Passage) -> dict[float, NDArray[np.float64]]:
+    """Changes of J_F, J_N, energy and damping loss over a pulse, by the power of eps (or v_s); R = g = M = 1."""
     law, mu_s, mu = way.contact.law, way.contact.mu_s, way.contact.mu
     found: dict[float, NDArray[np.float64]] = {}
     breaks = law == BRUSH and mu_s > mu  # then a term of lower order than the creep leads, and the next is not known
@@ -98,7 +103,7 @@ def predict(scene: Scene) -> Prediction:
             _add(found, 6 / 5, _walk(way, number + 1, onset.brush_lag(way.body, way.contact, event), False))
     if not (starts and (breaks or law == REGULARISED)):
         _add(found, 1.0, _walk(way, 0, _handed_over(way), True))
-    return _with_units(scene, way, found)
+    return found
 
 
 def _add(found: dict[float, NDArray[np.float64]], exponent: float, change: NDArray[np.float64]) -> None:
