@@ -101,10 +101,10 @@ def test_a_sliding_patch_vibrates_at_its_linearised_frequency(end_of_spin):
 
 
 def test_a_frictionless_bounce_keeps_its_energy(end_of_spin):
-    """H'^2/2 + (1 + a^2/K) (2/15) (-2 H)^(5/2) - (the rest of ddot h) H, lift-off included: a jump from twice as deep."""
+    """H'^2/2 + (1 + a^2/K) (2/15) (-2 H)^(5/2) - (the rest of ddot h) H, lift-off included: from thrice as deep."""
     body, contact, event = end_of_spin
     smooth = contact._replace(mu=0.0, mu_s=0.0, theta=0.0)
-    _, state = sliding_patch(body, contact, event, -1.0)
+    _, state = sliding_patch(body, contact, event, -2.0)
     a, _, ec = arms(body.e, body.one_minus_e, event.psi)
     free = -1 + ec * event.omega**2
 
@@ -159,19 +159,16 @@ def test_the_inner_problem_has_no_stiffness_in_it(end_of_spin):
     """The full equations at eps and eps/10 are the inner problem but for terms of order eps."""
     body, contact, event = end_of_spin
     reference = layer(body, contact, event, 3.0)
+    tau = np.linspace(0.0, 3.0, 50)
+
+    def sampled(history, name):
+        return np.interp(tau, history.tau, getattr(history, name))
+
     away = []
     for eps in (1e-4, 1e-5):
         history = layer(body, contact, event, 3.0, eps=eps)
-        tau = np.linspace(0.0, 3.0, 50)
-        away.append(
-            max(
-                np.abs(
-                    np.interp(tau, history.tau, getattr(history, name))
-                    - np.interp(tau, reference.tau, getattr(reference, name))
-                ).max()
-                for name in ("normal_force", "friction_force", "slip")
-            )
-        )
+        names = ("normal_force", "friction_force", "slip")
+        away.append(max(np.abs(sampled(history, name) - sampled(reference, name)).max() for name in names))
     assert away[1] == pytest.approx(away[0] / 10, rel=0.1)
 
 
@@ -181,8 +178,9 @@ def test_the_mirrored_event_has_the_mirrored_layer(end_of_spin):
     for law, mu_s in ((PATCH, 0.35), (BRUSH, 0.3)):
         here = layer(body, contact._replace(law=law, mu_s=mu_s), event, 3.0)
         there = layer(body, contact._replace(law=law, mu_s=mu_s), mirrored, 3.0)
-        assert here.end[SLIP] == pytest.approx(-there.end[SLIP], rel=1e-9)
-        assert here.normal_force == pytest.approx(there.normal_force, rel=1e-9)
+        assert here.end[SLIP] == pytest.approx(-there.end[SLIP], rel=1e-7)
+        # points enter at the table's other end, where its entries lie a little differently
+        assert here.normal_force == pytest.approx(there.normal_force, rel=1e-7)
 
 
 def test_below_the_critical_damping_the_patch_breaks_again(end_of_spin):
