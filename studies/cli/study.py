@@ -156,6 +156,7 @@ def stiffness(
     metavar="S",
     help="Observe the flexible solver at this foundation too; may be given several times.",
 )
+@click.option("--map", "mapped", is_flag=True, help="J_F/J_N over damping ratio and foundation too; a minute or two.")
 @workers
 @scheduler
 def limit(
@@ -165,6 +166,7 @@ def limit(
     law: str | None,
     damping: float | None,
     foundations: tuple[float, ...],
+    mapped: bool,
     workers: int | None,
     scheduler: str | None,
 ) -> None:
@@ -179,19 +181,27 @@ def limit(
     target = folder(out) if out is not None else None
     with bar(f"inner problems{first_time()}") as progress, pool(workers, scheduler) as place:
         found = limit_study(described, damping=damping, flexible=foundations, pool=place, out=target, progress=progress)
+    told = found.to_dict()
+    spots = []
+    if mapped:
+        from ..limit.damping import damping_map
+
+        spots = damping_map(found.scene)
+        told["map"] = [spot.to_dict() for spot in spots]
     if target is not None:
-        from ..limit.figures import of_limit
+        from ..limit.figures import damping_figure, of_limit
         from ..plots.style import save
 
-        write_text(target / "limit.json", to_json(found.to_dict()))
-        for name, figure in of_limit(found).items():
+        write_text(target / "limit.json", to_json(told))
+        drawn = of_limit(found) | ({"damping": damping_figure(spots)} if mapped else {})
+        for name, figure in drawn.items():
             save(figure, target / f"{name}.png")
     if as_json:
-        click.echo(to_json(found.to_dict()))
+        click.echo(to_json(told))
         return
-    from .tables import limit_tables, show
+    from .tables import limit_tables, map_table, show
 
-    show(*limit_tables(found))
+    show(*limit_tables(found), *([map_table(spots)] if mapped else []))
     if target is not None:
         click.echo(f"Figures and limit.json are in {target}.")
 

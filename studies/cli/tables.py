@@ -26,6 +26,9 @@ from ..stiffness.summary import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..limit.damping import Spot
     from ..limit.study import LimitStudy
     from ..stiffness.study import StiffnessStudy
     from ..sweep import Table as SweepTable
@@ -134,6 +137,18 @@ def limit_tables(study: LimitStudy) -> list[Any]:
         table("Prediction", summary.TERM_HEADING, summary.term_rows(study)),
         table("Observed", summary.SIGHT_HEADING, summary.sight_rows(study)),
     ]  # fmt: skip
+
+
+def map_table(spots: Sequence[Spot]) -> Table:
+    """J_F/J_N, foundations across and damping ratios down."""
+    foundations = sorted({spot.foundation for spot in spots})
+    made = Table("damping", title="J_F/J_N over damping ratio and foundation", title_justify="left")
+    for foundation in foundations:
+        made.add_column(number(foundation, 3), justify="right")
+    for ratio in sorted({spot.damping for spot in spots}):
+        row = {spot.foundation: spot.impulse_ratio for spot in spots if spot.damping == ratio}
+        made.add_row(number(ratio), *(f"{row[foundation]:.5f}" for foundation in foundations))
+    return made
 
 
 def sweep_table(sweep: SweepTable, most: int = 40) -> Table:

@@ -20,7 +20,8 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-SIZE = 8192  # entries of the circular tables; a patch holds a quarter of them at most
+SIZE = 8192  # entries of the circular tables
+ENTRIES = 1000  # of a patch's table, from edge to edge
 LAST, FIRST = 0, 1  # positions in ``ends``: newest entry at the trailing and at the leading edge
 SLIPPED, TRAILING, LEADING = range(3)  # positions in ``edges``
 
@@ -30,12 +31,12 @@ Bristles.__doc__ = """Circular tables (entry n stands at n modulo SIZE) and wher
 ``patch``: labels descending from the trailing to the leading edge, X_in there, and its integral from the trailing edge
 on; ``ends`` are the first and last entry. ``brush``: point n has the label n ``spacing``, ``way`` is its stretch,
 ``sliding`` the direction in which friction pushes it if it slides; ``ends`` are the lowest and highest point.
-``edges``: X, and the labels of both edges, at the end of the last step.
+``edges``: X, and the labels of both edges, at the end of the last step (``brush``).
 """
 
 
-def bristles(spacing: float) -> Any:
-    """Empty tables; ``spacing`` of the points (brush) or of the table's entries (patch)."""
+def bristles(spacing: float = 1.0) -> Any:
+    """Empty tables; ``spacing`` is that of a brush's points."""
     label, way, area = np.zeros((3, SIZE))
     return Bristles(label, way, area, np.zeros(SIZE, np.int8), np.zeros(2, np.int64), np.zeros(3), spacing)
 
@@ -43,7 +44,6 @@ def bristles(spacing: float) -> Any:
 @njit(cache=True, error_model="numpy")
 def set_stretch(kept: Any, half: float, curve: Any, brush: bool) -> None:
     """Begin anew with X = Phi = 0 and z = c_0 + c_1 s + c_2 s^2 over the patch of half-width ``half``."""
-    count = int(2 * half / kept.spacing) + 2
     if brush:
         low, high = int(ceil(-half / kept.spacing)), int(floor(half / kept.spacing))
         for j in range(low, high + 1):
@@ -52,14 +52,14 @@ def set_stretch(kept: Any, half: float, curve: Any, brush: bool) -> None:
             kept.sliding[j % SIZE] = 0
         kept.ends[0], kept.ends[1] = low, high
     else:
-        for n in range(count + 1):
-            s = half * (1 - 2 * n / count)
+        for n in range(ENTRIES + 1):
+            s = half * (1 - 2 * n / ENTRIES)
             kept.label[n] = s
             kept.way[n] = -curve[0] - s * (curve[1] + s * curve[2])
             gone = half - s
             total = curve[0] * gone + curve[1] * (half**2 - s**2) / 2 + curve[2] * (half**3 - s**3) / 3
             kept.area[n] = -total
-        kept.ends[0], kept.ends[1] = 0, count
+        kept.ends[0], kept.ends[1] = 0, ENTRIES
     kept.edges[SLIPPED], kept.edges[TRAILING], kept.edges[LEADING] = 0.0, half, -half
 
 
@@ -101,13 +101,14 @@ def step_on(kept: Any, half: float, rolled: float, slipped: float) -> None:
     way_ahead, area_ahead = _look_up(kept, ahead, slipped)
     way_behind, area_behind = _look_up(kept, behind, slipped)
     first, last = kept.ends[0], kept.ends[1]
+    spacing = 2 * half / ENTRIES
     entered = ahead <= kept.label[last % SIZE]
-    if entered and kept.label[(last - 1) % SIZE] - kept.label[last % SIZE] >= kept.spacing:
+    if entered and kept.label[(last - 1) % SIZE] - kept.label[last % SIZE] >= spacing:
         last += 1
     while not entered and last > first + 1 and kept.label[(last - 1) % SIZE] <= ahead:
         last -= 1
     grown = behind >= kept.label[first % SIZE]
-    if grown and kept.label[first % SIZE] - kept.label[(first + 1) % SIZE] >= kept.spacing:
+    if grown and kept.label[first % SIZE] - kept.label[(first + 1) % SIZE] >= spacing:
         first -= 1
     while not grown and last > first + 1 and kept.label[(first + 1) % SIZE] >= behind:
         first += 1

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .body import Body, accelerations, contact_mobility, rolling_forces, sliding_force
-from .bristles import SIZE, bristles, set_stretch
+from .bristles import bristles, set_stretch
 from .creep import creep, half_width
 from .events import START, Event
 from .march import (
@@ -33,7 +33,7 @@ from .march import (
 Array = NDArray[np.float64]
 
 FINENESS = 0.1  # of the fastest time to a step: forces to 1e-4, times of switches to 1e-5
-_POINTS = 300  # of a brush to its patch; a patch's table has four times as many entries
+_POINTS = 300  # of a brush to its patch
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -131,7 +131,7 @@ def layer(
         duration = 10 * period + 10 * half / abs(event.omega)
     state = np.zeros(STATE)
     state[PSI], state[OMEGA], state[HEIGHT] = event.psi, event.omega, -(half**2) / 2
-    kept = bristles(2 * half / (_POINTS if contact.law == BRUSH else 4 * _POINTS))
+    kept = bristles(2 * half / _POINTS)
     mode = STICK
     if event.kind == START:
         state[SLIP] = creep(contact, normal, friction, event.omega).slip
@@ -171,6 +171,3 @@ def slip_behind(body: Body, contact: ScaledContact, event: Event) -> float:
     share = (across + event.behind * by_friction) / (by_normal + event.behind * across)
     steady = accelerations(*body, event.psi, event.omega, normal, friction)[2]
     return float(history.end[SLIP] - steady * history.tau[-1] - share * history.end[RATE])
-
-
-assert SIZE > 8 * _POINTS

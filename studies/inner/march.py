@@ -110,7 +110,8 @@ def _step_length(state: Any, body: Any, contact: Any, widest: float) -> float:
     half = max(half, _NARROW * widest)
     a, b, _ = _arms(body.e, body.one_minus_e, state[PSI])
     square = 2 * half * (1 + a * a / body.gyration + contact.kappa * (1 + b * b / body.gyration))
-    rate = max(np.sqrt(square), contact.theta * square, abs(state[OMEGA]) / half)
+    # an overdamped approach follows N; its rate counts for stability alone
+    rate = max(np.sqrt(square), contact.theta * square / 4, abs(state[OMEGA]) / half)
     if contact.law == REGULARISED:
         rate = max(rate, contact.mu * normal * (1 + b * b / body.gyration) / contact.slip_scale)
     return 1 / rate

@@ -13,7 +13,7 @@ import numpy as np
 from rigid import Scene
 
 from ..inner.body import rolling_forces, sliding_force
-from ..inner.bristles import bristles, set_stretch
+from ..inner.bristles import SIZE, bristles, set_stretch
 from ..inner.creep import creep, half_width
 from ..inner.events import Passage, passage
 from ..inner.march import (
@@ -33,6 +33,7 @@ from ..inner.march import (
     march,
 )  # fmt: skip
 from ..inner.scales import epsilon
+from ..running.files import StudyError
 
 _POINTS = 64  # of a brush to its patch where the pulse begins; at its peak there are several times as many
 _SPARSE = 1e9  # steps to a record: none but those at events
@@ -94,7 +95,10 @@ def _start(way: Passage, eps: float) -> tuple[np.ndarray, int, object]:
     state = np.zeros(STATE)
     state[PSI], state[OMEGA], state[HEIGHT] = first.psi_start, first.omega, -(half**2) / 2
     brush = way.contact.law == BRUSH
-    kept = bristles(2 * half / (_POINTS if brush else 1000))
+    widest = half_width(2 * max(way.pulse.peak_normal_force / way.scene.force_unit, normal))  # N rings about its peak
+    if brush and _POINTS * widest / half > SIZE:
+        raise StudyError("The force of this pulse grows too much for the points of a brush to follow it.")
+    kept = bristles(2 * half / _POINTS)
     mode = STICK
     if first.pull is None:
         undamped = way.contact._replace(law=PATCH, theta=0.0)

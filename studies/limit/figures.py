@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import degrees
 
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..plots.style import OKABE_ITO, RIGID, STYLE, blank
+from ..plots.style import OKABE_ITO, RIGID, STYLE, blank, colours, power_of_ten
 from ..running.measures import MEASURES
+from .damping import Spot
 from .study import LimitStudy
 
 _MARKS = {"rigid ring": ("o", "white"), "flexible": ("s", None)}
@@ -73,4 +75,27 @@ def approach(study: LimitStudy) -> Figure:
             axes.set(xscale="log", yscale="log", xlabel="foundation εR²/(mg)", title=MEASURES[name].symbol)
             axes.legend()
         figure.axes[0].set_ylabel("distance to the limit")
+        return figure
+
+
+def damping_figure(spots: Sequence[Spot]) -> Figure:
+    """The distance to the limit over the damping ratio, and beyond the predicted one over what decays in the stick."""
+    with matplotlib.rc_context(STYLE):
+        figure = blank(10, 4.2)
+        left, right = figure.subplots(1, 2)
+        foundations = sorted({spot.foundation for spot in spots})
+        for foundation, colour in zip(foundations, colours(len(foundations)), strict=True):
+            row = sorted((s for s in spots if s.foundation == foundation), key=lambda s: s.damping)
+            label = power_of_ten(foundation)
+            left.plot([s.damping for s in row], [s.impulse_ratio for s in row], "o-", color=colour, label=label, ms=3.5)
+            beyond = [(s.decay, s.impulse_ratio - s.predicted) for s in row if np.isfinite(s.decay)]
+            if beyond:
+                right.plot(*np.array(beyond).T, "o", color=colour, ms=4)
+        left.axhline(spots[0].limit, color=RIGID, lw=2.6, alpha=0.3)
+        left.set_xscale("symlog", linthresh=0.003)
+        left.set(xlabel="damping ratio", ylabel="$J_F/J_N$", title="foundation εR²/(mg)")
+        left.legend(ncols=2)
+        right.axhline(0, color=RIGID, lw=2.6, alpha=0.3)
+        right.set_xscale("symlog", linthresh=0.3)
+        right.set(xlabel=r"$x = \zeta\omega T_{stick}$", ylabel="beyond the predicted distance")
         return figure

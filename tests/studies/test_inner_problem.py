@@ -90,9 +90,7 @@ def test_a_sliding_patch_vibrates_at_its_linearised_frequency(end_of_spin):
     by_normal, across, _ = contact_mobility(body, event.psi)
     period = 2 * pi / sqrt(2 * half_width(normal) * (by_normal + 0.3 * across))
     undamped = contact._replace(theta=0.0)
-    records = march(body, undamped, 0.0, state, SLIDE_RIGHT, bristles(1.0), np.array([10.5 * period, inf, 0.05, 1.0]))[
-        0
-    ]
+    records = march(body, undamped, 0.0, state, SLIDE_RIGHT, bristles(), np.array([10.5 * period, inf, 0.05, 1.0]))[0]
     tau, off = records[:, 0], records[:, 1] - normal
     i = np.flatnonzero((off[:-1] < 0) & (off[1:] >= 0))
     crossings = tau[i] - off[i] * (tau[i + 1] - tau[i]) / (off[i + 1] - off[i])
@@ -114,7 +112,7 @@ def test_a_frictionless_bounce_keeps_its_energy(end_of_spin):
     errors = []
     for fineness in (0.2, 0.1):
         ends = np.array([8.0, inf, fineness, 1.0])
-        records, _, end = march(body, smooth, 0.0, state, SLIDE_RIGHT, bristles(1.0), ends)
+        records, _, end = march(body, smooth, 0.0, state, SLIDE_RIGHT, bristles(), ends)
         assert records[:, 1].min() == 0.0
         errors.append(abs(energy(end[HEIGHT], end[RATE]) / energy(state[HEIGHT], 0.0) - 1))
     # order four but for the touch, where N has no third derivative: at least second order
@@ -231,3 +229,36 @@ def test_scales_of_a_scene():
     assert theta_of(scene) * epsilon(scene) == pytest.approx(relaxation_time(scene), rel=1e-12)
     assert damping_of(scene, theta_of(scene)) == pytest.approx(0.3, rel=1e-12)
     assert body_of(scene.hoop).e == scene.hoop.e
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("foundation", [1e10, 1e13])
+def test_the_flexible_solver_has_the_same_history(end_of_spin, foundation):
+    """Every stiffness on one clock: tau = (t - t*)/eps from the instant at which the flexible patch sticks."""
+    from flexible import simulate as flexible
+    from studies.inner.march import STICK
+
+    body, contact, event = end_of_spin
+    scene = scene_of(0.1).replace(
+        contact={"stiffness": foundation},
+        ring={"bending_stiffness": 1e12},
+        run=Run(until="pulse"),
+        solve={"rtol": 1e-5},
+    )
+    eps = epsilon(scene)
+    kept = flexible(scene, history=True).history
+    first = int(np.argmax((kept.phi > event.phi - 0.02) & (kept.slip_velocity >= -1e-12)))
+    reference = layer(body, contact, event, 3.0)
+    tau = (kept.t - kept.t[first]) / eps
+    inside = (tau > 0.05) & (tau < 3.0)
+    assert inside.sum() > 20
+    # N and F move by 300 m g sqrt(g/R) times eps per unit of tau as the disk goes on; the integrator damps a little
+    allowed = 0.02 + 3 * eps * 3e2 / 30
+    for seen, found, size in (
+        (kept.normal_force, reference.normal_force, 30.0),
+        (kept.friction_force, reference.friction_force, 40.0),
+        (kept.slip_velocity / eps, reference.slip, 4.0),
+    ):
+        expected = np.interp(tau[inside], reference.tau, found)
+        assert np.abs(seen[inside] - expected).max() < allowed * size
+    assert STICK == 0
