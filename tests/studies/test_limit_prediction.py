@@ -15,6 +15,7 @@ from studies.inner.body import arms
 from studies.inner.events import START, passage
 from studies.inner.march import FRICTION_IMPULSE, NORMAL_IMPULSE, REGULARISED
 from studies.limit.compliant import go_through, march_through
+from studies.limit.damping import damping_map
 from studies.limit.onset import brush_end, regularised_lead
 from studies.limit.outer import Shift
 from studies.limit.prediction import _walk, powers, predict
@@ -191,3 +192,17 @@ def test_a_hoop_without_a_pulse_is_one_sentence(hoop, tmp_path):
     status, _, err = hoop("study", "limit", scene)
     assert status == 2
     assert "no pulse" in err
+
+
+@pytest.mark.slow
+def test_any_damping_that_decays_in_the_stick_has_the_limit_and_none_has_not():
+    """Undamped the deviation stays, 1e-3 and scattered; with x = zeta omega T above 5 (e^-5 is 0.7 %) it is gone."""
+    spots = damping_map(scene_of(0.1, 0.0, "patch"), (0.0, 0.02, 0.05, 0.2), (1e10, 1e11, 1e12))
+    for spot in spots:
+        beyond = abs(spot.impulse_ratio - spot.predicted)
+        if spot.damping == 0:
+            assert spot.decay == 0
+            assert 5e-4 < beyond < 3e-3
+        elif spot.decay > 5:
+            assert beyond < 2e-5
+    assert {spot.decay > 5 for spot in spots} == {True, False}
