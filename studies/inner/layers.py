@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .body import Body, accelerations, contact_mobility, rolling_forces, sliding_force
-from .bristles import bristles, set_stretch
-from .creep import creep, half_width
+from .bristles import SIZE, Bristles, bristles, set_stretch
+from .creep import creep, half_width, sticking_part
 from .events import START, Event
 from .march import (
     BRUSH,
@@ -34,6 +34,7 @@ Array = NDArray[np.float64]
 
 FINENESS = 0.1  # of the fastest time to a step: forces to 1e-4, times of switches to 1e-5
 _POINTS = 300  # of a brush to its patch
+_RELEASED = 0.95  # of the part that sticks at the most a brush carries, where its running away begins
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -138,9 +139,12 @@ def layer(
         if contact.law == PATCH:
             mode = SLIDE_RIGHT if (event.behind or 0.0) > 0 else SLIDE_LEFT
     if contact.law != REGULARISED:
-        most = friction / normal / contact.kappa
+        pull = float(np.sign(friction)) * contact.mu
+        most = pull / contact.kappa
         set_stretch(kept, half, np.array([-most * half**2 / 2, 0.0, most / 2]), contact.law == BRUSH)
         kept.sliding[:] = np.sign(friction)
+    if contact.law == BRUSH and event.kind == START and contact.mu_s > contact.mu:
+        _break_away(contact, event, half, normal, friction, kept)
     records, switches, end = march(
         body, contact, eps, state, mode, kept, np.array([duration, np.inf * np.sign(event.omega), fineness, 1.0])
     )
@@ -154,6 +158,19 @@ def layer(
         end=end,
         period=period,
     )
+
+
+def _break_away(
+    contact: ScaledContact, event: Event, half: float, normal: float, friction: float, kept: Bristles
+) -> None:
+    """A brush that has just begun to break: its leading part sticks in steady rolling, and slides behind that."""
+    part = sticking_part(contact.mu_s, contact.mu, abs(friction) / normal)
+    slip = creep(contact, normal, friction, event.omega).slip
+    low, high = kept.ends
+    for j in range(low, high + 1):
+        way = half + np.sign(event.omega) * j * kept.spacing
+        if way < _RELEASED * part * 2 * half:
+            kept.way[j % SIZE], kept.sliding[j % SIZE] = slip * way / abs(event.omega), 0
 
 
 def slip_behind(body: Body, contact: ScaledContact, event: Event) -> float:

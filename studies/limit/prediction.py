@@ -71,6 +71,9 @@ class Prediction:
     regularised law over sqrt(g R)."""
     terms: dict[str, Term]
     """By measure, in the units of the scene."""
+    complete: bool
+    """Whether all terms down to the order of the creep are there; otherwise those left out, smaller in the end, may be
+    the larger ones at stiffnesses that can be reached."""
 
 
 def predict(scene: Scene) -> Prediction:
@@ -182,4 +185,5 @@ def _with_units(scene: Scene, way: Passage, found: dict[float, NDArray[np.float6
         for kept, value in zip(powers, (normal, friction, ratio, *losses), strict=True):
             kept.append((exponent, float(value)))
     terms = {name: Term(float(limit), tuple(kept)) for name, limit, kept in zip(MEASURES, limits, powers, strict=True)}
-    return Prediction("v_s" if regularised else "eps", terms)
+    leading = way.contact.law != BRUSH or 2 / 3 not in found
+    return Prediction("v_s" if regularised else "eps", terms, leading)

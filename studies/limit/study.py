@@ -146,6 +146,7 @@ class LimitStudy:
             "scene": scene_to_dict(self.scene),
             "events": [found.to_dict() for found in self.events],
             "parameter": self.prediction.parameter,
+            "complete": self.prediction.complete,
             "prediction": {name: term.to_dict() for name, term in self.prediction.terms.items()},
             "separate": self.separate,
             "others": [{"name": other.name, "impulse_ratio": list(other.impulse_ratio)} for other in self.others],

@@ -75,7 +75,13 @@ def verdict(study: LimitStudy) -> str:
         + f", like {term.coefficient:+.4g} {_symbol(study)}^{term.exponent:.3g}"
     )
     small = "ε the foundation ε_n R²/(m g) to the power −1/3" if study.prediction.parameter == "eps" else "v_s"
-    return f"{words}, {small}."
+    told = f"{words}, {small}."
+    if not study.prediction.complete:
+        told += (
+            " A slip that starts where a brush carries most comes late by that power; terms of order ε log ε behind it"
+            " are the larger ones up to foundations of 1e13 and more, and are not predicted."
+        )
+    return told
 
 
 def damping_sentences(study: LimitStudy) -> list[str]:
@@ -93,7 +99,9 @@ def damping_sentences(study: LimitStudy) -> list[str]:
                 f"Below a damping ratio of {number(largest, 4)} the transient breaks the patch again; this scene's "
                 f"{number(ratio, 4)} is {above} it."
             )
-    if isfinite(study.separate):
+    if study.separate == 0:
+        pass
+    elif isfinite(study.separate):
         said.append(f"The layers are over before the next event from a foundation of {number(study.separate, 2)} on.")
     else:
         said.append(
