@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Hoop, Kind, Motion, Phase, Scene, States, Turn
+from rigid import Hoop, Kind, Motion, Phase, Scene, Side, States, Turn
 
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range
@@ -33,11 +34,11 @@ class Piece:
     origin: float = 0.0
     x_C: float = 0.0  # where the hoop's centre stands at the start of ``motion``
 
-    def states(self, t: Array) -> States:
+    def states(self, t: Array, side: Side) -> States:
         if self.stretch is not None:
-            return self.stretch.states(t)
+            return self.stretch.states(t, side)
         assert self.motion is not None
-        states = self.motion.at(np.clip(t - self.origin, 0.0, self.motion.t_end))
+        states = self.motion.at(np.clip(t - self.origin, 0.0, self.motion.t_end), side)
         return replace(states, t=t, x_C=states.x_C + self.x_C)
 
 
@@ -48,17 +49,28 @@ class Sampler:
     pieces: tuple[Piece, ...]
     scene: Scene
 
-    def __call__(self, t: Array) -> States:
+    def __call__(self, t: Array, side: Side) -> States:
         flat = np.atleast_1d(np.asarray(t, dtype=float)).ravel() / self.scene.time_unit
         starts = np.array([piece.t_start for piece in self.pieces])
-        owner = np.clip(np.searchsorted(starts, flat, side="right") - 1, 0, len(starts) - 1)
+        owner = np.clip(np.searchsorted(starts, flat, side) - 1, 0, len(starts) - 1)
         columns = {field.name: np.empty_like(flat) for field in dataclasses.fields(States)}
         for i in np.unique(owner):
             mask = owner == i
-            states = self.pieces[i].states(flat[mask])
+            states = self.pieces[i].states(flat[mask], side)
             for name, column in columns.items():
                 column[mask] = getattr(states, name)
         return with_units(States(**{name: c.reshape(np.shape(t)) for name, c in columns.items()}), self.scene)
+
+
+def _lost_in_landings(motion: Motion, until: float) -> float:
+    """Energy that a rigid motion lost by then where it came down after a flight."""
+    lost = 0.0
+    for before, phase in pairwise(motion.phases):
+        if phase.kind == Kind.IMPACT and before.kind in (Kind.FLIGHT, Kind.SKIM) and phase.t_start <= until:
+            # nothing is lost off the floor
+            energy = motion.at(np.array([(before.t_start + before.t_end) / 2, phase.t_end])).energy
+            lost += float(energy[0] - energy[1])
+    return lost
 
 
 class Builder:
@@ -80,8 +92,10 @@ class Builder:
         self.initial: float | None = None
         self.hand_over = 0.0
         self.friction_loss = 0.0
+        self.landing_loss = 0.0
         self.damping_loss = 0.0
         self.numerical_loss = 0.0
+        self.residual = 0.0
         self.held: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
 
     def _add_phase(self, phase: Phase) -> None:
@@ -97,7 +111,7 @@ class Builder:
         if self.initial is None:
             self.initial = energy
         else:
-            self.hand_over += energy - sum(self.held)
+            self.hand_over += sum(self.held) - energy
 
     def add_rigid(self, motion: Motion, until: float) -> None:
         """The first ``until`` of a rigid motion that begins now."""
@@ -105,7 +119,9 @@ class Builder:
             return
         ends = motion.at(np.array([0.0, until]))
         self._meet(float(ends.energy[0]))
-        self.friction_loss += float(ends.energy[0] - ends.energy[1])
+        landing = _lost_in_landings(motion, until)
+        self.landing_loss += landing
+        self.friction_loss += float(ends.energy[0] - ends.energy[1]) - landing
         potential = float((1 + self.hoop.mass_ratio) * (ends.y_C[1] + self.hoop.e * np.cos(ends.phi[1])))
         self.held = (float(ends.energy[1]) - potential, potential, 0.0, 0.0)
         for phase in motion.phases:
@@ -123,11 +139,12 @@ class Builder:
         stretch = Stretch(records, self.hoop)
         held = stretch.held()
         self._meet(float(held[0]))
-        friction, damping = float(stretch["friction_loss"][-1]), float(stretch["damping_loss"][-1])
-        self.friction_loss += friction
-        self.damping_loss += damping
-        self.numerical_loss += float(held[0] - held[-1]) - friction - damping
         last = records[-1]
+        self.friction_loss += last.friction_loss
+        self.damping_loss += last.damping_loss
+        self.numerical_loss += last.numerical_loss
+        lost = last.friction_loss + last.damping_loss + last.numerical_loss
+        self.residual += float(held[0] - held[-1]) - lost
         self.held = (last.kinetic, last.gravity, last.ring_strain, last.contact_spring)
         for phase in stretch.phases():
             self._add_phase(phase)
@@ -159,8 +176,9 @@ class Builder:
     def motion(self, scene: Scene, ended: str, history: bool) -> FlexibleMotion:
         """The motion in the units of ``scene``."""
         ledger = Ledger(
-            self.initial or 0.0, *self.held, self.friction_loss, self.damping_loss, self.hand_over, self.numerical_loss
-        )
+            self.initial or 0.0, *self.held, self.friction_loss, self.landing_loss, self.damping_loss, self.hand_over,
+            self.numerical_loss, self.residual,
+        )  # fmt: skip
         return FlexibleMotion(
             scene=scene,
             phases=tuple(with_units(phase, scene) for phase in self.phases),

@@ -7,12 +7,12 @@ brought to rest in the disk's frame, and their rates are those of the equilibria
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import cos, pi, sin
+from math import cos, inf, pi, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Kind, Motion
+from rigid import Kind, Motion, Side
 
 from .contact.forces import (
     BRUSH,
@@ -38,6 +38,11 @@ from .time.tr_bdf2 import MarchError, restart
 
 Array = NDArray[np.float64]
 Hoop = ReducedHoop | FullHoop
+
+# Time between the equilibria of which rates are made, in the time in which the forces change. Its square is the error
+# of the rates; a shorter one sees how the patch's height ripples as point after point comes to bear (measured at a
+# foundation of 1e4: rates 35 % off at 1e-3, 0.5 % at 1e-2).
+SPAN = 1e-2
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,19 +74,43 @@ class Pose:
         return self.friction_force / mass - rigid.e * (angular * c - self.omega**2 * s), angular
 
 
-def pose_at(motion: Motion, t: float) -> Pose:
-    """The rigid motion at time ``t``, without its units."""
+def pose_at(motion: Motion, t: float, side: Side = "right") -> Pose:
+    """The rigid motion at time ``t``, without its units; where phases meet, in the one that ``side`` says."""
     scene = motion.scene
-    now = motion.at(t)
-    kind = next((p.kind for p in motion.phases if p.t_start <= t <= p.t_end), Kind.ROLL)
+    now = motion.at(t, side)
     return Pose(
         float(now.phi),
         float(now.omega) * scene.time_unit,
         float(now.slip_velocity) / scene.velocity_unit,
         float(now.normal_force) / scene.force_unit,
         float(now.friction_force) / scene.force_unit,
-        kind,
+        motion.phase_at(t, side).kind,
     )
+
+
+def instants_around(motion: Motion, t: float) -> tuple[tuple[float, Side, float], ...]:
+    """Instants (time, side, weight) of the phase at ``t``: the weighted sum of a quantity over them is its rate.
+
+    The forces of the rigid hoop are functions of the angle, by way of zeta + 2 (1 + cos phi), and of 1 + phidot^2: they
+    change in the time in which the root of the first or the second one do, k^2 in the pulse of a small disk. Across an
+    end of the phase they jump, which is no rate, so there the parabola through three instants leans to one side.
+    """
+    phase, now = motion.phase_at(t), motion.at(t)
+    unit = motion.scene.time_unit
+    omega, alpha = float(now.omega) * unit, float(now.alpha) * unit**2
+    width = sqrt(motion.scene.hoop.zeta + 4 * cos(float(now.phi) / 2) ** 2)
+    fastest = max(1.0, abs(omega) / width, 2 * abs(omega * alpha) / (1 + omega**2))
+    step = min(SPAN * unit / fastest, (phase.t_end - phase.t_start) / 2)
+    if not 0 < step < inf:
+        return ()
+    middle = min(max(t, phase.t_start + step), phase.t_end - step)
+    x, rate = (t - middle) / step, unit / step
+    around: tuple[tuple[float, Side, float], ...] = (
+        (max(middle - step, phase.t_start), "right", (x - 0.5) * rate),
+        (middle, "right", -2 * x * rate),
+        (min(middle + step, phase.t_end), "left", (x + 0.5) * rate),
+    )
+    return tuple(one for one in around if one[2] != 0)
 
 
 def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> State:
@@ -148,14 +177,12 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, law: str) -> State:
     vel = np.zeros_like(state.pos)
     vel[2] = pose.omega
     u_rate = 0.0
-    span = 1e-4 * scene.time_unit
-    before, after = max(t - span, 0.0), min(t + span, motion.t_end)
-    elapsed = (after - before) / scene.time_unit
-    if pose.omega != 0 and elapsed > 0:
-        early, late = (equilibrium(hoop, pose_at(motion, moment)) for moment in (before, after))
-        vel[1] = (late.pos[1] - early.pos[1]) / elapsed
-        vel[3:] = (late.pos[3:] - early.pos[3:]) / elapsed
-        u_rate = (_abscissa(hoop, late, state) - _abscissa(hoop, early, state)) / elapsed
+    around = instants_around(motion, t) if pose.omega != 0 else ()
+    for moment, side, weight in around:
+        there = equilibrium(hoop, pose_at(motion, moment, side))
+        vel[1] += weight * there.pos[1]
+        vel[3:] += weight * there.pos[3:]
+        u_rate += weight * _abscissa(hoop, there, state)
     rolls = pose.rolls
     res = state.res
     friction = res[FRICTION]

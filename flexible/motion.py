@@ -21,13 +21,16 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Ledger:
-    """Where the energy is and where it went, in the scene's unit of energy.
+    """Where the energy went, in the scene's unit of energy: ``initial`` is the sum of all the others.
 
-    Held at the end: ``kinetic``, ``gravity``, ``ring_strain``, ``contact_spring``. Lost on the way, each from its own
-    work integral: ``friction_loss`` (with what bristles keep when they leave the patch stretched) and
-    ``damping_loss``. ``hand_over`` is what came in where the rigid hoop was replaced by a sagged flexible one and
-    went out where it was put back. ``numerical_loss`` is all that remains, the error of the time integrator: it
-    tends to zero with ``solve.rtol``. The terms add up to ``initial + hand_over``.
+    Each of them but the last is found by itself. Held at the end: ``kinetic``, ``gravity``, ``ring_strain``,
+    ``contact_spring``. Lost on the way: ``friction_loss``, the work of friction (with what bristles keep when they
+    leave the patch stretched), ``damping_loss``, that of the contact's damper, and ``landing_loss``, of landings of the
+    rigid hoop between pulses. ``numerical_loss`` is what the integrator's error takes (gives, where negative), step by
+    step from the same estimate by which steps are chosen; it tends to zero with ``solve.rtol``, about in proportion.
+    ``hand_over`` is what went out (came in, where negative) where the rigid hoop was replaced by a flexible one, sagged
+    and with a patch, and where it was put back: it tends to zero with growing stiffness. ``residual`` is all that the
+    others leave unexplained; it tends to zero faster than ``numerical_loss``, like rtol^(3/2).
     """
 
     initial: float
@@ -36,9 +39,11 @@ class Ledger:
     ring_strain: float
     contact_spring: float
     friction_loss: float
+    landing_loss: float
     damping_loss: float
     hand_over: float
     numerical_loss: float
+    residual: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,6 +72,7 @@ class History:
     t: Array
     phi: Array
     omega: Array
+    alpha: Array
     x_C: Array
     y_C: Array
     slip_velocity: Array  # of the patch's centre against the floor, tangential
@@ -81,6 +87,7 @@ class History:
     contact_spring: Array
     friction_loss: Array
     damping_loss: Array
+    numerical_loss: Array
     normal_impulse: Array
     friction_impulse: Array
 

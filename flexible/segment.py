@@ -11,7 +11,7 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Hoop, Kind, Phase, Pulse, States, Turn
+from rigid import Hoop, Kind, Phase, Pulse, Side, States, Turn
 
 from .contact.forces import BRUSH, STICK
 from .models.state import Record
@@ -53,21 +53,28 @@ class Stretch:
         """Energy held at every record."""
         return self["kinetic"] + self["gravity"] + self["ring_strain"] + self["contact_spring"]
 
-    def value(self, name: str, t: Array) -> Array:
-        """A column at times ``t``: cubic where its rate is known too, linear otherwise."""
+    def value(self, name: str, t: Array, side: Side = "right") -> Array:
+        """A column at times ``t``: cubic where its rate is known too, linear otherwise.
+
+        An event left two records of one time, before and after it: ``side`` says which of them counts.
+        """
         times = self["t"]
         rate = {"phi": "omega", "normal_impulse": "normal_force", "friction_impulse": "friction_force"}.get(name)
+        i = np.clip(np.searchsorted(times, t, side) - 1, 0, len(times) - 2)
+        y = self[name]
         if rate is None:
-            return np.interp(t, times, self[name])
-        i = np.clip(np.searchsorted(times, t, side="right") - 1, 0, len(times) - 2)
-        y, slope = self[name], self[rate]
+            length = times[i + 1] - times[i]
+            share = (t - times[i]) / np.where(length > 0, length, 1.0)
+            share = np.where(length > 0, np.clip(share, 0.0, 1.0), 1.0 if side == "right" else 0.0)
+            return (1 - share) * y[i] + share * y[i + 1]
+        slope = self[rate]
         return _hermite(t, times[i], times[i + 1], y[i], y[i + 1], slope[i], slope[i + 1])
 
-    def states(self, t: Array) -> States:
+    def states(self, t: Array, side: Side = "right") -> States:
         """The common vocabulary at times ``t``; energy is all that is held."""
-        columns = {name: self.value(name, t) for name in ("phi", "omega", "x_C", "y_C", "slip_velocity")}
-        forces = {name: self.value(name, t) for name in ("normal_force", "friction_force")}
-        return States(t=t, **columns, **forces, energy=np.interp(t, self["t"], self.held()))
+        names = (field.name for field in dataclasses.fields(States) if field.name not in ("t", "energy"))
+        columns = {name: self.value(name, t, side) for name in names}
+        return States(t=t, **columns, energy=np.interp(t, self["t"], self.held()))
 
     def kinds(self) -> list[Kind]:
         """What the patch does from each record to the next."""
@@ -158,8 +165,6 @@ class Stretch:
         absorbed = gained[before] + part * (gained[split] - gained[before])
         returned = gained[-1] - absorbed
         phi = self.value("phi", ends)
-        held = np.interp(ends, t, self.held())
-        losses = gain("friction_loss"), gain("damping_loss")
         strain, spring = (float(np.interp(grid, t, self[name]).max()) for name in ("ring_strain", "contact_spring"))
         total = float(impulse[-1])
         return FlexiblePulse(
@@ -169,7 +174,7 @@ class Stretch:
             phi_end=float(phi[1]),
             normal_impulse=total,
             friction_impulse=gain("friction_impulse"),
-            friction_loss=losses[0],
+            friction_loss=gain("friction_loss"),
             peak_normal_force=float(normal_force.max()),
             newton_restitution=float(-velocity[-1] / velocity[0]) if velocity[0] else 0.0,
             poisson_restitution=float((total - compression) / compression) if compression > 0 else 0.0,
@@ -177,8 +182,8 @@ class Stretch:
             time_off_floor=gain("off_floor"),
             ring_energy_peak=strain,
             contact_energy_peak=spring,
-            damping_loss=losses[1],
-            numerical_loss=float(held[0] - held[1]) - sum(losses),
+            damping_loss=gain("damping_loss"),
+            numerical_loss=gain("numerical_loss"),
             phases=tuple(self.phases(first, last)),
         )
 

@@ -11,10 +11,10 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 from dataclasses import replace
-from math import inf
+from math import floor, inf, nan, pi
 
 import rigid
-from rigid import Kind, Release, Run, Scene
+from rigid import Kind, Pulse, Release, Run, Scene
 
 from .builder import Builder
 from .contact.forces import STICK
@@ -23,7 +23,7 @@ from .limit import rigid_limit
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
-from .motion import FlexibleMotion
+from .motion import FlexibleMotion, FlexiblePulse
 from .time.tr_bdf2 import MarchError
 from .units import dimensionless
 
@@ -87,7 +87,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
     done = 0
     while True:
         motion = rigid.simulate(rigid_limit(current))
-        pulse = next((p for p in motion.pulses if p.t_start > 0 or not builder.pulses), None)
+        pulse = next((p for p in motion.pulses if p.t_start > 0 or (not builder.pulses and _over_bottom(p))), None)
         # a run to rest is over when the rigid hoop would slip no more; what it rolls through is no pulse with a loss
         at_rest = scene.run.until == "rest" and all(phase.kind == Kind.ROLL for phase in motion.phases)
         if pulse is None or at_rest:
@@ -105,9 +105,12 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         builder.add_rigid(motion, start)
         state = replace(state, t=builder.t, x_C=builder.x_C)
         sign = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
-        limit = builder.t + 4 * (pulse.t_end - start)
+        # a pulse that the end of the run cuts ends at that time, any other at the rigid one's angle
+        cut = pulse.cut and scene.run.t_end is not None and pulse.t_end == motion.t_end
+        limit = builder.t + (1 if cut else 4) * (pulse.t_end - start)
+        last_angle = sign * inf if cut else pulse.phi_end
 
-        def finished(s: State, sign: float = sign, end: float = pulse.phi_end, limit: float = limit) -> float:
+        def finished(s: State, sign: float = sign, end: float = last_angle, limit: float = limit) -> float:
             return max(sign * (s.pos[2] - end), s.t - limit)
 
         span = (float(state.pos[2]), pulse.phi_end)
@@ -115,13 +118,14 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         watch = progress.watch(low, high, _swept(span))
         state, records, attempts, trouble = builder.march(hoop, state, finished, scene.solve.rtol, progress=watch)
         stretch = builder.add_flexible(records, attempts)
-        if not trouble and sign * (float(state.pos[2]) - pulse.phi_end) < 0:
+        if not (trouble or cut) and sign * (float(state.pos[2]) - pulse.phi_end) < 0:
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get through the pulse"
         if trouble:
             builder.completed = False
             return trouble + _too_soft(scene)
         first = stretch.crossing(pulse.phi_start, stretch.t_start)
-        builder.pulses.append(stretch.pulse(stretch.t_start if first is None else first, stretch.t_end))
+        measured = stretch.pulse(stretch.t_start if first is None else first, stretch.t_end)
+        builder.pulses.append(_cut(measured) if pulse.cut else measured)
         done += 1
         if scene.run.until == "pulse":
             return "the first pulse is over"
@@ -131,6 +135,16 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         slip = 0.0 if state.mode == STICK else state.slip_velocity
         release = Release(float(state.pos[2]), float(state.vel[2]), float(slip))
         current = dataclasses.replace(scene, release=release, run=rest)
+
+
+def _over_bottom(pulse: Pulse) -> bool:
+    """Whether the disk passes its lowest point, phi = pi (mod 2 pi), in a pulse."""
+    return floor((pulse.phi_start - pi) / (2 * pi)) != floor((pulse.phi_end - pi) / (2 * pi))
+
+
+def _cut(pulse: FlexiblePulse) -> FlexiblePulse:
+    """The same, marked as one in which the run begins or ends."""
+    return replace(pulse, cut=True, newton_restitution=nan, poisson_restitution=nan, energetic_restitution=nan)
 
 
 def _too_soft(scene: Scene) -> str:
@@ -168,7 +182,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
     except MarchError as error:
         builder.completed = False
         return str(error) + _too_soft(scene)
-    windows = [(p.phi_start, p.phi_end) for p in reference.pulses]
+    windows = [(p.phi_start, p.phi_end, p.cut) for p in reference.pulses]
     run = scene.run
     horizon = run.t_end if run.t_end is not None else reference.t_end
     counted = {"turns": 0, "omega": float(state.vel[2])}
@@ -177,8 +191,8 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
         if run.t_end is not None:
             return s.t - run.t_end
         if run.until == "pulse" and windows:
-            sign = 1.0 if windows[0][1] > windows[0][0] else -1.0
-            return sign * (s.pos[2] - windows[0][1])
+            first_angle, last_angle, _ = windows[-1]  # before the first whole pulse there may be the rest of one
+            return (1.0 if last_angle > first_angle else -1.0) * (s.pos[2] - last_angle)
         if run.turns is not None and counted["turns"] >= run.turns:
             return 0.0
         return s.t - 4 * horizon - 10
@@ -195,12 +209,16 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
     state, records, attempts, trouble = builder.march(hoop, state, finished, scene.solve.rtol, progress=watch)
     stretch = builder.add_flexible(records, attempts)
     after = -inf
-    for first_angle, last_angle in windows:
+    for first_angle, last_angle, cut in windows:
         first = stretch.crossing(first_angle, after)
+        if first is None and cut and not builder.pulses:
+            first = stretch.t_start
         last = None if first is None else stretch.crossing(last_angle, first)
-        if first is None or last is None:
+        if last is None and cut and not trouble:
+            last = stretch.t_end
+        if first is None or last is None or last <= first:
             break
-        builder.pulses.append(stretch.pulse(first, last))
+        builder.pulses.append(_cut(stretch.pulse(first, last)) if cut else stretch.pulse(first, last))
         after = last
     if not trouble and run.turns is not None and counted["turns"] < run.turns == len(reference.turns):
         trouble = f"stopped at t = {state.t:.6g}: the rigid hoop turned that often in a quarter of this time"

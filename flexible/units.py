@@ -17,7 +17,7 @@ _DIMENSIONS = {
 }  # fmt: skip
 _ENERGIES = {
     "energy", "initial", "kinetic", "gravity", "ring_strain", "contact_spring", "friction_loss", "damping_loss",
-    "hand_over", "numerical_loss", "ring_energy_peak", "contact_energy_peak",
+    "landing_loss", "hand_over", "numerical_loss", "residual", "ring_energy_peak", "contact_energy_peak",
 }  # fmt: skip
 
 
@@ -32,6 +32,8 @@ def with_units(value: Any, scene: Scene) -> Any:
             changes[field.name] = content * scene.energy_unit
         elif field.name == "omega":
             changes[field.name] = content / scene.time_unit
+        elif field.name == "alpha":
+            changes[field.name] = content / scene.time_unit**2
         elif field.name == "phases":
             changes[field.name] = tuple(with_units(phase, scene) for phase in content)
     return replace(value, **changes)

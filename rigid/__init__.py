@@ -12,16 +12,18 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
 ``scenefile``  TOML to scene and back, the paper's scenes by name
 ``motion``     the vocabulary that both solvers speak
 ``solve``      one scene to its motion; ``batch`` many at once; ``thresholds`` where rolling ends
-``history``    any instant of a motion
-``phases``     the mechanics of each kind of phase, and which one is next
+``lists``      the records of a run as phases, turns and pulses
+``phases``     the mechanics of each kind of phase, which one is next, and any instant of them
 ``record``     what a phase leaves behind; the measures of a pulse
 ``kernel``     what phases are computed with, and why all of this runs both interpreted and compiled
+
+The theory, with the choices that Coulomb's law leaves open, is README.md beside this file.
 """
 
 from .allowed import SceneError
 from .batch import Batch, simulate_batch
 from .elastic import Contact, Ring, Solve
-from .motion import Kind, Motion, Phase, Pulse, States, Turn
+from .motion import Kind, Motion, Phase, Pulse, Side, States, Turn
 from .scene import Friction, Hoop, Landing, Release, Run, Scene
 from .scenefile import load_scene, scene_from_dict, scene_names, scene_to_dict
 from .solve import simulate
@@ -51,6 +53,7 @@ __all__ = [
     "Run",
     "Scene",
     "SceneError",
+    "Side",
     "Solve",
     "States",
     "Turn",

@@ -21,7 +21,15 @@ from .kernel.layout import (  # fmt: skip
     MORE,
     OMEGA,
     PULSE,
+    PULSE_CUT,
+    R_COUNT,
+    R_PERIOD,
+    R_PULSES,
+    R_RECORDS,
+    R_TURNS,
+    R_WHOLE,
     RECORDS,
+    REPEAT,
     SLIP,
     STATE,
     STEPS,
@@ -30,20 +38,72 @@ from .kernel.layout import (  # fmt: skip
     TURN_ENERGY,
     WHOLE,
     WIDTH,
+    WORK_BOUND,
     T,
 )
 from .motion import Array
 from .phases.choice import entry_run
 from .phases.slipping import ORDER, SERIES
-from .scene import Friction, Hoop, Landing, Release, Scene
+from .record.pulse import cut_pulse
+from .scene import Friction, Hoop, Landing, Release, Run, Scene
 from .solve import LEVEL, NOTHING_AT_ALL, TAPE_RECORDS, UNTIL_CODES, reason
 from .solve import STEPS as WORK
 
 TURN_VALUES = 4  # t, phi, slip velocity, energy
-PULSE_VALUES = 11  # t, phi at both ends; J_N, J_F, loss, peak; three restitutions
+PULSE_VALUES = 12  # t, phi at both ends; J_N, J_F, loss, peak; three restitutions; whether it is cut
 CHUNK = 64
 QUANTITIES = ("k", "r", "mass_ratio", "mu_s", "mu", "phi0", "omega0", "slip0", "restitution")
 _DEFAULTS = {"r": 1.0, "mass_ratio": 0.0, "omega0": 0.0, "slip0": 0.0, "restitution": 0.0}
+
+
+@kernel
+def gather(state, tape, scene, ends, turns, pulses):
+    """Take the tape: what it counts into ``ends``, the first turns and pulses of the scene into their arrays."""
+    for record in range(int(state[RECORDS])):
+        r = record * WIDTH
+        n_turns, n_pulses = int(ends[scene, 3]), int(ends[scene, 4])
+        if tape[r] == TURN:
+            if n_turns < turns.shape[1]:
+                turns[scene, n_turns, 0] = tape[r + 1]
+                turns[scene, n_turns, 1] = angle_of(tape[r + 2], tape[r + 3], tape[r + 4])
+                turns[scene, n_turns, 2] = tape[r + 6]
+                turns[scene, n_turns, 3] = tape[r + TURN_ENERGY]
+            ends[scene, 3] += 1
+        elif tape[r] == PULSE:
+            if n_pulses < pulses.shape[1]:
+                pulses[scene, n_pulses, 0] = tape[r + 1]
+                pulses[scene, n_pulses, 1] = tape[r + 5]
+                pulses[scene, n_pulses, 2] = angle_of(tape[r + 2], tape[r + 3], tape[r + 4])
+                pulses[scene, n_pulses, 3] = angle_of(tape[r + 6], tape[r + 7], tape[r + 8])
+                for i in range(7):
+                    pulses[scene, n_pulses, 4 + i] = tape[r + 9 + i]
+                pulses[scene, n_pulses, 11] = tape[r + PULSE_CUT]
+            ends[scene, 4] += 1
+        elif tape[r] == REPEAT:
+            count, period, angle = tape[r + R_COUNT], tape[r + R_PERIOD], tape[r + R_WHOLE] * 2 * pi
+            again(turns, scene, n_turns, int(tape[r + R_TURNS]), count, 1, period, angle)
+            again(pulses, scene, n_pulses, int(tape[r + R_PULSES]), count, 2, period, angle)
+            ends[scene, 3] += count * tape[r + R_TURNS]
+            ends[scene, 4] += count * tape[r + R_PULSES]
+            ends[scene, 2] += count * (tape[r + R_RECORDS] - tape[r + R_TURNS] - tape[r + R_PULSES])
+        else:
+            ends[scene, 2] += 1
+
+
+@kernel
+def again(rows, scene, done, length, count, ways, period, angle):
+    """The last ``length`` rows ``count`` times more, as far as there is room; the first ``ways`` columns are times, as
+    many after them angles.
+    """
+    if length < 1 or done > rows.shape[1]:
+        return
+    for place in range(done, min(rows.shape[1], done + int(count) * length)):
+        times, source = (place - done) // length + 1, done - length + (place - done) % length
+        for i in range(rows.shape[2]):
+            rows[scene, place, i] = rows[scene, source, i]
+        for i in range(ways):
+            rows[scene, place, i] += times * period
+            rows[scene, place, ways + i] += times * angle
 
 
 @kernel
@@ -56,41 +116,21 @@ def entry_batch(pars, release, low, high, work, state, tape, ends, turns, pulses
             release[scene, 0], release[scene, 1], release[scene, 2], release[scene, 3], release[scene, 4],
         )  # fmt: skip
         state[STEPS] = WORK
-        n_turns = 0
-        n_pulses = 0
-        n_phases = 0
         n_records = 0
         while True:
             state[RECORDS] = 0.0
             code = entry_run(pars[scene], state, work, tape)
-            for record in range(int(state[RECORDS])):
-                r = record * WIDTH
-                if tape[r] == TURN:
-                    if n_turns < turns.shape[1]:
-                        turns[scene, n_turns, 0] = tape[r + 1]
-                        turns[scene, n_turns, 1] = angle_of(tape[r + 2], tape[r + 3], tape[r + 4])
-                        turns[scene, n_turns, 2] = tape[r + 6]
-                        turns[scene, n_turns, 3] = tape[r + TURN_ENERGY]
-                    n_turns += 1
-                elif tape[r] == PULSE:
-                    if n_pulses < pulses.shape[1]:
-                        pulses[scene, n_pulses, 0] = tape[r + 1]
-                        pulses[scene, n_pulses, 1] = tape[r + 5]
-                        pulses[scene, n_pulses, 2] = angle_of(tape[r + 2], tape[r + 3], tape[r + 4])
-                        pulses[scene, n_pulses, 3] = angle_of(tape[r + 6], tape[r + 7], tape[r + 8])
-                        for i in range(7):
-                            pulses[scene, n_pulses, 4 + i] = tape[r + 9 + i]
-                    n_pulses += 1
-                else:
-                    n_phases += 1
+            gather(state, tape, scene, ends, turns, pulses)
             n_records += int(state[RECORDS])
-            if code != MORE or n_records > 2 * WORK:
+            if code == MORE and n_records > 2 * WORK:
+                code = WORK_BOUND
+            if code != MORE:
                 break
+        state[RECORDS] = 0.0
+        cut_pulse(pars[scene], state, tape)
+        gather(state, tape, scene, ends, turns, pulses)
         ends[scene, 0] = code
         ends[scene, 1] = state[T]
-        ends[scene, 2] = n_phases
-        ends[scene, 3] = n_turns
-        ends[scene, 4] = n_pulses
 
 
 @dataclass(frozen=True)
@@ -125,6 +165,8 @@ class Batch:
     newton_restitution: Array
     poisson_restitution: Array
     energetic_restitution: Array
+    cut: Array
+    """1 for a pulse in which the run begins or ends, 0 for a whole one."""
 
     def __len__(self) -> int:
         return len(self.code)
@@ -177,10 +219,9 @@ def simulate_batch(
     Raises
     ------
     SceneError
-        A value that no scene can have, with its index.
+        A value that no scene can have, with its index, or a ``turns``, ``t_end`` or ``until`` that no run can have.
     """
-    if turns is None and t_end is None and until is None:
-        turns = 2
+    turns = Run(turns, t_end, until).turns  # refuses what no run can be
     table = _table(scenes)
     count = len(table)
     kept = 2 if turns is None else turns

@@ -7,12 +7,12 @@ level.
 from __future__ import annotations
 
 import dataclasses
-from bisect import bisect_right
-from collections.abc import Callable
+from bisect import bisect_left, bisect_right
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import nan
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,6 +21,7 @@ from .scene import Scene
 from .scenefile import scene_to_dict
 
 Array = NDArray[np.float64]
+Side = Literal["left", "right"]
 
 
 class Kind(StrEnum):
@@ -62,6 +63,9 @@ class Pulse:
     ``friction_loss`` is the integral of |F v|. Restitution compares the velocity of the mass centre G before
     and after: Newton's -ydot+/ydot-, Poisson's impulse of restitution over that of compression (split where
     ydot_G = 0), and the square root of Stronge's -W_r/W_c.
+
+    ``cut`` marks a pulse in which the run begins or ends: its measures are those of the part that was run, its
+    restitutions NaN.
     """
 
     t_start: float
@@ -75,6 +79,7 @@ class Pulse:
     newton_restitution: float
     poisson_restitution: float
     energetic_restitution: float
+    cut: bool = False
 
     @property
     def impulse_ratio(self) -> float:
@@ -90,13 +95,14 @@ class Pulse:
 class States:
     """A motion sampled at times ``t``; every field is an array of the shape of ``t``.
 
-    ``x_C`` and ``y_C`` are the hoop's centre, ``slip_velocity`` is that of the contact point, F is positive
-    to the right.
+    ``omega`` and ``alpha`` are phidot and phiddot, ``x_C`` and ``y_C`` the hoop's centre, ``slip_velocity`` is that
+    of the contact point, F is positive to the right. N, F and ``alpha`` jump where phases meet.
     """
 
     t: Array
     phi: Array
     omega: Array
+    alpha: Array
     x_C: Array
     y_C: Array
     slip_velocity: Array
@@ -110,15 +116,16 @@ class Motion:
     """What a solver returns: phases, turns and pulses as plain values, and any instant between on demand.
 
     ``ended`` says in words why the motion stops; ``period`` is that of a motion that will roll for ever.
-    ``completed`` is False when the solver gave up before what was asked.
+    ``completed`` is False when the solver gave up before what was asked. The sequences are tuples, or make their items
+    on demand where a motion without loss comes round many times.
     """
 
     scene: Scene
-    phases: tuple[Phase, ...]
-    turns: tuple[Turn, ...]
-    pulses: tuple[Pulse, ...]
+    phases: Sequence[Phase]
+    turns: Sequence[Turn]
+    pulses: Sequence[Pulse]
     ended: str
-    sample: Callable[[Array], States] = field(repr=False, compare=False)
+    sample: Callable[[Array, Side], States] = field(repr=False, compare=False)
     period: float | None = None
     completed: bool = True
 
@@ -127,8 +134,15 @@ class Motion:
         """Time at which the motion stops."""
         return self.phases[-1].t_end if self.phases else 0.0
 
-    def at(self, t: ArrayLike) -> States:
+    def at(self, t: ArrayLike, side: Side = "right") -> States:
         """State at times ``t`` (any shape), computed now and not before.
+
+        Parameters
+        ----------
+        t : array_like
+        side : "right" or "left"
+            At an instant that two phases share N, F and ``alpha`` jump: "right" gives their values in the later
+            phase, "left" those at the end of the earlier one.
 
         Raises
         ------
@@ -139,13 +153,16 @@ class Motion:
         slack = 1e-12 * max(1.0, self.t_end)
         if times.size and not (times.min() >= -slack and times.max() <= self.t_end + slack):
             raise ValueError(f"times must lie in [0, {self.t_end}]")
-        return self.sample(np.clip(times, 0.0, self.t_end))
+        return self.sample(np.clip(times, 0.0, self.t_end), side)
 
-    def phase_at(self, t: float) -> Phase:
-        """The phase at a time; an instant that two phases share belongs to the later one."""
+    def phase_at(self, t: float, side: Side = "right") -> Phase:
+        """The phase at a time; an instant that two phases share belongs to the later one, or with ``side="left"`` to
+        the earlier.
+        """
         if not self.phases:
             raise ValueError("a motion without phases")
-        found = bisect_right(self.phases, t, key=lambda phase: phase.t_start)
+        search = bisect_right if side == "right" else bisect_left
+        found = search(self.phases, t, key=lambda phase: phase.t_start)
         return self.phases[max(found - 1, 0)]
 
     def to_dict(self) -> dict[str, Any]:

@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-import itertools
 import threading
 from dataclasses import dataclass
 from math import floor, inf, pi
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from . import history
 from .kernel import layout as at
-from .kernel.angle import PI_LOW, angle_of, chart
+from .kernel.angle import PI_LOW, chart
 from .kernel.compile import compiled
-from .motion import Array, Kind, Motion, Phase, Pulse, States, Turn
+from .lists import Fold, Listing
+from .motion import Array, Motion, Side, States
+from .phases import instant
 from .phases.choice import MOST_STALLS, entry_run
 from .phases.rolling_phase import LISTED_PERIODS
 from .phases.slipping import ORDER, SERIES
+from .record.pulse import cut_pulse
 from .scene import Scene
 
-KINDS = {
-    at.ROLL: Kind.ROLL, at.SKID: Kind.SKID, at.SPIN: Kind.SPIN,
-    at.FLIGHT: Kind.FLIGHT, at.SKIM: Kind.SKIM, at.IMPACT: Kind.IMPACT,
-}  # fmt: skip
 TAPE_RECORDS = 128
 STEPS = 200_000  # the work bound of one motion: Taylor steps and phases
 MOST_RECORDS = 200_000  # and its phases, turns and pulses together
@@ -130,7 +128,7 @@ def _run(par: list[float], state: list[float]) -> tuple[int, list[list[float]], 
             _interpreted_steps += int(spent)
             _unroll(tape, state, records)
         if code not in (at.MORE, at.WORK_BOUND) or state[at.STALLS] > MOST_STALLS:
-            return code, records, state
+            return code, _with_the_cut_pulse(par, state, records), state
     run = compiled()["entry_run"]
     tape, work = _workspace.tape, _workspace.work
     constants, here = np.array(par), np.array(state)
@@ -140,7 +138,17 @@ def _run(par: list[float], state: list[float]) -> tuple[int, list[list[float]], 
         here[at.RECORDS] = 0.0
         code = run(constants, here, work, tape)
         _unroll(tape, here, records)
-    return (at.WORK_BOUND if code == at.MORE else code), records, here.tolist()
+    end = here.tolist()
+    return (at.WORK_BOUND if code == at.MORE else code), _with_the_cut_pulse(par, end, records), end
+
+
+def _with_the_cut_pulse(par: list[float], state: list[float], records: list[list[float]]) -> list[list[float]]:
+    """The records, and the pulse that the end of the run cuts short."""
+    tape = [0.0] * at.WIDTH
+    state[at.RECORDS] = 0.0
+    cut_pulse(par, state, tape)
+    _unroll(tape, state, records)
+    return records
 
 
 def _unroll(tape: Any, state: Any, records: list[list[float]]) -> None:
@@ -163,76 +171,19 @@ def simulate(scene: Scene) -> Motion:
     Motion
         Phases, turns and pulses in the units of the scene; ``at(t)`` gives any instant between. ``period`` is
         that of a motion that ends rolling for ever. A motion never fails: what stops it is said in ``ended``.
+        The lists of one without loss are as long as they are and take no room: their part that comes again is kept
+        once.
     """
     par = parameters(scene)
     code, records, final = _run(par, release_state(scene))
-    time, mass = scene.time_unit, 1 + scene.hoop.mass_ratio
-    impulse, energy, force = mass * scene.impulse_unit, mass * scene.energy_unit, mass * scene.force_unit
-    starts: list[list[float]] = []
-    turns: list[Turn] = []
-    pulses: list[Pulse] = []
-    for row in records:
-        tag = row[0]
-        if tag == at.TURN:
-            turns.append(
-                Turn(
-                    row[1] * time,
-                    angle_of(row[2], row[3], row[4]),
-                    row[6] * scene.velocity_unit,
-                    row[at.TURN_ENERGY] * energy,
-                )
-            )
-        elif tag == at.PULSE:
-            measures = (row[9] * impulse, row[10] * impulse, row[11] * energy, row[12] * force, *row[13:16])
-            pulses.append(_pulse(row[1] * time, row[5] * time, row[2:5], row[6:9], measures))
-        else:
-            starts.append(row)
     end = [float(at.END), *final[: at.MOVING]]
-    starts = _merged(starts, end)
-    edges = [*starts, end]
-    # the angle of release is given, not rounded through its chart
-    phases = tuple(
-        Phase(KINDS[int(a[0])], a[1] * time, b[1] * time, angle_of(a[2], a[3], a[4]), angle_of(b[2], b[3], b[4]))
-        for a, b in itertools.pairwise(edges)
-    )
-    period = final[at.PERIOD] * time if 0 < final[at.PERIOD] < inf else None
-    sample = Sampler(tuple(par), tuple(map(tuple, starts)), scene)
+    listed = Listing(records, end, scene)
+    period = final[at.PERIOD] * scene.time_unit if 0 < final[at.PERIOD] < inf else None
+    sample = Sampler(tuple(par), listed.starts, listed.fold, scene)
     return Motion(
-        scene, phases, tuple(turns), tuple(pulses), _ended(code, scene, period, final), sample, period,
+        scene, listed.phases, listed.turns, listed.pulses, _ended(code, scene, period, final), sample, period,
         code != at.WORK_BOUND,
     )  # fmt: skip
-
-
-def _pulse(t0: float, t1: float, start: list[float], stop: list[float], measures: tuple[float, ...]) -> Pulse:
-    normal, friction, loss, peak, newton, poisson, energetic = measures
-    return Pulse(
-        t_start=t0,
-        t_end=t1,
-        phi_start=angle_of(*start),
-        phi_end=angle_of(*stop),
-        normal_impulse=normal,
-        friction_impulse=friction,
-        friction_loss=loss,
-        peak_normal_force=peak,
-        newton_restitution=newton,
-        poisson_restitution=poisson,
-        energetic_restitution=energetic,
-    )
-
-
-def _merged(starts: list[list[float]], end: list[float]) -> list[list[float]]:
-    """Phases that go somewhere (an impact need not), neighbours of one kind as one.
-
-    In the pulse of a tiny disk a phase may take less time than t can resolve: the angle tells.
-    """
-    kept: list[list[float]] = []
-    for row, following in zip(starts, [*starts[1:], end], strict=True):
-        if row[0] != at.IMPACT and following[1:5] == row[1:5] and len(starts) > 1:
-            continue
-        if kept and kept[-1][0] == row[0] and row[0] != at.IMPACT:
-            continue
-        kept.append(row)
-    return kept or starts[:1]
 
 
 def reason(code: int) -> str:
@@ -258,24 +209,40 @@ class Sampler:
 
     par: tuple[float, ...]
     starts: tuple[tuple[float, ...], ...]
+    fold: Fold | None
     scene: Scene
 
-    def __call__(self, t: Array) -> States:
+    def __call__(self, t: Array, side: Side) -> States:
         """States at times of any shape, in the units of the scene."""
         scene = self.scene
         order = np.argsort(t, axis=None, kind="stable")
-        times = t.ravel()[order] / scene.time_unit
-        rows = self._rows(times)
+        told = t.ravel()[order]
+        starts = np.array([row[1 + at.T] for row in self.starts])
+        # compared as the phases state their times: a division could put an instant on the wrong side of a boundary
+        owner = np.searchsorted(starts * scene.time_unit, told, side) - 1
+        once, again = told / scene.time_unit, np.zeros(len(told))
+        if self.fold is not None:
+            once, again = self.fold.back(once)
+            owner = np.where(again > 0, np.searchsorted(starts, once, side) - 1, owner)
+        owner = np.maximum(owner, 0)
+        once = np.maximum(once, starts[owner])
+        within = np.argsort(once, kind="stable")
+        rows = np.empty((len(told), instant.COLUMNS))
+        rows[within] = self._rows(once[within], owner[within])
+        if self.fold is not None:
+            rows[:, 0] += again * 2 * pi * self.fold.whole
+            rows[:, 2] += again * self.fold.way
         table = np.empty_like(rows)
         table[order] = rows
         columns = [column.reshape(t.shape) for column in table.T]
-        phi, omega, x, gap, slip, normal, friction, energy = columns
+        phi, omega, x, gap, slip, normal, friction, energy, alpha = columns
         hoop = scene.hoop
         mass = 1 + hoop.mass_ratio
         return States(
             t=t,
             phi=phi,
             omega=omega / scene.time_unit,
+            alpha=alpha / scene.time_unit**2,
             x_C=x * hoop.R,
             y_C=(1 + gap) * hoop.R,
             slip_velocity=slip * scene.velocity_unit,
@@ -284,8 +251,9 @@ class Sampler:
             energy=energy * mass * scene.energy_unit,
         )
 
-    def _rows(self, times: Array) -> Array:
-        width = history.COLUMNS
+    def _rows(self, times: Array, owner: NDArray[np.int64]) -> Array:
+        """A row of the kernel's columns for each time, in the phase of the number ``owner``."""
+        width = instant.COLUMNS
         padded = [list(row) + [0.0] * (at.WIDTH - len(row)) for row in self.starts]
         flat = [number for row in padded for number in row]
         if _interpreted_steps < PATIENCE and len(times) < PATIENCE:
@@ -293,14 +261,14 @@ class Sampler:
             work: Any = [[0.0] * (ORDER + 1) for _ in range(SERIES)]
             tape = [0.0] * (16 * at.WIDTH)
             state = [0.0] * at.STATE
-            history.entry_sample(list(self.par), flat, len(padded), times.tolist(), out, work, state, tape)
+            instant.entry_sample(list(self.par), flat, owner.tolist(), times.tolist(), out, work, state, tape)
             return np.array(out, dtype=float).reshape(len(times), width)
         out = np.zeros(len(times) * width)
         work = np.zeros((SERIES, ORDER + 1))
         compiled()["entry_sample"](
             np.array(self.par),
             np.array(flat),
-            len(padded),
+            owner,
             times,
             out,
             work,

@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import itertools
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from math import prod
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,27 +26,49 @@ if TYPE_CHECKING:
 
 BOTH = ("rigid", "flexible")
 
+MAX_CASES = 100_000
+"""Cases of a sweep unless more are asked for: a product of lists soon has more than anyone wants to run."""
+
 
 @dataclass(frozen=True, slots=True)
 class Sweep:
-    """What a sweep runs: for every combination a scene, or why it cannot be.
-
-    Attributes
-    ----------
-    keys : tuple of str
-        The keys that vary, "hoop.k" for instance.
-    points : tuple
-        Their values in every combination, and the scene there or the sentence that says why there is none.
-    solvers : tuple of str
-        Who runs each scene.
-    histories : bool
-        Whether the forces through each pulse are kept too.
-    """
+    """What a sweep runs: the product of its lists, made one combination after the other when it is asked for."""
 
     keys: tuple[str, ...]
-    points: tuple[tuple[tuple[Any, ...], Scene | str], ...]
+    """The keys that vary, "hoop.k" for instance."""
+    choices: tuple[tuple[Any, ...], ...]
+    """The values of each."""
+    tables: Mapping[str, Mapping[str, Any]]
+    """The scene over which they are laid, as its TOML file would say."""
     solvers: tuple[str, ...]
+    """Who runs each scene."""
     histories: bool = False
+    """Whether the forces through each pulse are kept too."""
+
+    @property
+    def scenes(self) -> int:
+        """Number of combinations."""
+        return prod(map(len, self.choices))
+
+    @property
+    def cases(self) -> int:
+        """Number of combinations times solvers."""
+        return self.scenes * len(self.solvers)
+
+    @property
+    def points(self) -> Iterator[tuple[tuple[Any, ...], Scene | str]]:
+        """The values in every combination, and the scene there or the sentence that says why there is none."""
+        for values in itertools.product(*self.choices):
+            try:
+                yield values, scene_from_dict(_filled(self.tables, self.keys, values))
+            except SceneError as error:
+                yield values, str(error)
+
+    def announcement(self) -> str:
+        """How many cases there are, and of what."""
+        lists = [f"{len(values)} of {key}" for key, values in zip(self.keys, self.choices, strict=True)]
+        factors = [*lists, f"{len(self.solvers)} {'solver' if len(self.solvers) == 1 else 'solvers'}"]
+        return f"{self.cases} {'case' if self.cases == 1 else 'cases'}: {' × '.join(factors)}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,16 +119,25 @@ class Table:
         return rows_to_csv(list(records[0]), (record.values() for record in records)) if records else ""
 
 
-def load_sweep(path: str | Path) -> Sweep:
+def load_sweep(path: str | Path, solvers: Sequence[str] = (), max_cases: int = MAX_CASES) -> Sweep:
     """A sweep from a TOML file: a scene in which any value may be a list, and a table [sweep].
 
-    ``[sweep]`` may name ``scene`` (a shipped scene or file from which all starts), ``solvers`` and
-    ``histories``.
+    ``[sweep]`` may name ``scene`` (a shipped scene or file from which all starts), ``solvers`` ("rigid", "flexible" or
+    both) and ``histories``.
+
+    Parameters
+    ----------
+    path : path
+        The file. It is data: whatever it holds, no code of its choice is run.
+    solvers : sequence of str, optional
+        Who runs each scene in place of those that the file names; here ``module:function`` is possible too.
+    max_cases : int
+        More cases than this are refused, before any of them is made.
 
     Raises
     ------
     SceneError
-        Not a file, not TOML, an unknown key, or no combination that can be.
+        Not a file, not TOML, an unknown key, no combination that can be, or too many of them.
     """
     path = Path(path)
     try:
@@ -114,10 +146,10 @@ def load_sweep(path: str | Path) -> Sweep:
         raise SceneError(trouble(error, path)) from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise SceneError(f"{path} is not TOML: {error}.") from None
-    return sweep_from_dict(data)
+    return sweep_from_dict(data, solvers, max_cases)
 
 
-def sweep_from_dict(data: Mapping[str, Any]) -> Sweep:
+def sweep_from_dict(data: Mapping[str, Any], solvers: Sequence[str] = (), max_cases: int = MAX_CASES) -> Sweep:
     """The sweep that a parsed TOML file describes; see :func:`load_sweep`."""
     settings = data.get("sweep", {})
     if not isinstance(settings, Mapping):
@@ -125,32 +157,51 @@ def sweep_from_dict(data: Mapping[str, Any]) -> Sweep:
     for key in settings:
         if key not in ("scene", "solvers", "histories"):
             raise SceneError(f"sweep.{key} is not a key of [sweep]: known are scene, solvers, histories.")
-    solvers = settings.get("solvers", list(BOTH))
-    solvers = [solvers] if isinstance(solvers, str) else solvers
-    if (
-        not isinstance(solvers, list)
-        or not solvers
-        or not all(isinstance(name, str) and (name in BOTH or ":" in name) for name in solvers)
-    ):
-        raise SceneError(f"sweep.solvers = {solvers!r} is not possible: it lists 'rigid', 'flexible' or both.")
     histories = settings.get("histories", False)
     if not isinstance(histories, bool):
         raise SceneError(f"sweep.histories = {histories!r} is not possible: it is true or false.")
+    named = _named(settings.get("solvers", list(BOTH)))
     base = scene_to_dict(load_scene(str(settings["scene"]))) if "scene" in settings else {}
     keys, choices, tables = _varied({part: table for part, table in data.items() if part != "sweep"}, base)
-    points: list[tuple[tuple[Any, ...], Scene | str]] = []
+    sweep = Sweep(tuple(keys), tuple(map(tuple, choices)), tables, tuple(solvers) or named, histories)
+    if sweep.cases > max_cases:
+        raise SceneError(
+            f"{sweep.announcement()}. That is more than {max_cases}: shorten the lists, or allow it by --max-cases."
+        )
+    _check(sweep)
+    return sweep
+
+
+def _named(solvers: Any) -> tuple[str, ...]:
+    """The built-in solvers that a file names."""
+    names = [solvers] if isinstance(solvers, str) else solvers
+    if not isinstance(names, list) or not names or not all(isinstance(name, str) and name in BOTH for name in names):
+        code = any(isinstance(name, str) and ":" in name for name in (names if isinstance(names, list) else ()))
+        why = " A file names no code: that is said on the command line, --solver module:function." if code else ""
+        raise SceneError(f"sweep.solvers = {solvers!r} is not possible: it lists 'rigid', 'flexible' or both.{why}")
+    return tuple(dict.fromkeys(names))
+
+
+def _check(sweep: Sweep) -> None:
+    """Some combination can be, and what is wrong in all of them is said at once.
+
+    Raises
+    ------
+    SceneError
+        As the first combination says.
+    """
     first: SceneError | None = None
-    for values in itertools.product(*choices):
+    for values in itertools.product(*sweep.choices):
         try:
-            points.append((values, scene_from_dict(_filled(tables, keys, values))))
+            scene_from_dict(_filled(sweep.tables, sweep.keys, values))
         except SceneError as error:
             if " is not a " in str(error) or " is missing" in str(error):
                 raise
             first = first or error
-            points.append((values, str(error)))
-    if first is not None and all(isinstance(scene, str) for _, scene in points):
+        else:
+            return
+    if first is not None:
         raise first
-    return Sweep(tuple(keys), tuple(points), tuple(solvers), histories)
 
 
 def _varied(data: Mapping[str, Any], base: Mapping[str, Any]) -> tuple[list[str], list[list[Any]], dict[str, Any]]:
@@ -172,7 +223,7 @@ def _varied(data: Mapping[str, Any], base: Mapping[str, Any]) -> tuple[list[str]
     return keys, choices, tables
 
 
-def _filled(tables: Mapping[str, Any], keys: list[str], values: tuple[Any, ...]) -> dict[str, Any]:
+def _filled(tables: Mapping[str, Any], keys: Sequence[str], values: tuple[Any, ...]) -> dict[str, Any]:
     filled = {part: dict(table) for part, table in tables.items()}
     for key, value in zip(keys, values, strict=True):
         part, _, name = key.partition(".")
@@ -181,17 +232,20 @@ def _filled(tables: Mapping[str, Any], keys: list[str], values: tuple[Any, ...])
 
 
 def run_sweep(
-    sweep: Sweep, pool: Pool, out: str | Path | None = None, progress: Callable[[float], None] | None = None
+    sweep: Sweep,
+    pool: Pool,
+    out: str | Path | None = None,
+    progress: Callable[[float], None] | None = None,
+    say: Callable[[str], None] | None = None,
 ) -> Table:
-    """Run a sweep and give its table; see :func:`run_cases` for what is kept in ``out``."""
+    """Run a sweep and give its table; see :func:`run_cases` for what is kept in ``out`` and what is said."""
     asked: list[tuple[dict[str, Any], str, Case | str]] = []
     for values, scene in sweep.points:
         for name in sweep.solvers:
             what = scene if isinstance(scene, str) else Case(name, scene, histories=sweep.histories)
             asked.append((dict(zip(sweep.keys, values, strict=True)), name, what))
-    outcomes = iter(
-        run_cases([case for _, _, case in asked if isinstance(case, Case)], pool, out, progress, forget=True)
-    )
+    cases = [case for _, _, case in asked if isinstance(case, Case)]
+    outcomes = iter(run_cases(cases, pool, out, progress, forget=True, say=say))
     rows = []
     for at, name, case in asked:
         outcome = next(outcomes) if isinstance(case, Case) else Outcome("", name, {}, version(), failure=case)

@@ -6,7 +6,7 @@ import tomllib
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from strategies import scenes
 
@@ -30,7 +30,7 @@ fractions = st.floats(0, 1)
 def test_bounds_energy_and_order(scene):
     """Finite, in order, energy falls, N >= 0, |F| <= mu_s N, above the floor."""
     motion = simulate(scene)
-    margins = checks.listed(motion) | checks.sampled(motion)
+    margins = checks.listed(motion) | checks.gained(motion) | checks.sampled(motion)
     assert {name: margin for name, margin in margins.items() if not margin <= 1} == {}
 
 
@@ -48,8 +48,7 @@ def test_any_units(scene, R, m, g):
     """Impulses scale with m sqrt(g R), losses with m g R, times with sqrt(R/g), angles not at all."""
     scene = scene.replace(run={"until": "pulse"})
     plain = simulate(scene)
-    if not plain.pulses or checks.flights(plain):
-        return
+    assume(plain.pulses and not plain.pulses[0].cut and not checks.flights(plain))
     si = scene.replace(hoop={"R": R, "m": m, "g": g})
     si = si.replace(
         release={"omega0": scene.release.omega0 / si.time_unit, "slip0": scene.release.slip0 * si.velocity_unit}
@@ -72,8 +71,7 @@ def test_restarted_anywhere_on_the_floor(scene, share):
     motion = simulate(scene)
     t = share * motion.t_end
     phase = motion.phase_at(t)
-    if phase.kind not in (Kind.ROLL, Kind.SKID, Kind.SPIN) or phase.t_end - phase.t_start < 1e-6:
-        return
+    assume(phase.kind in (Kind.ROLL, Kind.SKID, Kind.SPIN) and phase.t_end - phase.t_start >= 1e-6)
     margin = 1e-3 * (phase.t_end - phase.t_start)
     state = motion.at(min(max(t, phase.t_start + margin), phase.t_end - margin))
     release = Release(float(state.phi), float(state.omega), float(state.slip_velocity))
@@ -86,15 +84,17 @@ def test_restarted_anywhere_on_the_floor(scene, share):
 @settings(max_examples=20, deadline=None)
 @given(st.lists(scenes(), min_size=1, max_size=8))
 def test_a_batch_is_its_scenes(many):
-    """Many at once give what each gives alone."""
+    """Many at once give what each gives alone, up to the motion's own sensitivity: the interpreter and the compiler
+    round differently, by some 1e-14.
+    """
     many = [scene.replace(run={"turns": 2}) for scene in many]
     batch = simulate_batch(many, turns=2)
     for i, scene in enumerate(many):
         motion = simulate(scene)
-        mine = [turn.phi for turn in motion.turns]
-        found = [phi for phi in batch.turn_phi[i] if np.isfinite(phi)]
-        if checks.apart(np.array(mine), np.array(found)) > 1e-9:
-            assert checks.sensitivity(motion) > 1e3
+        mine = np.array([turn.phi for turn in motion.turns])
+        found = np.array([phi for phi in batch.turn_phi[i] if np.isfinite(phi)])
+        difference = checks.apart(mine, found)
+        assert difference <= 1e-9 + 1e-13 / scene.hoop.k or difference <= 1e-12 * checks.sensitivity(motion)
 
 
 positive = st.floats(1e-6, 1e12)

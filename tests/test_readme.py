@@ -16,10 +16,10 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def commands() -> list[str]:
-    """Lines of the README's shell blocks, without the two that make the environment this test runs in."""
+    """Lines of the README's shell blocks, without those that make the environment this test runs in."""
     blocks = re.findall(r"```sh\n(.*?)```", README, flags=re.DOTALL)
     lines = [line.split("  #")[0].strip() for block in blocks for line in block.splitlines()]
-    return [line for line in lines if line and "venv" not in line]
+    return [line for line in lines if line and "venv" not in line and not line.startswith("git clone")]
 
 
 def quick(command: str) -> bool:

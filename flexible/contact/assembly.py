@@ -9,14 +9,15 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 from .normal import force_by_gaps
 
 X, Y = 0, 1
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def spread(vector: Any, kind: int, s: float, c: float) -> Any:
     """From a basis to the unknowns."""
     nodes = vector.shape[0] - 2
@@ -28,7 +29,7 @@ def spread(vector: Any, kind: int, s: float, c: float) -> Any:
     return result
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def add_spread(tangent: Any, matrix: Any, row_kind: int, column_kind: int, s: float, c: float, factor: float) -> None:
     """Add ``factor`` times a matrix between two bases to the tangent of the unknowns."""
     r1, r2 = (s, c) if row_kind == X else (c, -s)
@@ -59,7 +60,7 @@ def add_spread(tangent: Any, matrix: Any, row_kind: int, column_kind: int, s: fl
                     tangent[row + 1, column + 1] += r2 * c2 * value
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _scatter(k_yy: Any, k_xy: Any, k_xx: Any, block: Any, first: int) -> None:
     """Add an element's products to the tangents, and clear them."""
     for q in range(5):
@@ -72,7 +73,7 @@ def _scatter(k_yy: Any, k_xy: Any, k_xx: Any, block: Any, first: int) -> None:
     block[:] = 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def add_outer(tangent: Any, left: Any, right: Any) -> None:
     """Add the product of a column and a row."""
     for i in range(left.shape[0]):
@@ -80,24 +81,24 @@ def add_outer(tangent: Any, left: Any, right: Any) -> None:
             tangent[i, j] += left[i] * right[j]
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _row(q: int, first: int) -> int:
     return q if q < 2 else first + q
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def directions(points: Any) -> tuple[Any, Any]:
     """What moves each point's abscissa and gap: by V or h, by phi, by the three nodes of its element."""
     total = points.gap.shape[0]
     along, up = np.ones((total, 5)), np.ones((total, 5))
     for i in range(total):
         along[i, 1], up[i, 1] = points.arm_y[i], points.arm_x[i]
-        along[i, 2:] = points.shape[i]
-        up[i, 2:] = points.shape[i]
+        for q in range(3):  # an assignment of slices would compile numpy's broadcasting with all its messages
+            along[i, 2 + q] = up[i, 2 + q] = points.shape[i, q]
     return along, up
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def tangents(points: Any, foundation: Any, tractions: Any, along: Any, up: Any, nodes: int) -> tuple[Any, Any, Any]:
     """Derivatives of elastic normal forces by gaps, of tangential ones by gaps and by abscissas, in those bases."""
     size = 2 + nodes
@@ -149,7 +150,7 @@ def tangents(points: Any, foundation: Any, tractions: Any, along: Any, up: Any, 
     return k_yy, k_xy, k_xx
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def gathered(points: Any, values: Any, directions: Any, nodes: int) -> Any:
     """Sum of each point's value times its direction, in the basis (V or h, phi, nodes)."""
     total = np.zeros(2 + nodes)
@@ -159,7 +160,7 @@ def gathered(points: Any, values: Any, directions: Any, nodes: int) -> Any:
     return total
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def slip_by_gaps(points: Any, ways: Any, foundation: Any, slip: float, elastic: float, up: Any, nodes: int) -> Any:
     """Derivative of the mean slip by the gaps, through the normal forces that weigh it."""
     result = np.zeros(2 + nodes)

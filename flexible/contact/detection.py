@@ -11,10 +11,11 @@ from math import ceil, cos, floor, pi, sin, sqrt
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def vertex_angle(vertex: Any, element: int) -> float:
     """Angle at which rim element ``element`` begins; elements are counted on round and round."""
     n = vertex.shape[0]
@@ -22,7 +23,7 @@ def vertex_angle(vertex: Any, element: int) -> float:
     return vertex[element - turn * n] + 2 * pi * turn
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def element_at(vertex: Any, theta: float) -> int:
     """Rim element that holds the material angle ``theta``."""
     n = vertex.shape[0]
@@ -31,7 +32,7 @@ def element_at(vertex: Any, theta: float) -> int:
     return int(np.searchsorted(vertex, rest, side="right")) - 1 + turn * n
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _touching(height: float, psi_start: float, width: float, y0: float, y1: float, y2: float) -> tuple[float, float]:
     """Part [low, high] of an element, in 0..1, where the gap is negative; low > high when there is none."""
     c1, c2 = -3 * y0 + 4 * y1 - y2, 2 * y0 - 4 * y1 + 2 * y2
@@ -68,7 +69,7 @@ def _touching(height: float, psi_start: float, width: float, y0: float, y1: floa
     return edges[0], edges[1]
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _candidates(height: float, phi: float, y: Any, first: int, count: int, vertex: Any, spacing: float) -> Any:
     """Ranges of points that touch or border on a touching one, merged; rows (first, last)."""
     ranges = np.empty((count, 2), np.int64)
@@ -123,7 +124,7 @@ Points = namedtuple(
 Points.__doc__ = "Points that touch, and their neighbours on both sides, as arrays of one length; ascending."
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def gather(pose: Any, u: Any, first: int, vertex: Any, spacing: float, old_pose: Any, u_old: Any) -> tuple[Any, bool]:
     """The points that touch and those that border on them, for the window of rim elements from ``first`` on.
 

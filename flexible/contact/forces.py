@@ -22,7 +22,8 @@ from math import cos, sin
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 from .assembly import X, Y, add_outer, add_spread, directions, gathered, slip_by_gaps, spread, tangents
 from .detection import element_at, gather, vertex_angle
@@ -41,7 +42,7 @@ RESULTANTS = 14
 UNDAMPED = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 1.0])
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def contact_forces(
     pose: Any,
     u: Any,

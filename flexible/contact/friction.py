@@ -13,7 +13,8 @@ from math import cos, sin, sqrt
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 from .normal import force_by_gaps
 
@@ -48,7 +49,7 @@ Tractions = namedtuple(
 )
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, float]:
     """Fraction of the step at which a point touched, and its derivatives by the new gap and by ``sweep``.
 
@@ -67,7 +68,7 @@ def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, floa
     return fraction, fraction / root, -fraction * (1 - fraction) / 2 / root
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def carry(
     points: Any,
     kept: Any,
@@ -123,7 +124,7 @@ def carry(
     return Bristles(stretch, rate, by_gap, by_phi, touched, sliding, way, mean, pull)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def edge_of_patch(g_in: float, g_out: float, inner: float) -> tuple[float, float, float, float]:
     """How far from a point on the floor to the next the patch reaches, 0..1, and its derivatives by the three gaps.
 
@@ -137,7 +138,7 @@ def edge_of_patch(g_in: float, g_out: float, inner: float) -> tuple[float, float
     return f, -(1 - f) * (1 + f) / slope, -f * (1 + f) / 2 / slope, f * (1 - f) / 2 / slope
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _weights(points: Any, bristles: Any, spacing: float, brush: bool) -> tuple[Any, Any]:
     """Length of patch that belongs to each point, and its derivatives by the gaps of (n, 5) points around it."""
     gap = points.gap
@@ -176,7 +177,7 @@ def _weights(points: Any, bristles: Any, spacing: float, brush: bool) -> tuple[A
     return weight, by
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def rub(
     points: Any, foundation: Any, bristles: Any, mode: int, eta: float, spacing: float, eps_n: float, eps_t: float,
     mu_s: float, mu: float,

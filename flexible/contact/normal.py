@@ -10,7 +10,8 @@ from collections import namedtuple
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 Foundation = namedtuple(
     "Foundation",
@@ -24,7 +25,7 @@ Foundation = namedtuple(
 )
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _cell(ga: float, gb: float, unit: float, out: Any) -> None:
     """Energy of one cell with gap from ``ga`` to ``gb``, its gradient and second derivatives.
 
@@ -52,7 +53,7 @@ def _cell(ga: float, gb: float, unit: float, out: Any) -> None:
         out[:] = 0.0
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def press(gap: Any, last: Any, eps_n: float, spacing: float) -> Any:
     """Normal forces of points with these gaps; ``last`` marks points whose next one is no neighbour."""
     total = gap.shape[0]
@@ -77,7 +78,7 @@ def press(gap: Any, last: Any, eps_n: float, spacing: float) -> Any:
     return Foundation(force, diagonal, coupling, energy, length)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def force_by_gaps(row: Any, factor: float, foundation: Any, before: int, here: int, behind: int) -> None:
     """Add ``factor`` times the derivatives of a point's normal force by the gaps before it, its own and behind it."""
     row[1] -= factor * foundation.diagonal[here]

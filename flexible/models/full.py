@@ -6,7 +6,7 @@ borders are exact in every iteration, so that the ring's may lag behind.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, sin
 from typing import Any
 
@@ -245,5 +245,20 @@ class FullHoop(RimContact):
         without = inertia(ring, state.pos, still, still, beta)
         load = (with_error.frame - without.frame) / beta**2, (with_error.ring - without.ring) / beta**2
         frame, u = matrix.solve(*load)
-        slow = np.abs(self._slow @ u).max(initial=0.0)
+        slow = np.abs(self._slow @ u).max(initial=0.0) / (1 + ring.body[RING_MASS]) ** 0.5
         return float(max(abs(frame[0] + frame[2]), abs(frame[1]), abs(frame[2]), slow))
+
+    def energy_error(self, state: State, beta: float, matrix: NewtonMatrix, error: Array, moved: Array) -> float:
+        """See :class:`flexible.models.state.Model`."""
+        ring, still = self.ring, np.zeros_like(state.vel)
+        without = inertia(ring, state.pos, still, still, beta)
+        passed = []
+        for change in (error, moved):
+            with_change = inertia(ring, state.pos, still, change, beta)
+            load = (with_change.frame - without.frame) / beta**2, (with_change.ring - without.ring) / beta**2
+            passed.append(np.concatenate(matrix.solve(*load)) / 2)
+        rate, way = passed
+        after, before = (replace(state, pos=state.pos + s * way, vel=state.vel + s * rate) for s in (1, -1))
+        own = inertia(ring, state.pos, state.vel, state.acc, beta)
+        forces = own.frame @ way[:3] + own.ring @ way[3:]
+        return float(sum(self.energies(after)) - sum(self.energies(before)) - 2 * forces)

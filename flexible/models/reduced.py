@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from ..contact.forces import HIGH, LOW, NORMAL
-from ..ring.frame import energies
+from ..ring.frame import RING_MASS, energies, inertia
 from ..ring.reduction import ReducedRing, reduce
 from .equilibrium import RestingModes
 from .rim_contact import POINTS, RimContact
@@ -105,5 +105,15 @@ class ReducedHoop(RimContact):
         """See :class:`flexible.models.state.Model`."""
         ring = self.ring
         error = filtered_error(ring.body, ring.modal, ring.gyro, state.pos, state.vel, state.acc, beta, matrix, error)
-        horizontal = abs(error[0] + error[2])
-        return float(max(horizontal, abs(error[1]), abs(error[2]), np.abs(error[3:]).max(initial=0.0)))
+        ringing = np.abs(error[3:]).max(initial=0.0) / (1 + ring.body[RING_MASS]) ** 0.5
+        return float(max(abs(error[0] + error[2]), abs(error[1]), abs(error[2]), ringing))
+
+    def energy_error(self, state: State, beta: float, matrix: Array, error: Array, moved: Array) -> float:
+        """See :class:`flexible.models.state.Model`."""
+        body, modal, gyro = self.ring.body, self.ring.modal, self.ring.gyro
+        pos, vel, acc = state.pos, state.vel, state.acc
+        error, moved = (filtered_error(body, modal, gyro, pos, vel, acc, beta, matrix, x) for x in (error, moved))
+        with_error = energies(body, modal, gyro, pos + moved / 2, vel + error / 2)
+        without = energies(body, modal, gyro, pos - moved / 2, vel - error / 2)
+        forces = inertia(body, modal, gyro, pos, vel, acc, beta)[0]
+        return float(sum(with_error) - sum(without) - forces @ moved)

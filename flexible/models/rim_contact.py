@@ -26,11 +26,26 @@ def contact_law(scene: Scene, points: int = POINTS) -> Array:
     return np.array([spacing, eps, eps * scene.contact.tangential_ratio, scene.friction.mu_s, scene.friction.mu])
 
 
-def relaxation_time(scene: Scene) -> float:
-    """The damper's time theta = 2 zeta sqrt(m/k) with k the stiffness of the patch under the disk's weight."""
+def patch_stiffness(scene: Scene) -> float:
+    """dN/ddelta of the patch of a rigid hoop under its own weight M g: 2 eps times its half-width (1.5 M/eps)^(1/3)."""
     eps = scene.contact.stiffness
-    stiffness = 2 * eps * (1.5 / eps) ** (1 / 3)
-    return 2 * scene.contact.damping / stiffness**0.5
+    return 2 * eps * (1.5 * (1 + scene.hoop.mass_ratio) / eps) ** (1 / 3)
+
+
+def patch_period(scene: Scene) -> float:
+    """Period in which a rigid hoop that stands on its patch moves up and down, undamped."""
+    return 2 * pi * ((1 + scene.hoop.mass_ratio) / patch_stiffness(scene)) ** 0.5
+
+
+def relaxation_time(scene: Scene) -> float:
+    """The damper's time theta = 2 zeta sqrt(M/k), M the mass of disk and hoop and k the patch's stiffness under M g.
+
+    A rigid hoop that stands on its patch, the disk lowest, then moves up and down with the damping ratio zeta. The
+    patch is as stiff as it is wide, k = dN/ddelta = 2 eps a, which grows like N^(1/3), and away from phi = pi a
+    vertical force at the floor sets less mass in motion, M/(1 + (e sin phi)^2/K): with theta a constant of the
+    foundation the ratio elsewhere is zeta (N/(M g))^(1/6) sqrt(1 + (e sin phi)^2/K).
+    """
+    return 2 * scene.contact.damping * ((1 + scene.hoop.mass_ratio) / patch_stiffness(scene)) ** 0.5
 
 
 class RimContact:

@@ -11,7 +11,8 @@ from math import sqrt
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 from ..contact.forces import ELASTIC, EPS_N, EPS_T, LENGTH, NORMAL, OUTSIDE, SLIP, contact_forces
 from ..ring.frame import inertia
@@ -23,7 +24,7 @@ _W = sqrt(2) / 4
 ERROR_WEIGHTS = (_W - (1 - _W) / 3, _W - (3 * _W + 1) / 3, BETA - BETA / 3)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def solve_stage(
     body: Any,
     modal: Any,
@@ -137,11 +138,11 @@ def solve_stage(
     return iterations, d, u, acc, matrix, nodal, res, new_bristles, new_flags
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def filtered_error(
     body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any
 ) -> Any:
-    """The error of the velocities as the step itself would pass it on: (M + beta C + beta^2 K)^-1 M times it.
+    """An error of velocities or positions as the step itself passes it on: (M + beta C + beta^2 K)^-1 M times it.
 
     What the step does not resolve, and damps, would otherwise hold the steps down to the vibrations' periods.
     """

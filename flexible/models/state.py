@@ -70,7 +70,12 @@ class Model(Protocol):
         """Kinetic, gravity, ring strain."""
 
     def momentum_error(self, state: State, beta: float, matrix: Any, error: Array) -> float:
-        """Size, as an impulse, of an error in the velocities after a step that ended with Newton's ``matrix``."""
+        """Size of an error in the velocities after a step that ended with Newton's ``matrix``: an impulse over M, so
+        that a tolerance is the same share of the impulses whatever the mass of the hoop."""
+
+    def energy_error(self, state: State, beta: float, matrix: Any, error: Array, moved: Array) -> float:
+        """Energy, beyond the work of all forces of the floor, that comes with an error in the velocities and ``moved``
+        in the positions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +85,7 @@ class Record:
     t: float
     phi: float
     omega: float
+    alpha: float
     x_C: float
     y_C: float
     slip_velocity: float
@@ -96,6 +102,7 @@ class Record:
     friction_impulse: float
     friction_loss: float
     damping_loss: float
+    numerical_loss: float
     off_floor: float
     mode: int
 
@@ -108,6 +115,7 @@ class Books:
     friction_impulse: float = 0.0
     friction_loss: float = 0.0
     damping_loss: float = 0.0
+    numerical_loss: float = 0.0
     off_floor: float = 0.0
 
 
@@ -119,6 +127,7 @@ def record(model: Model, state: State, books: Books) -> Record:
         t=state.t,
         phi=float(state.pos[2]),
         omega=float(state.vel[2]),
+        alpha=float(state.acc[2]),
         x_C=state.x_C,
         y_C=1 + float(state.pos[1]),
         slip_velocity=state.slip_velocity,
@@ -135,6 +144,7 @@ def record(model: Model, state: State, books: Books) -> Record:
         friction_impulse=books.friction_impulse,
         friction_loss=books.friction_loss,
         damping_loss=books.damping_loss,
+        numerical_loss=books.numerical_loss,
         off_floor=books.off_floor,
         mode=state.mode,
     )

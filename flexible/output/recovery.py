@@ -130,20 +130,11 @@ class ReducedInterior(Interior):
         super().__init__(reduced.ring, reduced.stiffness, mass)
         self.reduced = reduced
 
-    @cached_property
-    def _modes(self) -> tuple[Array, Array]:
-        """lambda_i/(E b) and Phi_i on the free dofs, orthonormal in the unit mass."""
-        rim = self.reduced.rim_shapes
-        squares, shapes = self.ring.modes(rim.shape[1])
-        # the eigensolver may have run again since, for more modes, and returned some with the other sign
-        same = np.einsum("ij,ij->j", shapes[self.ring.rim_dofs], rim)
-        return squares, shapes * np.where(same < 0, -1.0, 1.0)
-
     def free(self, states: Sequence[State]) -> Array:
         """Displacement of the free dofs, (n_free, n_states)."""
         moved = self._static(states)
         if self.mass > 0:
-            moved += self._modes[1] @ super().free(states) / np.sqrt(self.mass)
+            moved += self.reduced.shapes @ super().free(states)
         return moved
 
     def _static(self, states: Sequence[State]) -> Array:
@@ -152,13 +143,13 @@ class ReducedInterior(Interior):
             np.add.at(column, self.ring.rim_dofs[self.reduced.dofs(*state.window)], state.nodal.ravel())
         moved: Array = self.ring.solve(load)
         if self.mass > 0:
-            squares, shapes = self._modes
-            moved -= shapes @ ((shapes.T @ load) / squares[:, None])
+            shapes = self.reduced.shapes
+            return moved / self.young - shapes @ ((shapes.T @ load) / self.reduced.modal[:, :1])
         return moved / self.young
 
     def _dynamic_rate(self, states: Sequence[State]) -> Array | float:
         rates = super()._dynamic_rate(states)
-        return self._modes[1] @ rates / np.sqrt(self.mass) if self.mass > 0 else rates
+        return self.reduced.shapes @ rates if self.mass > 0 else rates
 
 
 class ExactInterior(Interior):

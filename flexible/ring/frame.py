@@ -16,13 +16,14 @@ from math import cos, sin
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 # positions in the array of body constants
 OFFSET, DISK_INERTIA, RING_MASS, RING_INERTIA = range(4)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def inertia(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     """Inertial, gravitational and elastic forces, and their tangent.
 
@@ -152,7 +153,7 @@ def inertia(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta
     return force, tangent
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def energies(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any) -> tuple[float, float, float]:
     """Kinetic energy, gravity (0 with the hoop's centre at the floor) and strain energy of the modes."""
     n = modal.shape[0]

@@ -30,8 +30,10 @@ class ReducedRing:
         Squared frequency and participations of each mode.
     gyro : (n, n) array
         Gyroscopic coupling.
+    shapes : (n_free, n) array
+        Modes on the free dofs: those that are integrated, and therefore those that are drawn.
     rim_shapes : (2 n_rim, n) array
-        Modes on the rim, two components per node.
+        The same on the rim, two components per node.
     vertex : (n_elements,) array
         Angles at which rim elements begin.
     """
@@ -41,6 +43,7 @@ class ReducedRing:
     body: Array
     modal: Array
     gyro: Array
+    shapes: Array
     rim_shapes: Array
     vertex: Array
 
@@ -92,17 +95,16 @@ def reduce(scene: Scene, modes: int = 24, ring: Ring | None = None) -> ReducedRi
         )
         gyro = weighted.T @ ring.turned(full)
         gyro = (gyro - gyro.T) / 2
-        rim = shapes[ring.rim_dofs]
-        rim_shapes = rim / root
+        shapes = shapes / root
     else:
-        modal, gyro = np.zeros((0, 5)), np.zeros((0, 0))
-        rim_shapes = np.zeros((len(ring.rim_dofs), 0))
+        modal, gyro, shapes = np.zeros((0, 5)), np.zeros((0, 0)), np.zeros((len(ring.free), 0))
     return ReducedRing(
         ring=ring,
         stiffness=stiffness,
         body=body_constants(scene),
         modal=np.ascontiguousarray(modal),
         gyro=np.ascontiguousarray(gyro),
-        rim_shapes=np.ascontiguousarray(rim_shapes),
+        shapes=shapes,
+        rim_shapes=np.ascontiguousarray(shapes[ring.rim_dofs]),
         vertex=np.ascontiguousarray(ring.mesh.rim_theta[::2]),
     )

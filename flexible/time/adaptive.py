@@ -92,9 +92,10 @@ def march(
         accepted += 1
         books.normal_impulse += trial.impulses[0]
         books.friction_impulse += trial.impulses[1]
-        stored = trial.state.res[BRISTLE_ENERGY] - state.res[BRISTLE_ENERGY]
+        stored = float(trial.state.res[BRISTLE_ENERGY] - state.res[BRISTLE_ENERGY])
         books.friction_loss -= trial.friction_work + stored
         books.damping_loss += trial.damped
+        books.numerical_loss += trial.numerical
         books.off_floor += trial.off_floor
         state = _free(trial.state)
         note(state)

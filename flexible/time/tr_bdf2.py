@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +15,7 @@ from ..models.state import Model, State
 Array = NDArray[np.float64]
 
 _QUADRATURE = (2**0.5 / 4, 2**0.5 / 4, BETA)  # of TR-BDF2 over a step
+_BENT = 1 / (6 * TAU * (1 - TAU))  # integral of one node's parabola times the slope of the next
 
 
 class MarchError(RuntimeError):
@@ -22,11 +24,14 @@ class MarchError(RuntimeError):
 
 @dataclass(slots=True)
 class Trial:
+    """A step, and its integrals."""
+
     state: State
-    error: float
-    impulses: tuple[float, float]
+    error: float  # of the velocities
+    impulses: tuple[float, float]  # normal, friction
     friction_work: float
     damped: float
+    numerical: float  # energy lost to the integrator's error, as estimated
     off_floor: float
 
 
@@ -68,11 +73,9 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
     bend = (slip - slip_mid / TAU) / (1 - TAU)
     forces = (old.res, res_mid, res)
     impulses = [h * sum(w * r[i] for w, r in zip(_QUADRATURE, forces, strict=True)) for i in (NORMAL, FRICTION)]
-    work, damped = float(res[BEYOND]), 0.0
-    for a, b, moved in ((old.res, res_mid, slip_mid), (res_mid, res, slip - slip_mid)):
-        work += (a[FRICTION] - a[DRAG] + b[FRICTION] - b[DRAG]) / 2 * moved
-        damped -= (a[DRAG] + b[DRAG]) / 2 * moved
-        damped += (_eta(a, b) - 1) * (b[NORMAL_ENERGY] - a[NORMAL_ENERGY])
+    ways = (0.0, float(slip_mid), float(slip))
+    work = float(res[BEYOND]) + _work([r[FRICTION] - r[DRAG] for r in forces], ways)
+    damped = _damped(forces) - _work([r[DRAG] for r in forces], ways)
     off = h * sum(w for w, r in zip(_QUADRATURE, forces, strict=True) if r[NORMAL] == 0)
     x_C = old.x_C + pos[0] + (pos[2] - pos0[2])
     pos = pos.copy()
@@ -83,13 +86,30 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
         float((slip + bend) / h), elastic_rate,
     )  # fmt: skip
     size = model.momentum_error(state, beta, matrix, error)
-    return Trial(state, size, (impulses[0], impulses[1]), work, damped, off)
+    moved = h * (ERROR_WEIGHTS[0] * vel0 + ERROR_WEIGHTS[1] * vel_mid + ERROR_WEIGHTS[2] * vel)
+    gained = model.energy_error(state, beta, matrix, error, moved)
+    return Trial(state, size, (impulses[0], impulses[1]), work, damped, -gained, off)
 
 
-def _eta(first: Array, second: Array) -> float:
-    """Mean damping factor between two instants, of those in contact."""
-    factors = [float(res[ETA]) for res in (first, second) if res[ELASTIC] > 0]
-    return sum(factors) / len(factors) if factors else 1.0
+def _work(force: Sequence[float], way: Sequence[float]) -> float:
+    """Work of a force along a way, both the parabolas in time through the three instants of a step; the way from 0.
+
+    Of third order, and exact for a spring however long the step: a force linear in the way does the work of its ends.
+    """
+    bent = _BENT * ((force[0] - force[2]) * way[1] + (force[1] - force[0]) * way[2])
+    return float(bent + (force[0] + force[2]) / 2 * way[2])
+
+
+def _damped(results: Sequence[Array]) -> float:
+    """What the normal damper takes, the integral of (eta - 1) over the springs' energy."""
+    stored = [r[NORMAL_ENERGY] - results[0][NORMAL_ENERGY] for r in results]
+    if all(r[ELASTIC] > 0 for r in results):
+        return _work([r[ETA] - 1 for r in results], stored)
+    damped = 0.0
+    for i in (1, 2):  # off the floor there is no factor
+        factors = [r[ETA] - 1 for r in results[i - 1 : i + 1] if r[ELASTIC] > 0]
+        damped += sum(factors) / max(len(factors), 1) * (stored[i] - stored[i - 1])
+    return float(damped)
 
 
 def restart(model: Model, state: State, mode: int) -> State:

@@ -3,12 +3,13 @@
 A function marked :func:`kernel` keeps to scalars, flat sequences and :mod:`math`, so the interpreter runs it
 on lists and numba on arrays, to the same numbers. A first call therefore waits for no compiler and does not
 even import numba; :func:`compiled` builds (or loads from the cache on disk) the fast twins of all of them at
-once.
+once. A function marked :func:`jit` is compiled always.
+
+Where the compiled code is kept is said in :mod:`rigid.kernel.store`, who is told in :mod:`rigid.kernel.announce`.
 """
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -28,42 +29,49 @@ def kernel(function: F) -> F:
     return function
 
 
-def _stamp() -> str:
-    """Fingerprint of every file that enters the kernel: a change in a callee makes the cached caller
-    stale.
-    """
-    files = sorted({__file__} | {function.__code__.co_filename for function in _REGISTER.values()})
-    return hashlib.sha256(b"".join(Path(name).read_bytes() for name in files)).hexdigest()[:16]
-
-
 @cache
 def compiled() -> dict[str, Callable[..., Any]]:
     """The compiled twins by name; the first call in a process loads numba, the first on a machine compiles.
 
-    Only the functions named ``entry_*`` are cached on disk (the others become part of them). The fingerprint
-    is in their names, so the cache never serves a kernel whose callee has changed since.
+    Only the functions named ``entry_*`` are cached on disk (the others become part of them).
     """
-    import numba
+    from .store import fingerprint, home, moved
 
-    stamp = _stamp()
+    stamp = fingerprint({function.__code__.co_filename for function in _REGISTER.values()})
+    place = home("rigid", stamp)
     twins: dict[str, Any] = {}
     scopes: list[dict[str, Any]] = []
     for name, function in _REGISTER.items():
         scopes.append(dict(function.__globals__))
-        twin = FunctionType(function.__code__, scopes[-1], name, function.__defaults__)
-        twin.__qualname__ = f"{name}_{stamp}" if name.startswith("entry_") else name
-        twins[name] = _jit(numba, twin, name.startswith("entry_"))
+        twin = moved(function, place, scopes[-1])
+        twins[name] = _compiler(twin, keep=name.startswith("entry_"), nogil=True)
     for scope in scopes:
         scope.update(twins)
     return twins
 
 
-def _jit(numba: Any, function: FunctionType, keep: bool) -> Any:
-    """Compiled lazily, with a cache on disk if ``keep`` and if there is a directory to write to."""
-    options = {"nogil": True, "error_model": "numpy"}
-    if keep:
-        try:
-            return numba.njit(function, cache=True, **options)
-        except RuntimeError:
-            pass
-    return numba.njit(function, **options)
+def jit(function: F) -> F:
+    """Mark a function for compilation at its first call, with a cache on disk."""
+    from .store import moved
+
+    assert isinstance(function, FunctionType)
+    return _compiler(moved(function, _home_of(function.__module__, function.__code__.co_filename)), keep=True)
+
+
+@cache
+def _home_of(module: str, file: str) -> Path:
+    from .store import fingerprint, home
+
+    return home(module, fingerprint([file]))
+
+
+def _compiler(function: FunctionType, keep: bool, nogil: bool = False) -> Any:
+    """Compiled lazily, with a cache on disk if ``keep``."""
+    import numba
+
+    from .announce import tell
+    from .store import beside_the_source
+
+    tell()
+    with beside_the_source():
+        return numba.njit(cache=keep, error_model="numpy", nogil=nogil)(function)

@@ -18,17 +18,24 @@ MODE, LAST_KIND, TURNS_DONE, STEPS, RECORDS, PULSES_DONE, PERIOD, STALLS, HOPS =
 # The pulse that is being measured: whether it is open, whether the bottom was crossed, and the state at its
 # start.
 P_OPEN, P_CROSSED, P_T, P_ANGLE, P_TOP, P_WHOLE, P_XDOT, P_YDOT, P_H, P_ENERGY, P_PEAK, P_T_BOTTOM = range(20, 32)
-LOSSLESS_TURNS, SLIDES_DONE, LAST_ENERGY, LAST_TURNS, PHASE_T, SLIP_SCALE, PULL = range(32, 39)
-STATE = 39
+LOSSLESS_TURNS, SLIDES_DONE, LAST_ENERGY, LAST_TURNS, PHASE_T, SLIP_SCALE, PULL, P_CUT = range(32, 40)
+# What a motion without loss is compared with when it comes round: the event (0: none yet), the state there, and how
+# many turns, pulses and records there were (see rigid.cycle). RECORDED counts all records, RECORDS those on the tape.
+A_EVENT, A_T, A_ANGLE, A_WHOLE, A_OMEGA, A_XDOT, A_X, A_TURNS, A_PULSES, A_RECORDED, RECORDED = range(40, 51)
+STATE = 51
 
 # Kinds of contact; CHOOSE stands for "find out".
 CHOOSE, ROLL, SKID, SPIN, FLIGHT, SKIM, IMPACT = range(7)
 
 # Records on the tape: a phase (tag = its kind) or END carries the state, a TURN the state and its energy, a
-# PULSE its measures.
+# PULSE its measures, a REPEAT what comes again and how often.
 WIDTH = 18
 TURN_ENERGY = 12  # where in a TURN
-TURN, PULSE, END = 10, 11, 12
+PULSE_CUT = 16  # where in a PULSE: whether the run begins or ends inside it
+TURN, PULSE, END, REPEAT = 10, 11, 12, 13
+# where in a REPEAT: time and place up to which the motion has gone, its period, the way and the whole turns that it
+# advances in one, how often it is repeated, and how many turns, pulses and records one period has
+R_T, R_PERIOD, R_WAY, R_WHOLE, R_COUNT, R_TURNS, R_PULSES, R_RECORDS = range(1, 9)
 
 # Why a kernel returns.
 (

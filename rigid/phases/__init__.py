@@ -4,4 +4,5 @@
 ``rolling_phase``, ``slipping_phase``     such a phase run to its end, cut at every event
 ``flight``, ``impact``, ``pointmass``     off the floor; landings and jams; k = 0 without a hoop's mass
 ``choice``                                the phase machine: which phase comes next
+``instant``                               any instant of a phase, from its start
 """

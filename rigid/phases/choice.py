@@ -1,12 +1,15 @@
 """The phase machine: which phase comes next, and each phase run to its end.
 
 ``entry_run`` advances a state until its tape is full, its allowance of work is spent, or the motion is over;
-it can be called again to go on. Rules where Coulomb's law leaves a choice:
+it can be called again to go on. Rules where Coulomb's law leaves a choice (derived in README.md of this package):
 
 * contact point at rest: roll if |F| <= mu_s N with N >= 0; else the slip starts in the direction in which the
   contact point would move without friction. (That slip never lies in Painlevé's D < 0: if it did, rolling
   would be admissible.)
 * slipping with D > 0: contact while 1 - e c phidot^2 > 0, else flight.
+* slipping towards D -> 0+ with N -> infinity, a jam: when D is round-off of its terms the configuration is frozen
+  and the slip goes on to its stop, an impact without collision. It may end with 1 - e c phidot^2 < 0, and phidot
+  may reverse in it: a floor that gives way a little does the same.
 * slipping with D < 0 (only a release or a landing can be there): flight if 1 - e c phidot^2 <= 0 (contact
   would be consistent too), else an impact without collision.
 * a rebound slower than ``SLOWEST_HOP`` sqrt(g R) is no hop: the landing is taken without restitution. So an
@@ -21,6 +24,7 @@ from math import inf
 from ..kernel.angle import trig
 from ..kernel.compile import kernel
 from ..kernel.layout import (  # fmt: skip
+    A_EVENT,
     ANGLE,
     CHOOSE,
     ECC,
@@ -67,6 +71,7 @@ from ..kernel.layout import (  # fmt: skip
     YDOT,
     T,
 )
+from ..record.cycle import NEVER
 from ..record.log import ROOM, begin, turn
 from ..record.pulse import energy, released, watch
 from .flight import fly, lifts, settle, touch_down
@@ -135,6 +140,7 @@ def choose(par, state, tape):
 @kernel
 def soar(par, state, tape):
     """Fly to the next touch-down and strike the floor."""
+    state[A_EVENT] = NEVER  # whatever came round does so no more
     if watch(par, state, 0.0, tape) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
     time = touch_down(par[ECC], state[GAP], state[UN], state[OMEGA], state[ANGLE], state[TOP])

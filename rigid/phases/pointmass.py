@@ -157,6 +157,15 @@ def skim(par, state, tape):
 
 
 @kernel
+def skimming_acceleration(omega, a, top):
+    """phiddot of the falling point mass, from d^2(cos phi)/dt^2 = -1; 0, as :func:`drop` has it for phidot, right on
+    top and at the floor, where it has no finite value.
+    """
+    s, c, _, _ = trig(a, top)
+    return (1 - c * omega * omega) / s if s != 0.0 else 0.0
+
+
+@kernel
 def drop(state, time):
     """Advance a skimming point mass."""
     a, top, whole, omega = state[ANGLE], state[TOP], state[WHOLE], state[OMEGA]

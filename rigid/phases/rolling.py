@@ -40,6 +40,13 @@ def rolling_forces(par, omega, a, top):
 
 
 @kernel
+def rolling_acceleration(zeta, omega, a, top):
+    """phiddot = sin phi (1 + phidot^2)/(zeta + 2 h) of rolling, the equation of motion (4)."""
+    s, _, h, _ = trig(a, top)
+    return s * (1 + omega * omega) / (zeta + 2 * h)
+
+
+@kernel
 def normal_cubic(e, one_minus_e, zeta, g, h):
     """N (zeta + 2 h)^2, a cubic in h."""
     q2 = 4 * one_minus_e + e * (3 * zeta - 2 * g)

@@ -17,6 +17,7 @@ from ..kernel.layout import (  # fmt: skip
     CREEPS,
     FIRST_PULSE,
     MORE,
+    MU,
     OMEGA,
     P_OPEN,
     P_PEAK,
@@ -29,6 +30,7 @@ from ..kernel.layout import (  # fmt: skip
     RESTS,
     ROLLS,
     ROLLS_ON,
+    SLIDES,
     SLIP,
     T_END,
     TIME_REACHED,
@@ -43,6 +45,7 @@ from ..kernel.layout import (  # fmt: skip
     ZETA,
     T,
 )
+from ..record.cycle import AT_TURN, comes_round
 from ..record.log import ROOM, turn
 from ..record.pulse import cross_bottom, watch
 from .rolling import (
@@ -265,5 +268,10 @@ def roll(par, state, work, tape):
             cur = -t_turn
             if turn(par, state, tape):
                 return TURNS_REACHED
+            before = state[X_C]
+            again = (par[MU] == 0.0 or (forever and par[TURNS] < inf)) and comes_round(par, state, AT_TURN, tape)
+            if again and par[UNTIL] == REST:
+                return SLIDES
+            x_start += state[X_C] - before
             if state[RECORDS] * WIDTH + ROOM * WIDTH > len(tape):
                 return MORE

@@ -118,6 +118,13 @@ def normal_force(par, mu_hat, omega, a, top):
 
 
 @kernel
+def slipping_acceleration(par, mu_hat, normal, a, top):
+    """phiddot = N P/K, the moments of N and F = -mu^ N about G, (11)."""
+    s, _, h, _ = trig(a, top)
+    return normal * (par[ECC] * s + mu_hat * (par[ONE_MINUS_E] + par[ECC] * h)) / par[GYR]
+
+
+@kernel
 def denominator(par, mu_hat, a, top):
     """D = K + e s P; the contact point is free to leave the floor with acceleration D/K per unit of normal
     force.

@@ -53,6 +53,7 @@ from ..kernel.layout import (  # fmt: skip
     T,
 )
 from ..kernel.polynomial import first_crossing, value, value_and_slope
+from ..record.cycle import AT_PASS, AT_TURN, comes_round
 from ..record.log import ROOM, turn
 from ..record.pulse import cross_bottom, watch
 from .rolling_phase import PHASE_OVER
@@ -241,6 +242,8 @@ def slide(par, state, work, tape):
             whirled = 0
             if turn(par, state, tape):
                 return TURNS_REACHED
+            if par[MU] == 0.0 and comes_round(par, state, AT_TURN, tape) and par[UNTIL] == REST:
+                return SLIDES
         if event == STOPS:
             return PHASE_OVER
         if event == LIFTS:
@@ -258,8 +261,16 @@ def slide(par, state, work, tape):
             cross_bottom(state)
         elif event == AT_WEIGHT:
             at_edge = True
-            if watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, tape) and par[UNTIL] == FIRST_PULSE:
-                return PULSE_OVER
+            if watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, tape):
+                if par[UNTIL] == FIRST_PULSE:
+                    return PULSE_OVER
+                if (
+                    par[MU] == 0.0
+                    and par[TURNS] == inf
+                    and comes_round(par, state, AT_PASS, tape)
+                    and par[UNTIL] == REST
+                ):
+                    return SLIDES
         if par[MU] == 0.0 and par[UNTIL] == REST and state[LOSSLESS_TURNS] >= 3.0:
             return SLIDES
         if par[MU] == 0.0 and whirled >= 3 and par[TURNS] < inf:

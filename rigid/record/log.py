@@ -12,6 +12,7 @@ from ..kernel.layout import (  # fmt: skip
     MODE,
     MOVING,
     PHASE_T,
+    RECORDED,
     RECORDS,
     TURN,
     TURN_ENERGY,
@@ -35,6 +36,7 @@ def record(state, tag, tape):
     for i in range(MOVING):
         tape[r + 1 + i] = state[i]
     state[RECORDS] += 1
+    state[RECORDED] += 1
 
 
 @kernel

@@ -1,14 +1,15 @@
 """Inside a pulse: the stretch around a bottom crossing in which N > M g, and its measures.
 
 Everything follows from the states at both ends: the impulses are those of the momentum of G, the friction
-loss is the lost energy. A pulse is cut short by the release or by the end of the motion; a release exactly at
-the bottom is no crossing, so it opens no pulse.
+loss is the lost energy. A pulse in which the run begins or ends is listed as far as the run saw it, and marked as
+cut: one that lacks its bottom too, if the disk was on its way from it (release) or to it (end) below the hoop's
+centre. What is split at the bottom, its restitution, is then unknown.
 """
 
 # mypy: allow-untyped-defs
 from __future__ import annotations
 
-from math import sqrt
+from math import nan, sqrt
 
 from ..kernel.angle import trig
 from ..kernel.compile import kernel
@@ -21,6 +22,7 @@ from ..kernel.layout import (  # fmt: skip
     ONE_MINUS_E,
     P_ANGLE,
     P_CROSSED,
+    P_CUT,
     P_ENERGY,
     P_H,
     P_OPEN,
@@ -32,7 +34,9 @@ from ..kernel.layout import (  # fmt: skip
     P_XDOT,
     P_YDOT,
     PULSE,
+    PULSE_CUT,
     PULSES_DONE,
+    RECORDED,
     RECORDS,
     SLIP,
     TOP,
@@ -43,6 +47,8 @@ from ..kernel.layout import (  # fmt: skip
     YDOT,
     T,
 )
+
+EDGE = 1e-12  # of N over M g: round-off at the edge of a pulse
 
 
 @kernel
@@ -81,6 +87,9 @@ def watch(par, state, normal_force, tape):
     if normal_force > 1.0:
         if state[P_OPEN] == 0.0:
             open_pulse(par, state)
+            # at its very edge a pulse that begins with the run is a whole one
+            if state[T] == 0.0 and normal_force > 1.0 + EDGE:
+                state[P_CUT] = 1.0
         state[P_PEAK] = max(state[P_PEAK], normal_force)
         return False
     return close_pulse(par, state, tape)
@@ -90,7 +99,7 @@ def watch(par, state, normal_force, tape):
 def open_pulse(par, state):
     """Note the state at the start of a stretch with N > M g."""
     _, _, h, _ = trig(state[ANGLE], state[TOP])
-    state[P_OPEN], state[P_CROSSED], state[P_PEAK] = 1.0, 0.0, 0.0
+    state[P_OPEN], state[P_CROSSED], state[P_CUT], state[P_PEAK] = 1.0, 0.0, 0.0, 0.0
     state[P_T], state[P_ANGLE], state[P_TOP], state[P_WHOLE] = (
         state[T],
         state[ANGLE],
@@ -112,19 +121,38 @@ def cross_bottom(state):
 
 @kernel
 def close_pulse(par, state, tape):
-    """End the stretch; True if it was a pulse, which is then on the tape."""
+    """End the stretch; True if it was a pulse over the bottom, which is then on the tape and counted."""
     if state[P_OPEN] == 0.0:
         return False
     state[P_OPEN] = 0.0
     if state[P_CROSSED] == 0.0:
+        # released below the hoop's centre and on the way up: what is left of a pulse
+        rising = state[TOP] != 0.0 or state[P_ANGLE] * (state[ANGLE] - state[P_ANGLE]) >= 0.0
+        if state[P_CUT] != 0.0 and state[P_TOP] == 0.0 and rising:
+            write_pulse(par, state, tape)
         return False
+    write_pulse(par, state, tape)
+    state[PULSES_DONE] += 1
+    return True
+
+
+@kernel
+def cut_pulse(par, state, tape):
+    """At the end of a run: put the pulse in which it ends on the tape."""
+    falling = state[TOP] == 0.0 and state[ANGLE] * state[OMEGA] < 0.0
+    if state[P_OPEN] != 0.0 and (state[P_CROSSED] != 0.0 or falling):
+        state[P_CUT] = 1.0
+        write_pulse(par, state, tape)
+    state[P_OPEN] = 0.0
+
+
+@kernel
+def write_pulse(par, state, tape):
+    """The measures of the stretch that ends here."""
     x, y = velocity_of_g(par, state)
     _, _, h, _ = trig(state[ANGLE], state[TOP])
     e, y0 = par[ECC], state[P_YDOT]
     normal = y - y0 + (state[T] - state[P_T])
-    compression = -y0 + (state[P_T_BOTTOM] - state[P_T])
-    work_in = -0.5 * y0 * y0 - e * state[P_H]
-    work_out = 0.5 * y * y + e * h
     r = int(state[RECORDS]) * WIDTH
     tape[r] = PULSE
     tape[r + 1], tape[r + 2], tape[r + 3], tape[r + 4] = (
@@ -136,11 +164,17 @@ def close_pulse(par, state, tape):
     tape[r + 5], tape[r + 6], tape[r + 7], tape[r + 8] = state[T], state[ANGLE], state[TOP], state[WHOLE]
     tape[r + 9] = normal
     tape[r + 10] = x - state[P_XDOT]
-    tape[r + 11] = max(0.0, state[P_ENERGY] - energy(par, state))
+    tape[r + 11] = state[P_ENERGY] - energy(par, state)
     tape[r + 12] = state[P_PEAK]
-    tape[r + 13] = -y / y0 if y0 != 0 else 0.0
-    tape[r + 14] = (normal - compression) / compression if compression > 0 else 0.0
-    tape[r + 15] = sqrt(work_out / -work_in) if work_in < 0 else 0.0
+    if state[P_CUT] != 0.0:
+        tape[r + 13] = tape[r + 14] = tape[r + 15] = nan
+    else:
+        compression = -y0 + (state[P_T_BOTTOM] - state[P_T])
+        work_in = -0.5 * y0 * y0 - e * state[P_H]
+        work_out = 0.5 * y * y + e * h
+        tape[r + 13] = -y / y0 if y0 != 0 else 0.0
+        tape[r + 14] = (normal - compression) / compression if compression > 0 else 0.0
+        tape[r + 15] = sqrt(work_out / -work_in) if work_in < 0 else 0.0
+    tape[r + PULSE_CUT] = state[P_CUT]
     state[RECORDS] += 1
-    state[PULSES_DONE] += 1
-    return True
+    state[RECORDED] += 1

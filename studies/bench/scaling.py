@@ -20,7 +20,7 @@ BATCH_STEPS = 10_000
 
 
 def _stiff(stiffness: float) -> Contestant:
-    scene = reference.massless_pulse(1e-3).replace(contact={"stiffness": stiffness, "damping": 1.0})
+    scene = reference.massless_pulse(1e-3).replace(contact={"stiffness": stiffness})
     return _sized(STIFFNESS, stiffness, lambda: flexible.simulate(scene))
 
 

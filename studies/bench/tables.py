@@ -5,8 +5,7 @@ from __future__ import annotations
 from math import isfinite
 from typing import Any
 
-from rich.table import Table
-
+from ..plots.sheet import Column, Sheet
 from .race import Result
 
 
@@ -16,29 +15,32 @@ def _number(value: float, digits: int = 3) -> str:
 
 def bench_tables(result: Result) -> list[Any]:
     """Rows, fitted exponents, stated ratios."""
-    rows = Table(title="Run time against error", title_justify="left")
-    for heading in ("scene", "solver", "setting"):
-        rows.add_column(heading)
-    for heading in ("median [ms]", "least [ms]", "clock", "error", "peak [MB]"):
-        rows.add_column(heading, justify="right")
-    rows.add_column("")
-    for row in result.rows:
-        rows.add_row(
-            row.scene, row.solver, row.setting, _number(1e3 * row.median, 4), _number(1e3 * row.least, 4), row.clock,
-            _number(row.error, 2), _number(row.peak_memory), row.note,
-        )  # fmt: skip
-    shown: list[Any] = [rows]
+    rows = result.rows
+    keys = [Column(name, [getattr(row, name) for row in rows], words=True) for name in ("scene", "solver", "setting")]
+    columns = [
+        Column("median\n[ms]", [_number(1e3 * row.median, 4) for row in rows]),
+        Column("least\n[ms]", [_number(1e3 * row.least, 4) for row in rows], joined=True),
+        Column("clock", [row.clock for row in rows], joined=True),
+        Column("error", [_number(row.error, 2) for row in rows]),
+        Column("peak\n[MB]", [_number(row.peak_memory) for row in rows]),
+    ]
+    if any(row.note for row in rows):
+        columns.append(Column("note", [row.note for row in rows], words=True))
+    shown: list[Any] = [Sheet("Run time against error", keys, columns)]
     if result.exponents:
-        fits = Table("cost against", "exponent", title="Fitted exponents", title_justify="left")
-        for name, power in result.exponents.items():
-            fits.add_row(name, f"{power:.2f}")
-        shown.append(fits)
-    claims = Table(title="Stated ratios", title_justify="left")
-    for heading in ("what", "measured", "stated", "holds"):
-        claims.add_column(heading, justify="left" if heading == "what" else "right")
-    for claim in result.claims:
-        sense = "≤" if claim.at_most else "≥"
-        holds = claim.why_not or ("yes" if claim.holds else "NO")
-        claims.add_row(claim.name, _number(claim.measured), f"{sense} {claim.stated:g}", holds)
-    shown.append(claims)
+        against = [Column("cost against", list(result.exponents), words=True)]
+        powers = [Column("exponent", [f"{power:.2f}" for power in result.exponents.values()])]
+        shown.append(Sheet("Fitted exponents", against, powers))
+    claims = result.claims
+    shown.append(
+        Sheet(
+            "Stated ratios",
+            [Column("what", [claim.name for claim in claims], words=True)],
+            [
+                Column("measured", [_number(claim.measured) for claim in claims]),
+                Column("stated", [f"{'≤' if claim.at_most else '≥'} {claim.stated:g}" for claim in claims]),
+                Column("holds", [c.why_not or ("yes" if c.holds else "NO") for c in claims], words=True),
+            ],
+        )
+    )
     return shown

@@ -1,7 +1,7 @@
 """The command line: parse, call, print. What is computed lives elsewhere and is imported only when asked for.
 
-Exit status: 0 done; 1 done, but some case of a sweep failed; 2 something the user can mend, in one sentence;
-130 interrupted.
+Exit status: 0 done; 1 done, but a motion stopped before what was asked or some case of a sweep failed; 2 something
+the user can mend, in one sentence; 130 interrupted.
 """
 
 from __future__ import annotations
@@ -73,9 +73,9 @@ out_folder = click.option(
 @click.argument("scene")
 @as_json
 @out_folder
-def rigid(scene: str, as_json: bool, out: Path | None) -> None:
+def rigid(scene: str, as_json: bool, out: Path | None) -> int:
     """Motion of the rigid hoop: phases, turns, pulses."""
-    _one_motion(load_scene(scene), "rigid", as_json, out)
+    return _one_motion(load_scene(scene), "rigid", as_json, out)
 
 
 @hoop.command()
@@ -98,7 +98,7 @@ def flexible(
     frames: int | None,
     times: str | None,
     only: str | None,
-) -> None:
+) -> int:
     """Motion of the flexible hoop, measured like the rigid one, and where the energy went."""
     from .output import field_wishes
 
@@ -107,16 +107,16 @@ def flexible(
     if not fields and (frames or times or only):
         raise StudyError("--frames, --times and --only need --fields, which writes the frames.")
     wishes = field_wishes(frames, times, only) if fields else None
-    _one_motion(load_scene(scene), "flexible", as_json, out, wishes)
+    return _one_motion(load_scene(scene), "flexible", as_json, out, wishes)
 
 
-def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, wishes: dict[str, Any] | None = None) -> None:
-    from ..running.progress import bar, first_time
+def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, wishes: dict[str, Any] | None = None) -> int:
+    """Run, write, print; 1 for a motion that stops before what was asked."""
+    from ..running.progress import bar
     from ..running.solvers import solver
 
     target = folder(out) if out is not None else None
-    compiling = first_time() if name == "flexible" else ""
-    with bar(f"{name} hoop{compiling}") as progress:
+    with bar(f"{name} hoop") as progress:
         motion = solver(name)(scene, history=target is not None, progress=progress)
     if target is not None:
         from .output import write_fields, write_motion
@@ -126,6 +126,7 @@ def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, wishes
             with bar("fields") as progress:
                 write_fields(motion, target, progress, **wishes)
     _print_motion(motion, as_json)
+    return 0 if motion.completed else _say(f"{motion.ended}.", 1)
 
 
 def _print_motion(motion: Motion, as_json: bool) -> None:
@@ -156,20 +157,46 @@ def mesh(scene: str, file: Path) -> None:
     click.echo(write_mesh(load_scene(scene), file))
 
 
+@hoop.command("compile")
+@click.option("--shared", is_flag=True, help="Keep it beside the installation too, for all who use that.")
+def compile_(shared: bool) -> None:
+    """Compile both solvers for this machine now, not at their first use."""
+    from rigid.kernel.store import share
+
+    from ..running.solvers import prepare
+
+    place = prepare("rigid", "flexible")
+    click.echo(f"Both solvers are compiled, in {share() if shared else place}.")
+
+
 hoop.add_command(study)
 hoop.add_command(view)
 
 
 @hoop.command()
 @out_folder
-def paper(out: Path | None) -> None:
-    """Every figure and number of the paper, ours beside the printed one."""
-    from ..paper import reproduce
+@click.option(
+    "--format",
+    "chosen",
+    type=click.Choice(["png", "svg", "both"]),
+    default="both",
+    show_default=True,
+    help="What the figures are written as.",
+)
+def paper(out: Path | None, chosen: str) -> None:
+    """The paper's figures 2 to 12 with their points as CSV, and a table of all its numbers beside ours.
+
+    DIR is out-paper unless --out says otherwise. The same table is in table.csv and table.md.
+    """
+    from ..paper import reproduce, screen
     from ..running.progress import bar
+    from .tables import show
 
     target = folder(out if out is not None else Path("out-paper"))
+    formats = ("png", "svg") if chosen == "both" else (chosen,)
     with bar("paper") as told:
-        reproduce(target, progress=lambda done, total, _: told(done / total))
+        verdicts = reproduce(target, formats, progress=lambda done, total, _: told(done / total))
+    show(*screen(verdicts))
     click.echo(f"The paper's figures and numbers are in {target}.", err=True)
 
 

@@ -20,8 +20,10 @@ def write_motion(motion: Motion, out: Path) -> None:
         return
     from ..plots import pulse as figures
 
-    through = history.dimensionless(history.through(motion, motion.pulses[0]), motion.scene)
-    figures.save(figures.pulse([("", through, figures.RIGID)], "The first pulse"), out / "pulse.png")
+    first = next((pulse for pulse in motion.pulses if not pulse.cut), motion.pulses[0])
+    title = "A pulse cut by the run" if first.cut else "The first pulse"
+    through = history.dimensionless(history.through(motion, first), motion.scene)
+    figures.save(figures.pulse([("", through, figures.RIGID)], title), out / "pulse.png")
     if (ledger := figures.energy(through, "Where the energy is during the first pulse")) is not None:
         figures.save(ledger, out / "energy.png")
 

@@ -22,6 +22,10 @@ workers = click.option(
     metavar="N",
     help="Processes side by side; by default one for each core.",
 )
+CODE = (
+    "The module is imported (PYTHONPATH says from where) and its function called in every worker, "
+    "with all that you may do: name only code that you trust."
+)
 scheduler = click.option(
     "--scheduler", metavar="ADDRESS", help="Run on the Dask cluster of this scheduler, tcp://host:8786."
 )
@@ -61,15 +65,15 @@ def study() -> None:
     "--damping",
     type=float,
     metavar="D",
-    help="Damping ratio of the patch's approach; by default the scene's own, or 1 where that is 0.",
+    help="Damping ratio of the patch under the hoop's own weight; by default the scene's own, 0 included.",
 )
 @click.option("--all-pulses", is_flag=True, help="All pulses of the scene's run, not the first alone.")
 @click.option(
     "--solver",
     "solver_name",
     default="flexible",
-    metavar="NAME",
-    help="Another solver to compare, as module:function.",
+    metavar="MODULE:FUNCTION",
+    help="Another solver to compare. " + CODE,
 )
 @workers
 @scheduler
@@ -92,7 +96,7 @@ def stiffness(
     scheduler: str | None,
 ) -> None:
     """The flexible hoop against the rigid one as stiffness grows."""
-    from ..running.progress import bar, first_time
+    from ..running.progress import bar
     from ..running.solvers import solver
     from ..running.workers import pool
     from ..stiffness.ladder import Ladder
@@ -104,8 +108,7 @@ def stiffness(
     ladder = Ladder.around(described, along, low, high, count)
     solver(solver_name)
     target = folder(out) if out is not None else None
-    compiling = first_time() if solver_name == "flexible" else ""
-    with bar(f"{ladder.count} cases{compiling}") as progress, pool(workers, scheduler) as place:
+    with bar(f"{ladder.count} cases") as progress, pool(workers, scheduler) as place:
         found = stiffness_study(
             described,
             ladder,
@@ -146,7 +149,7 @@ def stiffness(
     "--damping",
     type=click.FloatRange(0),
     metavar="D",
-    help="Damping ratio of the patch's approach; by default the scene's own, or 1 where that is 0.",
+    help="Damping ratio of the patch under the hoop's own weight; by default the scene's own, 0 included.",
 )
 @click.option(
     "--flexible",
@@ -171,23 +174,20 @@ def limit(
     scheduler: str | None,
 ) -> None:
     """The limit of infinite stiffness solved, not fitted: events, critical damping, and how fast a pulse gets there."""
+    from ..limit.damping import damping_map
     from ..limit.study import limit_study
-    from ..running.progress import bar, first_time
+    from ..limit.summary import limit_sheets, map_sheet
+    from ..running.progress import bar
     from ..running.workers import pool
 
     described = load_scene(scene)
     if law is not None:
         described = described.replace(contact={"law": law})
     target = folder(out) if out is not None else None
-    with bar(f"inner problems{first_time()}") as progress, pool(workers, scheduler) as place:
+    with bar("inner problems") as progress, pool(workers, scheduler) as place:
         found = limit_study(described, damping=damping, flexible=foundations, pool=place, out=target, progress=progress)
-    told = found.to_dict()
-    spots = []
-    if mapped:
-        from ..limit.damping import damping_map
-
-        spots = damping_map(found.scene)
-        told["map"] = [spot.to_dict() for spot in spots]
+        spots = damping_map(found.scene) if mapped else []
+    told = found.to_dict() | ({"map": [spot.to_dict() for spot in spots]} if mapped else {})
     if target is not None:
         from ..limit.figures import damping_figure, of_limit
         from ..plots.style import save
@@ -199,9 +199,9 @@ def limit(
     if as_json:
         click.echo(to_json(told))
         return
-    from .tables import limit_tables, map_table, show
+    from .tables import show
 
-    show(*limit_tables(found), *([map_table(spots)] if mapped else []))
+    show(*limit_sheets(found), *([map_sheet(spots)] if mapped else []))
     if target is not None:
         click.echo(f"Figures and limit.json are in {target}.")
 
@@ -229,6 +229,19 @@ def _write_study(found: StiffnessStudy, target: Path, line: str, progress: Calla
     metavar="DIR",
     help="Folder of the results, by default FILE without .toml; cases finished there are not run again.",
 )
+@click.option(
+    "--max-cases",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Refuse a product of more cases than this, 100000 by default.",
+)
+@click.option(
+    "--solver",
+    "solver_names",
+    multiple=True,
+    metavar="MODULE:FUNCTION",
+    help="Who runs the scenes in place of those that FILE names; may be given several times. " + CODE,
+)
 @workers
 @scheduler
 @click.pass_context
@@ -237,34 +250,45 @@ def sweep(
     file: Path,
     as_json: bool,
     out: Path | None,
+    max_cases: int | None,
+    solver_names: tuple[str, ...],
     workers: int | None,
     scheduler: str | None,
 ) -> None:
     """The product of everything that FILE lists.
 
     FILE is a scene in which any value may be a list. A table [sweep] may name the `solvers` ("rigid",
-    "flexible"; both by default), a `scene` from which all starts, and ask for `histories = true`.
-    """
-    from ..running.progress import bar, first_time
-    from ..running.workers import pool
-    from ..sweep import load_sweep, run_sweep
+    "flexible"; both by default), a `scene` from which all starts, and ask for `histories = true`. FILE is
+    data: it names no code.
 
-    asked = load_sweep(file)
+    How many cases there are is said first, and what they will take once the first are done.
+    """
+    from ..running.progress import bar
+    from ..running.solvers import solver
+    from ..running.workers import pool
+    from ..sweep import MAX_CASES, load_sweep, run_sweep
+
+    asked = load_sweep(file, solver_names, max_cases or MAX_CASES)
+    for name in asked.solvers:
+        solver(name)
     target = folder(out if out is not None else file.with_suffix("") if file.suffix else Path(f"{file}-results"))
-    compiling = first_time() if "flexible" in asked.solvers else ""
-    with (
-        bar(f"{len(asked.points) * len(asked.solvers)} cases{compiling}") as progress,
-        pool(workers, scheduler) as place,
-    ):
-        table = run_sweep(asked, place, target, progress)
+    if not as_json:
+        _say(f"{asked.announcement()}, into {target}.")
+    with bar(f"{asked.cases} cases") as progress, pool(workers, scheduler) as place:
+        table = run_sweep(asked, place, target, progress, _say)
     write_text(target / "table.csv", table.to_csv())
     if as_json:
         click.echo(to_json({"rows": table.records(), "failures": table.failures}))
     else:
-        from .tables import show, sweep_table
+        from .tables import show, sweep_tables
 
-        show(sweep_table(table))
+        show(*sweep_tables(table))
         click.echo(f"The table is in {target / 'table.csv'}.")
     if table.failures:
-        click.echo(f"hoop: {table.failures} of {len(table.rows)} cases failed; their rows say why.", err=True)
+        _say(f"{table.failures} of {len(table.rows)} cases failed; their rows say why.")
         ctx.exit(1)
+
+
+def _say(sentence: str) -> None:
+    """What a script need not read."""
+    click.echo(f"hoop: {sentence}", err=True)

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import sys
 from math import degrees
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from rich.console import Console
-from rich.table import Table
 
-from rigid import Motion, Scene
+from rigid import Motion, Scene, scene_from_dict
 
-from ..running.measures import MEASURES, measures, phase_sequence
+from ..plots.sheet import Column, Sheet
+from ..running.measures import MEASURES, measures, phase_sequence, unit_in
 from ..stiffness.summary import (
-    CASE_HEADING,
+    LIMIT_HEADING,
     case_cells,
+    case_heading,
     damping_sentence,
     law_sentence,
     limit_rows,
@@ -24,155 +26,137 @@ from ..stiffness.summary import (
     shortened,
     verdict,
 )
+from .account import HEADING, account, remarks
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from flexible import FlexibleMotion
 
-    from ..limit.damping import Spot
-    from ..limit.study import LimitStudy
     from ..stiffness.study import StiffnessStudy
     from ..sweep import Table as SweepTable
 
+_REASONS = 10
+"""Failed cases whose reasons are printed; the table has all."""
+
 
 def show(*things: Any) -> None:
-    """Print tables and sentences on stdout, wide enough when it is not a terminal."""
-    width = None if sys.stdout.isatty() else max(shutil.get_terminal_size().columns, 150)
-    console = Console(width=width, highlight=False, soft_wrap=False)
+    """Print tables and sentences on stdout.
+
+    As wide as the terminal, or as ``COLUMNS`` says; wide where stdout is neither.
+    """
+    told = "COLUMNS" in os.environ or sys.stdout.isatty()
+    width = shutil.get_terminal_size().columns if told else 150
+    # what is in brackets is a unit, not a colour
+    console = Console(width=width, highlight=False, markup=False, emoji=False)
     for thing in things:
-        console.print(thing)
+        for part in thing.tables(width) if isinstance(thing, Sheet) else [thing]:
+            console.print(part)
 
 
 def motion_tables(motion: Motion) -> list[Any]:
     """Phases, turns and pulses of a motion, and why it ended."""
-    shown: list[Any] = []
-    phases = Table("phase", "from t", "to t", "from phi [deg]", "to phi [deg]", title="Phases", title_justify="left")
-    for phase in motion.phases:
-        ends = (
-            number(phase.t_start),
-            number(phase.t_end),
-            number(degrees(phase.phi_start)),
-            number(degrees(phase.phi_end)),
+    time = f"[{unit_in('sqrt(R/g)', motion.scene)}]"
+    speed = f"[{unit_in('sqrt(gR)', motion.scene)}]"
+    energy = f"[{unit_in('mgR', motion.scene)}]"
+    phases = motion.phases
+    shown: list[Any] = [
+        Sheet(
+            "Phases",
+            [Column("phase", [phase.kind.value for phase in phases], words=True)],
+            [
+                Column(f"from t\n{time}", [number(phase.t_start) for phase in phases]),
+                Column(f"to t\n{time}", [number(phase.t_end) for phase in phases]),
+                Column("from phi\n[deg]", [number(degrees(phase.phi_start)) for phase in phases]),
+                Column("to phi\n[deg]", [number(degrees(phase.phi_end)) for phase in phases]),
+            ],
         )
-        phases.add_row(phase.kind.value, *ends)
-    shown.append(phases)
-    if motion.turns:
-        turns = Table(
-            "t", "phi [deg]", "slip velocity", "energy", title="Turns, where phidot = 0", title_justify="left"
-        )
-        for turn in motion.turns:
-            turns.add_row(number(turn.t), number(degrees(turn.phi)), number(turn.slip_velocity), number(turn.energy))
-        shown.append(turns)
-    if motion.pulses:
+    ]
+    if turns := motion.turns:
         shown.append(
-            pulse_table(
+            Sheet(
+                "Turns, where phidot = 0",
+                [Column(f"t\n{time}", [number(turn.t) for turn in turns])],
                 [
-                    (f"pulse {i}", measures(motion, pulse), phase_sequence(motion, pulse))
-                    for i, pulse in enumerate(motion.pulses, 1)
+                    Column("phi\n[deg]", [number(degrees(turn.phi)) for turn in turns]),
+                    Column(f"slip velocity\n{speed}", [number(turn.slip_velocity) for turn in turns]),
+                    Column(f"energy\n{energy}", [number(turn.energy) for turn in turns]),
                 ],
-                motion.scene,
             )
         )
-    books = motion.to_dict().get("energy_ledger")
-    if books:
-        ledger = Table("where the energy went", title="Energy ledger", title_justify="left")
-        ledger.add_column(MEASURES["friction_loss"].unit_in(motion.scene), justify="right")
-        for name, value in books.items():
-            ledger.add_row(name.replace("_", " "), number(value))
-        shown.append(ledger)
+    if motion.pulses:
+        headings = [f"pulse {i}{', cut' if pulse.cut else ''}" for i, pulse in enumerate(motion.pulses, 1)]
+        shown.append(
+            pulse_sheet([(h, measures(motion, p)) for h, p in zip(headings, motion.pulses, strict=True)], motion.scene)
+        )
+        for heading, pulse in zip(headings, motion.pulses, strict=True):
+            shown.append(f"Phases of {heading}: {shortened(phase_sequence(motion, pulse)) or '-'}")
+    if any(pulse.cut for pulse in motion.pulses):
+        shown.append("cut: the run begins or ends inside this pulse; the measures are those of the part that was run.")
+    if hasattr(motion, "ledger"):
+        flexible = cast("FlexibleMotion", motion)
+        entries = account(flexible)
+        terms = Column("where the energy went", [name for name, _ in entries], words=True)
+        shown += [Sheet(HEADING, [terms], [Column(energy, [value for _, value in entries])]), *remarks(flexible)]
     shown.append(f"Ended: {motion.ended}")
     return shown
 
 
-def pulse_table(columns: list[tuple[str, dict[str, float], list[str]]], scene: Scene) -> Table:
-    """Measures of pulses side by side, one column for each ``(heading, measures, phases)``."""
-    table = Table("measure", title="Pulses", title_justify="left")
-    for heading, _, _ in columns:
-        table.add_column(heading, justify="right", overflow="fold")
-    for name, entry in MEASURES.items():
-        unit = entry.unit_in(scene)
-        table.add_row(
-            f"{entry.symbol}, {unit}" if unit else entry.symbol,
-            *(number(values.get(name)) for _, values, _ in columns),
-        )
-    table.add_row("phases", *(shortened(phases) or "-" for _, _, phases in columns))
-    return table
+def pulse_sheet(columns: list[tuple[str, dict[str, float]]], scene: Scene) -> Sheet:
+    """Measures of pulses side by side, one column for each ``(heading, measures)``."""
+    names = [entry.heading(scene).replace("\n", " ") for entry in MEASURES.values()]
+    return Sheet(
+        "Pulses",
+        [Column("measure", names, words=True)],
+        [Column(heading, [number(values.get(name)) for name in MEASURES]) for heading, values in columns],
+    )
 
 
 def study_tables(study: StiffnessStudy) -> list[Any]:
     """The ladder rung by rung, the limits, and the answer in words."""
-    ladder = Table(title="First pulse over the ladder of stiffness", title_justify="left")
-    for heading in CASE_HEADING:
-        ladder.add_column(heading, justify="right", no_wrap=True)
-    for rung in study.rungs:
-        ladder.add_row(*case_cells(rung))
-    ladder.add_section()
-    ladder.add_row(*rigid_cells(study))
-    limits = Table("limit of", title="Limit for infinite stiffness", title_justify="left")
-    for heading in ("value", "±", "rigid", "difference", "inside?", "rate", "95 % interval", "last distance"):
-        limits.add_column(heading, justify="right", no_wrap=True)
-    for row in limit_rows(study):
-        limits.add_row(*row)
+    heading = case_heading(study)
+    rows = [case_cells(rung) for rung in study.rungs] + [rigid_cells(study)]
+    # a rung that failed has a stiffness and nothing more
+    filled = [row + ["-"] * (len(heading) - len(row)) for row in rows]
+    cells = list(zip(*filled, strict=True))
+    columns = [Column(name, column, joined=name == "±") for name, column in zip(heading, cells, strict=True)]
+    ladder = Sheet("First pulse over the ladder of stiffness", columns[:1], columns[1:], rules=[len(study.rungs)])
+    beside = ("±", "difference", "inside?", "95 %\ninterval")
+    limit_columns = [
+        Column(name, column, words=name == LIMIT_HEADING[0], joined=name in beside)
+        for name, column in zip(LIMIT_HEADING, zip(*limit_rows(study), strict=True), strict=True)
+    ]
+    limits = Sheet("Limit for infinite stiffness", limit_columns[:1], limit_columns[1:])
     failed = [f"Foundation {number(r.contact_stiffness, 3)} failed: {r.outcome.failure}" for r in study.failures]
     loose = any(not r.outcome.resolved for r in study.rungs if not r.outcome.failure)
     star = ["* The numerical error is more than a tenth of the distance to the rigid hoop."] if loose else []
     return [ladder, *star, *failed, limits, law_sentence(study), damping_sentence(study), verdict(study)]
 
 
-def limit_tables(study: LimitStudy) -> list[Any]:
-    """The answer, the events, the prediction and what is observed."""
-    from ..limit import summary
-
-    def table(title: str, heading: list[str], rows: list[list[str]]) -> Table:
-        made = Table(*heading, title=title, title_justify="left")
-        for row in rows:
-            made.add_row(*row)
-        return made
-
-    return [
-        summary.verdict(study),
-        *summary.damping_sentences(study),
-        "J_F/J_N by what is compliant: " + "; ".join(summary.other_sentences(study)) + ".",
-        table("Events of the first pulse, their layers on the clock τ = (t − t*)/ε", summary.EVENT_HEADING,
-              summary.event_rows(study)),
-        table("Prediction", summary.TERM_HEADING, summary.term_rows(study)),
-        table("Observed", summary.SIGHT_HEADING, summary.sight_rows(study)),
-    ]  # fmt: skip
-
-
-def map_table(spots: Sequence[Spot]) -> Table:
-    """J_F/J_N, foundations across and damping ratios down."""
-    foundations = sorted({spot.foundation for spot in spots})
-    made = Table("damping", title="J_F/J_N over damping ratio and foundation", title_justify="left")
-    for foundation in foundations:
-        made.add_column(number(foundation, 3), justify="right")
-    for ratio in sorted({spot.damping for spot in spots}):
-        row = {spot.foundation: spot.impulse_ratio for spot in spots if spot.damping == ratio}
-        made.add_row(number(ratio), *(f"{row[foundation]:.5f}" for foundation in foundations))
-    return made
-
-
-def sweep_table(sweep: SweepTable, most: int = 40) -> Table:
-    """The first rows of a sweep's table and the measures one looks at first."""
+def sweep_tables(sweep: SweepTable, most: int = 40) -> list[Any]:
+    """The first rows of a sweep's table, the measures one looks at first, and why there is none where there is none."""
     records = sweep.records()
+    first = records[:most]
     varied = list(sweep.rows[0].values) if sweep.rows else []
-    shown = ["impulse_ratio", "friction_loss", "normal_impulse", "peak_normal_force"]
-    table = Table(
-        *varied,
-        "solver",
-        "pulse",
-        *(MEASURES[name].symbol for name in shown),
-        "",
-        title=f"{len(records)} rows",
-        title_justify="left",
-        caption=f"the first {most}; all are in table.csv" if len(records) > most else None,
-    )
-    for record in records[:most]:
-        values = [str(record[key]) for key in varied]
-        table.add_row(
-            *values,
-            record["solver"],
-            str(record["pulse"] or "-"),
-            *(number(record[name]) for name in shown),
-            record["failure"],
-        )
-    return table
+    names = ("impulse_ratio", "friction_loss", "normal_impulse", "peak_normal_force")
+    keys = [
+        *(Column(key.replace(".", ".\n"), [str(record[key]) for record in first]) for key in varied),
+        Column("solver", [str(record["solver"]) for record in first], words=True),
+        Column("pulse", [str(record["pulse"] or "-") for record in first]),
+    ]
+    columns = [Column(_heading(sweep, name), [number(record[name]) for record in first]) for name in names]
+    shown: list[Any] = [Sheet(f"{len(records)} rows", keys, columns)]
+    if len(records) > most:
+        shown.append(f"These are the first {most} rows; all are in table.csv.")
+    failed = [row for row in sweep.rows if row.outcome.failure]
+    for row in failed[:_REASONS]:
+        where = ", ".join(f"{key} = {value}" for key, value in row.values.items())
+        shown.append(f"{row.solver}{' at ' if where else ''}{where}: {row.outcome.failure}")
+    if len(failed) > _REASONS:
+        shown.append(f"{len(failed) - _REASONS} more failed; table.csv says why.")
+    return shown
+
+
+def _heading(sweep: SweepTable, name: str) -> str:
+    """A measure with its unit, where all scenes have the same."""
+    scenes = [scene_from_dict(row.outcome.scene) for row in sweep.rows if row.outcome.scene]
+    headings = {MEASURES[name].heading(scene) for scene in scenes} or {MEASURES[name].symbol}
+    return headings.pop() if len(headings) == 1 else f"{MEASURES[name].symbol}\n[its scene's]"

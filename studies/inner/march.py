@@ -18,7 +18,8 @@ from collections import namedtuple
 from typing import Any
 
 import numpy as np
-from numba import njit
+
+from rigid.kernel.compile import jit
 
 from . import body as mechanics
 from .bristles import brush_pull, set_stretch, step_on, total_stretch
@@ -35,11 +36,11 @@ COLUMNS = ("tau", "normal_force", "friction_force", "slip", "height", "mode", "p
 ScaledContact = namedtuple("ScaledContact", ["law", "kappa", "mu_s", "mu", "theta", "slip_scale"])
 ScaledContact.__doc__ = "Law, tangential ratio, coefficients, relaxation time and V_s on the scaled clock."
 
-_arms = njit(error_model="numpy")(mechanics.arms)
+_arms = jit(mechanics.arms)
 _NARROW = 0.2  # of the half-width at the start: a patch below it is taken to be that wide when a step is chosen
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _normal(state: Any, theta: float) -> tuple[float, float, float]:
     """(A, N, eta = N/N_el)."""
     if state[HEIGHT] >= 0:
@@ -49,7 +50,7 @@ def _normal(state: Any, theta: float) -> tuple[float, float, float]:
     return half, eta * 2 / 3 * half**3, eta
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _forces(state: Any, contact: Any, mode: int, kept: Any) -> tuple[float, float]:
     """(N, F) at a state, with the bristles as the last step left them."""
     half, normal, eta = _normal(state, contact.theta)
@@ -66,7 +67,7 @@ def _forces(state: Any, contact: Any, mode: int, kept: Any) -> tuple[float, floa
     return normal, -contact.kappa * (stretch + contact.theta * 2 * half * slip)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _rates(state: Any, body: Any, contact: Any, eps: float, mode: int, kept: Any) -> Any:
     """Derivatives of the state by tau."""
     normal, friction = _forces(state, contact, mode, kept)
@@ -82,7 +83,7 @@ def _rates(state: Any, body: Any, contact: Any, eps: float, mode: int, kept: Any
     return out
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _advance(state: Any, body: Any, contact: Any, eps: float, mode: int, kept: Any, h: float) -> Any:
     """One Runge-Kutta step of length ``h``."""
     k1 = _rates(state, body, contact, eps, mode, kept)
@@ -92,7 +93,7 @@ def _advance(state: Any, body: Any, contact: Any, eps: float, mode: int, kept: A
     return state + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _excess(state: Any, contact: Any, mode: int, kept: Any) -> float:
     """Positive where the patch can no longer go on as it does."""
     if contact.law != PATCH:
@@ -103,7 +104,7 @@ def _excess(state: Any, contact: Any, mode: int, kept: Any) -> float:
     return mode * state[SLIP] if normal > 0 else -1.0
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _step_length(state: Any, body: Any, contact: Any, widest: float) -> float:
     """The inverse of the fastest rate that is at work."""
     half, normal, _ = _normal(state, contact.theta)
@@ -117,7 +118,7 @@ def _step_length(state: Any, body: Any, contact: Any, widest: float) -> float:
     return 1 / rate
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _switch(state: Any, contact: Any, mode: int, kept: Any) -> int:
     """What a patch does next whose law has just been exceeded; one that sticks gets the bristles that hold mu N."""
     half, _, eta = _normal(state, contact.theta)
@@ -134,7 +135,7 @@ def _switch(state: Any, contact: Any, mode: int, kept: Any) -> int:
     return STICK
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def _note(row: Any, tau: float, state: Any, contact: Any, mode: int, kept: Any) -> None:
     """Fill a record."""
     row[1], row[2] = _forces(state, contact, mode, kept)
@@ -146,7 +147,7 @@ def _note(row: Any, tau: float, state: Any, contact: Any, mode: int, kept: Any) 
     row[6], row[7] = state[PSI], state[OMEGA]
 
 
-@njit(cache=True, error_model="numpy")
+@jit
 def march(body: Any, contact: Any, eps: float, start: Any, mode: int, kept: Any, ends: Any) -> Any:
     """March from ``start`` on.
 

@@ -171,7 +171,7 @@ def limit_study(
     scene : Scene
         Its foundation does not matter.
     damping : float, optional
-        Damping ratio of the patch; by default the scene's own, or 1 where that is 0.
+        Damping ratio of the patch; by default the scene's own.
     foundations : sequence of float
         Where a rigid ring on a compliant floor is observed.
     flexible : sequence of float
@@ -184,8 +184,9 @@ def limit_study(
     StudyError
         There is no pulse, or there is more in it than rolling and sliding.
     """
-    ratio = (scene.contact.damping or 1.0) if damping is None else damping
-    scene = scene.replace(contact={"damping": ratio}, run=Run(until="pulse"))
+    if damping is not None:
+        scene = scene.replace(contact={"damping": damping})
+    scene = scene.replace(run=Run(until="pulse"))
     way = passage(scene)
     prediction = predict(scene)
     found = []

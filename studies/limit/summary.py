@@ -2,65 +2,112 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import degrees, isfinite
+from typing import Any
 
+from ..plots.sheet import Column, Sheet
 from ..running.measures import MEASURES
 from ..stiffness.summary import number
+from .damping import Spot
 from .study import OBSERVED, LimitStudy
 
-EVENT_HEADING = ["event", "phi [deg]", "phidot", "N", "F", "largest |F|/N", "sticks from tau", "critical damping"]
-TERM_HEADING = ["measure", "limit", "approach"]
-SIGHT_HEADING = ["observed by", "foundation", "measure", "value", "distance / x^p", "predicted", "observed/predicted"]
 
-
-def event_rows(study: LimitStudy) -> list[list[str]]:
+def event_sheet(study: LimitStudy) -> Sheet:
     """Events, and what their layers do; forces before and behind, over the weight of the whole hoop."""
-    rows = []
-    for found in study.events:
-        event, layer = found.event, found.layer
-        forces = [f"{number(a, 5)} → {number(b, 5)}" for a, b in zip(found.before, found.behind, strict=True)]
-        critical = "-" if found.critical_damping is None else number(found.critical_damping, 4)
-        rows.append(
-            [event.kind, f"{degrees(event.phi):.3f}", number(event.omega, 5), *forces, number(layer.peak_ratio, 4),
-             number(layer.resticks, 4), critical]
-        )  # fmt: skip
-    return rows
+    found = study.events
+    return Sheet(
+        "Events of the first pulse, their layers on the clock τ = (t − t*)/ε",
+        [Column("event", [e.event.kind for e in found], words=True)],
+        [
+            Column("phi\n[deg]", [f"{degrees(e.event.phi):.3f}" for e in found]),
+            Column("phidot\n[sqrt(g/R)]", [number(e.event.omega, 5) for e in found]),
+            Column("N before\n[Mg]", [number(e.before[0], 5) for e in found]),
+            Column("behind\n[Mg]", [number(e.behind[0], 5) for e in found], joined=True),
+            Column("F before\n[Mg]", [number(e.before[1], 5) for e in found]),
+            Column("behind\n[Mg]", [number(e.behind[1], 5) for e in found], joined=True),
+            Column("largest\n|F|/N", [number(e.layer.peak_ratio, 4) for e in found]),
+            Column("sticks\nfrom τ", [number(e.layer.resticks, 4) for e in found]),
+            Column("critical\ndamping", [number(e.critical_damping, 4) for e in found]),
+        ],
+    )
 
 
 def _symbol(study: LimitStudy) -> str:
     return "ε" if study.prediction.parameter == "eps" else "v_s"
 
 
-def term_rows(study: LimitStudy) -> list[list[str]]:
+def term_sheet(study: LimitStudy) -> Sheet:
     """The prediction."""
-    rows = []
-    for name, term in study.prediction.terms.items():
-        powers = " ".join(f"{c:+.5g} {_symbol(study)}^{p:.3g}" for p, c in term.powers) or "0"
-        rows.append([MEASURES[name].symbol, number(term.limit), powers])
-    return rows
+    terms = study.prediction.terms
+    powers = [" ".join(f"{c:+.5g} {_symbol(study)}^{p:.3g}" for p, c in term.powers) or "0" for term in terms.values()]
+    names = [MEASURES[name].heading(study.scene).replace("\n", " ") for name in terms]
+    return Sheet(
+        "Prediction: limit and approach",
+        [Column("measure", names, words=True)],
+        [
+            Column("limit", [number(term.limit) for term in terms.values()]),
+            Column("approach", powers, words=True),
+        ],
+    )
 
 
-def sight_rows(study: LimitStudy) -> list[list[str]]:
+def sight_sheet(study: LimitStudy) -> Sheet:
     """Predicted and observed distances, over the leading power of the small parameter."""
     rows = []
     for sight in study.sights:
-        if sight.failure:
-            rows.append([sight.solver, number(sight.foundation, 3), sight.failure, "", "", "", ""])
-            continue
         for name in OBSERVED:
-            if name not in sight.values:
-                continue
             scale = study.small(sight.foundation) ** study.prediction.terms[name].exponent
-            found, foreseen = study.distance(name, sight)
-            if scale == 0 or foreseen == 0:
+            if name not in sight.values or scale == 0:
                 continue
-            spread = sight.errors.get(name, 0.0) / scale
-            shown = number(found / scale, 4) + (f" ± {number(spread, 2)}" if name in sight.errors else "")
+            found, foreseen = study.distance(name, sight)
+            error = f"{sight.errors[name] / scale:.2g}" if name in sight.errors else "-"
+            share = f"{found / foreseen:.3f}" if foreseen else "-"
             rows.append(
-                [sight.solver, number(sight.foundation, 3), MEASURES[name].symbol, number(sight.values[name]), shown,
-                 number(foreseen / scale, 4), f"{found / foreseen:.3f}"]
+                (sight.solver, number(sight.foundation, 3), MEASURES[name].symbol, number(sight.values[name]),
+                 number(found / scale, 4), error, number(foreseen / scale, 4), share)
             )  # fmt: skip
-    return rows
+    heads = (
+        "observed by",
+        "foundation",
+        "measure",
+        "value",
+        "distance\nover power",
+        "±",
+        "predicted",
+        "observed/\npredicted",
+    )
+    columns = [
+        Column(head, cells, words=head in ("observed by", "measure"), joined=head == "±")
+        for head, cells in zip(heads, zip(*rows, strict=True) if rows else [()] * len(heads), strict=True)
+    ]
+    return Sheet("Distance to the limit, observed and predicted", columns[:3], columns[3:])
+
+
+def map_sheet(spots: Sequence[Spot]) -> Sheet:
+    """J_F/J_N, foundations across and damping ratios down."""
+    ratios = sorted({spot.damping for spot in spots})
+    columns = []
+    for foundation in sorted({spot.foundation for spot in spots}):
+        row = {spot.damping: spot.impulse_ratio for spot in spots if spot.foundation == foundation}
+        columns.append(Column(number(foundation, 3), [f"{row[ratio]:.5f}" for ratio in ratios]))
+    return Sheet(
+        "J_F/J_N over damping ratio and foundation", [Column("damping", [number(ratio) for ratio in ratios])], columns
+    )
+
+
+def limit_sheets(study: LimitStudy) -> list[Any]:
+    """The answer in words, the events, the prediction and what is observed."""
+    failed = [f"Foundation {number(s.foundation, 3)} failed: {s.failure}" for s in study.sights if s.failure]
+    return [
+        verdict(study),
+        *damping_sentences(study),
+        "J_F/J_N by what is compliant: " + "; ".join(other_sentences(study)) + ".",
+        *([event_sheet(study)] if study.events else []),
+        term_sheet(study),
+        sight_sheet(study),
+        *failed,
+    ]
 
 
 def verdict(study: LimitStudy) -> str:

@@ -1,1 +1,1 @@
-"""What all figures share: their ``style``, and the curves through a ``pulse``."""
+"""What all output shares: the ``style`` of figures, the curves through a ``pulse``, the ``sheet`` of a table."""

@@ -3,6 +3,6 @@
 ``solvers``   the solvers by name              ``measures``  what is measured on a pulse
 ``history``   a motion as columns over time    ``case``      one scene through one solver, as a row
 ``store``     the folder of rows and arrays    ``workers``   cases side by side, on cores or a cluster
-``runs``      cases run once and kept          ``files``     files written whole or not at all
+``runs``      run once, kept, estimated         ``files``     files written whole or not at all
 ``progress``  a bar on a terminal
 """

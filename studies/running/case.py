@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import json
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import inf
 from typing import Any
 
 from rigid import Motion, Scene, scene_to_dict
+from rigid.kernel.announce import running_clock
 
 from .files import plain
 from .history import Columns, through
@@ -65,7 +65,11 @@ class Case:
     scene: Scene
     against: tuple[tuple[str, float], ...] = ()
     histories: bool = False
-    build: str = field(default_factory=build)
+    build: str = ""
+
+    def __post_init__(self) -> None:
+        if not self.build:
+            object.__setattr__(self, "build", build(self.solver))
 
     @property
     def key(self) -> str:
@@ -105,13 +109,13 @@ class Outcome:
     ended: str = ""
     """Why the motion stopped, in words."""
     seconds: float = 0.0
-    """Wall time of all runs of the case."""
+    """Wall time of all runs of the case, without that of compiling."""
     rtol: float = 0.0
     """Tolerance of the run that is reported."""
     resolved: bool = True
     """Whether the numerical error is as small as was asked."""
     pulses: tuple[dict[str, float], ...] = ()
-    """Measures of each pulse."""
+    """Measures of each whole pulse; those in which the run begins or ends are listed in ``motion`` alone."""
     phases: tuple[list[str], ...] = ()
     """What the contact does in each pulse, in order."""
     numerical_error: tuple[dict[str, float], ...] = ()
@@ -123,9 +127,21 @@ class Outcome:
     """Forces and the rest through each pulse, if asked for."""
 
 
+class OtherBuild(RuntimeError):
+    """A case came to a process whose sources are not those it is meant for."""
+
+
 def run_case(case: Case) -> Outcome:
-    """Run a case; whatever goes wrong in it is told in the outcome, never raised."""
-    start = time.perf_counter()
+    """Run a case; whatever goes wrong in it, a solver that wants to end the process too, is told in the outcome.
+
+    Raises
+    ------
+    OtherBuild
+        It is meant for other sources than this process has: the result would be filed under a wrong key.
+    """
+    if case.build != (ours := build(case.solver)):
+        raise OtherBuild(f"The workers run hoop-pulse {ours}, the sweep is one of {case.build}: they must agree")
+    start = running_clock()
     known = {
         "key": case.key,
         "solver": case.solver,
@@ -134,10 +150,12 @@ def run_case(case: Case) -> Outcome:
     }
     try:
         found = _resolved(case) if case.against else _once(case, case.scene)
-    except Exception as error:  # a failing case is a row of the table, whatever it failed of
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # a failing case is a row of the table, whatever it failed of: SystemExit too
         kind = type(error).__name__
-        return Outcome(**known, failure=f"{kind}: {error}".rstrip(": "), seconds=time.perf_counter() - start)
-    return Outcome(**known, **found, seconds=time.perf_counter() - start)
+        return Outcome(**known, failure=f"{kind}: {error}".rstrip(": "), seconds=running_clock() - start)
+    return Outcome(**known, **found, seconds=running_clock() - start)
 
 
 class Unfinished(RuntimeError):
@@ -161,12 +179,13 @@ def _once(case: Case, scene: Scene, most: float = inf) -> dict[str, Any]:
 
 
 def _described(motion: Motion, histories: bool) -> dict[str, Any]:
+    whole = [pulse for pulse in motion.pulses if not pulse.cut]
     return {
         "ended": motion.ended,
-        "pulses": tuple(measures(motion, pulse) for pulse in motion.pulses),
-        "phases": tuple(phase_sequence(motion, pulse) for pulse in motion.pulses),
+        "pulses": tuple(measures(motion, pulse) for pulse in whole),
+        "phases": tuple(phase_sequence(motion, pulse) for pulse in whole),
         "motion": plain(motion.to_dict()),
-        "histories": tuple(through(motion, pulse) for pulse in motion.pulses) if histories else (),
+        "histories": tuple(through(motion, pulse) for pulse in whole) if histories else (),
     }
 
 

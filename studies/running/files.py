@@ -6,8 +6,11 @@ import errno
 import json
 import math
 import os
+import platform
 import tempfile
+import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -39,7 +42,7 @@ def trouble(error: OSError, path: str | Path | None = None) -> str:
 
 
 def folder(path: str | Path) -> Path:
-    """``path`` as a folder that exists and takes a new file.
+    """``path`` as a folder that exists and takes a new file, cleared of what writers that died left there.
 
     Raises
     ------
@@ -51,9 +54,48 @@ def folder(path: str | Path) -> Path:
         path.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=path):
             pass
+        clear_parts(path)
     except OSError as error:
         raise StudyError(trouble(error, path)) from None
     return path
+
+
+_PART = ".part-"
+
+_FORGOTTEN = 24 * 3600.0
+"""Seconds after which a part of another machine's is taken for left behind: no file here takes a minute to write."""
+
+
+def clear_parts(path: Path) -> None:
+    """Remove the parts of files that processes which have died left in a folder: nobody will finish them.
+
+    A part's name says whose it is. Of another machine's processes, on a shared disk, it cannot be known whether they
+    live; their parts go by their age.
+    """
+    for part in path.glob(f"{_PART}*"):
+        host, _, rest = part.name.removeprefix(_PART).rpartition("-")[0].rpartition("-")
+        with suppress(OSError):  # its writer may have finished it meanwhile
+            if host == _host() and rest.isdecimal() and os.name == "posix":
+                left = not _alive(int(rest))
+            else:
+                left = time.time() - part.stat().st_mtime > _FORGOTTEN
+            if left:
+                part.unlink()
+
+
+def _host() -> str:
+    return platform.node() or "here"
+
+
+def _alive(process: int) -> bool:
+    """Whether a process of this machine lives (POSIX: elsewhere signal 0 is not a question)."""
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:  # it lives and is another user's
+        return True
+    return True
 
 
 def write_whole(path: str | Path, write: Callable[[Path], Any]) -> Path:
@@ -68,7 +110,7 @@ def write_whole(path: str | Path, write: Callable[[Path], Any]) -> Path:
     """
     path = Path(path)
     try:
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=".part-", suffix=path.suffix)
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f"{_PART}{_host()}-{os.getpid()}-", suffix=path.suffix)
     except OSError as error:
         raise StudyError(trouble(error, path)) from None
     os.close(handle)

@@ -54,9 +54,6 @@ def through(motion: Motion, pulse: Pulse) -> Columns:
     for force, impulse in (("normal_force", "normal_impulse"), ("friction_force", "friction_impulse")):
         if impulse not in columns:
             columns[impulse] = gathered(columns["t"], columns[force])
-    booked = [columns[name] for name in ENERGIES[1:] if name in columns]
-    if "kinetic" in columns and "numerical_loss" not in columns and columns["t"].size:
-        columns["numerical_loss"] = sum(values[0] for values in booked) - np.sum(booked, axis=0)
     return columns
 
 
@@ -73,6 +70,7 @@ def dimensionless(columns: Columns, scene: Scene) -> Columns:
     units = {
         "t": scene.time_unit,
         "omega": 1 / scene.time_unit,
+        "alpha": 1 / scene.time_unit**2,
         "normal_impulse": scene.impulse_unit,
         "friction_impulse": scene.impulse_unit,
         **dict.fromkeys(("x_C", "y_C", "patch_length"), scene.hoop.R),

@@ -27,8 +27,12 @@ class Measure:
 
     def unit_in(self, scene: Scene) -> str:
         """Unit in the units of ``scene``: the paper's, or SI when R, m or g are given."""
-        hoop = scene.hoop
-        return self.unit if hoop.R == hoop.m == hoop.g == 1 else _SI.get(self.unit, self.unit)
+        return unit_in(self.unit, scene)
+
+    def heading(self, scene: Scene) -> str:
+        """Symbol and, in brackets on a second line, unit."""
+        unit = self.unit_in(scene)
+        return f"{self.symbol}\n[{unit}]" if unit else self.symbol
 
     @property
     def meaning(self) -> str:
@@ -36,7 +40,14 @@ class Measure:
         return (self.of.__doc__ or "").strip().splitlines()[0]
 
 
-_SI = {"m sqrt(gR)": "N s", "mgR": "J", "mg": "N", "sqrt(R/g)": "s"}
+_SI = {"m sqrt(gR)": "N s", "mgR": "J", "mg": "N", "sqrt(R/g)": "s", "sqrt(gR)": "m/s", "R": "m"}
+
+
+def unit_in(unit: str, scene: Scene) -> str:
+    """A unit of the paper's scaling in the units of ``scene``."""
+    hoop = scene.hoop
+    return unit if hoop.R == hoop.m == hoop.g == 1 else _SI.get(unit, unit)
+
 
 MEASURES: dict[str, Measure] = {}
 

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from importlib.util import find_spec
-from pathlib import Path
 
 
 @contextmanager
@@ -27,13 +24,3 @@ def bar(title: str) -> Iterator[Callable[[float], None]]:
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
         task = progress.add_task(title, total=1.0)
         yield lambda fraction: progress.update(task, completed=min(max(fraction, 0.0), 1.0))
-
-
-def first_time() -> str:
-    """What to add to a title where the flexible solver's kernels are not yet on disk; empty where they are or where
-    that cannot be known."""
-    spec = find_spec("flexible")
-    places = list(spec.submodule_search_locations or []) if spec is not None else []
-    if "NUMBA_CACHE_DIR" in os.environ or not places or not os.access(places[0], os.W_OK):
-        return ""
-    return "" if any(Path(places[0], "__pycache__").glob("*.nbi")) else ", compiling first (once, some 20 s)"

@@ -2,7 +2,9 @@
 here.
 
 A third solver is compared by writing one adapter, a function of this signature, and naming it
-``module:function`` wherever a solver is named.
+``module:function`` on the command line (``--solver``) or from Python. Naming it runs it: its module is imported and the
+function called, in every worker, with all that the user may do. Files, a sweep's for instance, are data and name the
+built-in solvers alone.
 """
 
 from __future__ import annotations
@@ -43,6 +45,22 @@ def flexible(scene: Scene, *, history: bool = False, progress: Progress | None =
     return simulate(scene, history=history, progress=progress)
 
 
+def prepare(*names: str) -> Path:
+    """Compile what these solvers need and this machine does not have yet; return the folder where it is kept."""
+    import numpy as np
+
+    import rigid
+    from rigid.kernel.store import user_cache
+
+    scene = rigid.load_scene("paper-3.3-light").replace(solve={"rtol": 1e-2}, run=rigid.Run(until="pulse"))
+    if "rigid" in names:
+        rigid.simulate_batch([scene], workers=1)
+        rigid.simulate(scene).at(np.zeros(rigid.solve.PATIENCE))  # so many instants are for the compiled kernel
+    if "flexible" in names:
+        flexible(scene)
+    return user_cache()[0]
+
+
 NAMED = {"rigid": f"{__name__}:rigid", "flexible": f"{__name__}:flexible"}
 
 
@@ -59,9 +77,16 @@ def solver(name: str) -> Solver:
     if not colon:
         raise StudyError(f"{name!r} is not a solver: it must be one of {', '.join(NAMED)}, or module:function.")
     try:
-        return getattr(import_module(module), function)
-    except (ImportError, AttributeError) as error:
-        raise StudyError(f"{name!r} is not a solver: {error}.") from None
+        found = getattr(import_module(module), function)
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # whatever a module does as it is imported, SystemExit too
+        reason = " ".join(str(error).split()) or type(error).__name__
+        raise StudyError(f"{name!r} is not a solver: {reason.rstrip('.')}.") from None
+    if not callable(found):
+        raise StudyError(f"{name!r} is not a solver: it cannot be called.")
+    chosen: Solver = found
+    return chosen
 
 
 @cache
@@ -74,15 +99,27 @@ def version() -> str:
 
 
 @cache
-def build() -> str:
-    """Version and a digest of the sources: results of a checkout that has changed since are not taken for its own."""
+def build(name: str = "rigid") -> str:
+    """Version and a digest of the sources, a solver's own module among them: results of a checkout that has changed
+    since are not taken for its own."""
     digest = hashlib.sha256()
     for package in ("rigid", "meshes", "flexible", "studies"):
         spec = find_spec(package)
         for place in spec.submodule_search_locations or [] if spec is not None else []:
             for source in sorted(Path(place).rglob("*.py")):
                 digest.update(source.read_bytes())
+    if name not in NAMED:
+        digest.update(_source_of(name.partition(":")[0]))
     return f"{version()}+{digest.hexdigest()[:12]}"
+
+
+def _source_of(module: str) -> bytes:
+    """The file of a module, empty where there is none."""
+    try:
+        spec = find_spec(module)
+        return Path(spec.origin).read_bytes() if spec is not None and spec.origin is not None else b""
+    except (ImportError, ValueError, OSError):
+        return b""
 
 
 def versions() -> dict[str, str]:

@@ -24,6 +24,10 @@ LEADING = 1 / 3
 
 _RATES = (0.05, 3.0)
 
+_SPARE = 2
+"""Cases that a fit must have beyond its unknowns before its scatter is taken for an interval: with one, the
+t-distribution is 12.7 wide at 95 % and its own shape unknown."""
+
 _MISFIT = 0.02
 """How much the distance to the limit may miss the law, relative to itself: sets the weight of soft against
 stiff points and of misfit against numerical error; the width of an interval follows from the scatter that is
@@ -38,7 +42,7 @@ class Rate:
     """Observed rate p."""
     interval: tuple[float, float]
     """Its t-interval at the level CONFIDENCE, widened by the change of p when a point more or fewer is used;
-    infinite when fewer than four points can be used."""
+    infinite when fewer than five points can be used."""
     cases: tuple[int, ...]
     """Which points were used, by their place in the sequence."""
 
@@ -64,10 +68,18 @@ class Limit:
     """Which cases that rate was fitted to, by their place among those given."""
     distance: float
     """Distance to the rigid value at the stiffest case: what is left without any extrapolation."""
+    span: float
+    """How far apart the values are from which it was extrapolated, or their numerical error where that is more."""
 
     @property
-    def rigid_inside(self) -> bool:
-        """Whether the rigid value lies within the uncertainty of the limit."""
+    def rigid_inside(self) -> bool | None:
+        """Whether the rigid value lies within the uncertainty of the limit.
+
+        None where there is no interval to speak of: too few cases, or one wider than all that was measured, in which
+        nothing would be outside.
+        """
+        if not self.uncertainty <= self.span:
+            return None
         return abs(self.value - self.rigid) <= self.uncertainty
 
     @property
@@ -86,10 +98,10 @@ def observed_rate(s: ArrayLike, distance: ArrayLike, error: ArrayLike | None = N
     e = np.zeros_like(d) if error is None else np.abs(np.asarray(error, float))
     use = np.isfinite(d) & (d > 0) & ~(e > 0.5 * d)
     x, y, off = np.log(s[use]), np.log(d[use]), e[use] / d[use]
-    if x.size < 4:
+    if x.size < 3 + _SPARE:
         slope = float(np.polyfit(x, y, 1)[0]) if x.size > 1 else nan
         return Rate(-slope, (-inf, inf), tuple(np.flatnonzero(use).tolist()))
-    fits = {n: _slope(x[-n:], y[-n:], off[-n:]) for n in range(4, x.size + 1)}
+    fits = {n: _slope(x[-n:], y[-n:], off[-n:]) for n in range(3 + _SPARE, x.size + 1)}
     points, half = _narrowest(fits)
     rate = fits[points][0]
     return Rate(rate, (rate - half, rate + half), tuple(np.flatnonzero(use)[-points:].tolist()))
@@ -142,15 +154,15 @@ def richardson(
     -------
     limit, uncertainty, exponent : float
         The uncertainty covers the scatter about the fit (t-interval), the change of the limit when one point
-        more or fewer is fitted, and the numerical error carried into the limit. It is infinite with too few
-        points.
+        more or fewer is fitted, and the numerical error carried into the limit. With too few points it is infinite,
+        and the limit is the last value.
     """
     x, v = np.asarray(s, float), np.asarray(y, float)
     e = np.zeros_like(v) if error is None else np.nan_to_num(np.abs(np.asarray(error, float)))
     use = np.isfinite(v)
     x, v, e = x[use], v[use], e[use]
     unknowns = 2 if exponent is not None else 3
-    fits = {n: _fit(x[-n:], v[-n:], e[-n:], exponent) for n in range(unknowns + 1, v.size + 1)}
+    fits = {n: _fit(x[-n:], v[-n:], e[-n:], exponent) for n in range(unknowns + _SPARE, v.size + 1)}
     if not fits:
         return (float(v[-1]) if v.size else nan), inf, nan if exponent is None else exponent
     points, half = _narrowest({n: (limit, half) for n, (limit, half, _) in fits.items()})
@@ -237,4 +249,13 @@ def limit_of(
         rate.interval,
         rate.cases,
         float(abs(values[-1] - rigid)) if values.size else nan,
+        _span(values, error),
     )
+
+
+def _span(values: Array, error: ArrayLike | None) -> float:
+    known = values[np.isfinite(values)]
+    if not known.size:
+        return 0.0
+    off = 0.0 if error is None else np.max(np.nan_to_num(np.abs(np.asarray(error, float))), initial=0.0)
+    return max(float(np.ptp(known)), float(off))

@@ -47,8 +47,8 @@ footer { color: #666; font-size: .85rem; margin-top: 3rem; border-top: 1px solid
 <p class="lead">{{ verdict }}</p>
 
 <h2>The limit of the first pulse</h2>
-<div class="wide"><table><thead><tr><th>measure</th><th>limit</th><th>±</th><th>rigid</th><th>limit − rigid</th>
-<th>inside?</th><th>rate</th><th>{{ confidence }} interval</th><th>last distance</th></tr></thead><tbody>
+<div class="wide"><table><thead><tr>{% for cell in limit_heading %}<th>{{ cell }}</th>{% endfor
+%}</tr></thead><tbody>
 {% for row in limits %}<tr>{% for cell in row %}<td>{{ cell }}</td>{% endfor %}</tr>
 {% endfor %}</tbody></table></div>
 <p>The limit is L in L + c s<sup>−p</sup>, s the {{ along }}, fitted to the stiffest cases without knowing the

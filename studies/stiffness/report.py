@@ -11,11 +11,11 @@ from rigid import scene_to_dict
 
 from ..running.files import write_text
 from ..running.solvers import versions
-from .limits import CONFIDENCE
 from .page import CAPTIONS, PAGE
 from .summary import (
-    CASE_HEADING,
+    LIMIT_HEADING,
     case_cells,
+    case_heading,
     damping_sentence,
     law_sentence,
     limit_rows,
@@ -54,13 +54,13 @@ def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command:
         .render(
             title=f"The flexible hoop as stiffness grows: {hoop}",
             verdict=verdict(study),
-            confidence=f"{CONFIDENCE:.0%}",
             limits=limit_rows(study),
             along=study.ladder.label,
             law=law_sentence(study),
             damping=damping_sentence(study),
             figures=[(name, CAPTIONS.get(name, name), _embedded(file)) for name, file in images.items()],
-            heading=CASE_HEADING,
+            heading=case_heading(study),
+            limit_heading=LIMIT_HEADING,
             cases=[{"cells": case_cells(rung), "failure": rung.outcome.failure} for rung in study.rungs],
             rigid=rigid_cells(study),
             unresolved=f" Not reached at {len(slow)} of the cases, marked *." if slow else "",

@@ -101,6 +101,11 @@ class StiffnessStudy:
         """The rungs that have no result."""
         return [rung for rung in self.rungs if rung.outcome.failure]
 
+    @property
+    def rungs_through(self) -> list[Rung]:
+        """The rungs that have one."""
+        return [rung for rung in self.rungs if not rung.outcome.failure]
+
     def to_dict(self) -> dict[str, Any]:
         """The study as JSON prints it."""
         return {
@@ -160,10 +165,9 @@ def stiffness_study(
     solver : str
         Who runs the rungs: "flexible" or ``module:function``.
     damping : float, optional
-        Damping ratio of the patch's approach; by default the scene's own, or 1 where that is 0. The normal
-        force jumps where slip ends or begins, and an undamped patch rings about it with an amplitude that
-        does not fall with stiffness: it lifts off, slips early, and tends to another limit than the rigid
-        hoop.
+        Damping ratio of the patch (see :class:`rigid.Contact`); by default the scene's own. The normal force
+        jumps where slip ends or begins, and an undamped patch rings about it with an amplitude that does not
+        fall with stiffness: it lifts off, slips early, and tends to another limit than the rigid hoop.
     all_pulses : bool
         Go through all pulses of the scene's run instead of the first alone; the limit is that of the first.
     exponent : float, optional
@@ -183,7 +187,8 @@ def stiffness_study(
     from flexible.limit import rigid_limit
 
     ladder = ladder or Ladder.around(scene)
-    scene = scene.replace(contact={"damping": scene.contact.damping or 1.0 if damping is None else damping})
+    if damping is not None:
+        scene = scene.replace(contact={"damping": damping})
     pool = pool or Here()
     if not all_pulses:
         scene = scene.replace(run=Run(until="pulse"))

@@ -18,18 +18,14 @@ def number(value: float | None, digits: int = 6) -> str:
     return f"{value:.{digits}g}"
 
 
-CASE_HEADING = [
-    "foundation",
-    "bending",
-    "J_F/J_N",
-    "±",
-    "friction loss",
-    "±",
-    "J_N",
-    "peak N",
-    "off the floor",
-    "seconds",
-]
+REST = ("normal_impulse", "peak_normal_force", "time_off_floor")
+"""Measures of a rung beside the tied ones that one looks at first."""
+
+
+def case_heading(study: StiffnessStudy) -> list[str]:
+    """Columns of the ladder, each with its unit on a second line."""
+    ratio, loss, *rest = (MEASURES[name].heading(study.scene) for name in ("impulse_ratio", "friction_loss", *REST))
+    return ["foundation\nεR²/(mg)", "bending\nEI/(mgR²)", ratio, "±", loss, "±", *rest, "run\n[s]"]
 
 
 def case_cells(rung: Rung) -> list[str]:
@@ -41,7 +37,7 @@ def case_cells(rung: Rung) -> list[str]:
     cells = []
     for name in ("impulse_ratio", "friction_loss"):
         cells += [f"{rung.measure(name):.5f}", number(rung.error(name), 2)]
-    rest = [number(rung.measure(name), 5) for name in ("normal_impulse", "peak_normal_force", "time_off_floor")]
+    rest = [number(rung.measure(name), 5) for name in REST]
     star = "" if rung.outcome.resolved else " *"
     return [*stiffness, *cells, *rest, f"{rung.outcome.seconds:.2f}{star}"]
 
@@ -49,7 +45,7 @@ def case_cells(rung: Rung) -> list[str]:
 def rigid_cells(study: StiffnessStudy) -> list[str]:
     """The row of the rigid hoop that the limit should be."""
     p = study.reference.pulses[0]
-    rest = [number(p[name], 5) for name in ("normal_impulse", "peak_normal_force", "time_off_floor")]
+    rest = [number(p[name], 5) for name in REST]
     return [
         "rigid",
         "",
@@ -62,6 +58,19 @@ def rigid_cells(study: StiffnessStudy) -> list[str]:
     ]
 
 
+LIMIT_HEADING = [
+    "limit of",
+    "value",
+    "±",
+    "rigid",
+    "difference",
+    "inside?",
+    "rate",
+    "95 %\ninterval",
+    "last\ndistance",
+]
+
+
 def limit_rows(study: StiffnessStudy) -> list[list[str]]:
     """One row for each limit."""
     rows = []
@@ -69,14 +78,14 @@ def limit_rows(study: StiffnessStudy) -> list[list[str]]:
         low, high = limit.rate_interval
         rows.append(
             [
-                MEASURES[name].symbol,
+                MEASURES[name].heading(study.scene).replace("\n", " "),
                 f"{limit.value:.6f}",
                 number(limit.uncertainty, 2),
                 f"{limit.rigid:.6f}",
                 number(limit.error, 2),
-                "yes" if limit.rigid_inside else "no",
+                {True: "yes", False: "no", None: "-"}[limit.rigid_inside],
                 number(limit.rate, 3),
-                f"{number(low, 3)} to {number(high, 3)}",
+                f"{number(low, 3)} to {number(high, 3)}" if isfinite(high) else "-",
                 number(limit.distance, 2),
             ]
         )
@@ -114,6 +123,12 @@ def verdict(study: StiffnessStudy) -> str:
     for name, limit in study.limits.items():
         if name == "normal_impulse":
             continue
+        if limit.rigid_inside is None:
+            said.append(
+                f"{MEASURES[name].symbol} is {study.rungs_through[-1].measure(name):.5f} at the stiffest rung and "
+                f"{limit.rigid:.5f} for the rigid hoop: too few rungs for an interval."
+            )
+            continue
         inside = "inside" if limit.rigid_inside else "outside"
         said.append(
             f"{MEASURES[name].symbol} tends to {limit.value:.5f} ± {number(limit.uncertainty, 2)}; "
@@ -144,7 +159,10 @@ def damping_sentence(study: StiffnessStudy) -> str:
     """How the contact was damped, and what an undamped one does."""
     damping = study.scene.contact.damping
     if damping > 0:
-        return f"The approach of the patch is damped at {damping:g} of critical."
+        return (
+            f"The patch is damped, at {damping:g} of critical for the hoop that stands on it under its own weight; "
+            "under a larger load the ratio is larger, like N^(1/6)."
+        )
     return (
         "The contact is undamped: where slip ends or begins the normal force jumps, and the patch then rings "
         "with an amplitude that no stiffness makes smaller, so the limit need not be the rigid hoop."
@@ -152,7 +170,8 @@ def damping_sentence(study: StiffnessStudy) -> str:
 
 
 def shortened(phases: list[str], most: int = 6) -> str:
-    """Phases in a row, the middle of a long row left out."""
+    """Phases in a row, the middle of a long row told by its number."""
     if len(phases) <= most:
         return " ".join(phases)
-    return " ".join([*phases[: most - 1], f"… {len(phases)} phases, ends with", phases[-1]])
+    left_out = len(phases) - most
+    return f"{' '.join(phases[: most - 1])}, {left_out} more, {phases[-1]}"

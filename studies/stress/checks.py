@@ -9,13 +9,24 @@ import json
 from collections.abc import Iterator
 from itertools import pairwise
 from math import inf, isfinite, isnan
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from rigid import Kind, Motion, Release, Run, Scene, scene_to_dict, simulate
 
 Margins = dict[str, float]
+
+
+class Checked(NamedTuple):
+    """What the checks of a scene found."""
+
+    margins: Margins
+    ended: str
+    completed: bool = True
+    cut: bool = False
+
+
 METRE, KILOGRAM, GRAVITY = 0.3, 0.7, 9.81  # any units that are no powers of two
 MOST_GROWTH = 1e6  # of a change of the release: each hop multiplies it, and after many a motion does not repeat
 RESOLVED = 1e-9
@@ -63,11 +74,13 @@ def numbers(motion: Motion) -> Iterator[float]:
         values = pulse.to_dict()
         if pulse.normal_impulse == 0:  # a flexible hoop may fly through all of it: then there is no ratio
             del values["impulse_ratio"]
+        if pulse.cut:  # what is split at the bottom is unknown
+            values = {name: value for name, value in values.items() if "restitution" not in name}
         yield from (value for value in values.values() if isinstance(value, float))
 
 
 def listed(motion: Motion) -> Margins:
-    """Finite, in order, joined without gaps, nothing gained in a pulse."""
+    """Finite, in order, joined without gaps."""
     # a march that cannot take its first step says so, and has nothing to list
     told = bool(motion.phases) or not motion.completed
     fine = all(map(isfinite, numbers(motion))) and bool(motion.ended) and told
@@ -78,6 +91,12 @@ def listed(motion: Motion) -> Margins:
         "in order": 0.0 if ordered else NO,
         "angle joined": max(jumps, default=0.0) / 1e-9,
     }
+
+
+def gained(motion: Motion) -> Margins:
+    """No pulse of a rigid hoop gives energy back."""
+    scale = max(motion.scene.energy_unit, abs(float(motion.at(0.0).energy)))
+    return {"gained in a pulse": max((-p.friction_loss for p in motion.pulses), default=0.0) / scale / ENERGY}
 
 
 def instants(motion: Motion, spread: int = 60) -> np.ndarray:
@@ -255,13 +274,15 @@ def integrated(motion: Motion) -> Margins:
     return {"integrated in time": worst}
 
 
-def rigid_margins(scene: Scene, thorough: bool) -> tuple[Margins, str]:
+def rigid_margins(scene: Scene, thorough: bool) -> Checked:
     """All checks of a rigid scene, and how it ended."""
     motion = simulate(scene)
     margins = listed(motion)
     if not any(margins.values()):
+        margins |= gained(motion)
         margins |= sampled(motion)
         margins |= repeated(motion)
         if thorough:
             margins |= integrated(motion)
-    return {name: NO if isnan(value) else max(value, 0.0) for name, value in margins.items()}, motion.ended
+    margins = {name: NO if isnan(value) else max(value, 0.0) for name, value in margins.items()}
+    return Checked(margins, motion.ended, motion.completed)

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from rigid import Scene
 
 from ..plots.pulse import STYLE, save
-from .run import FLEXIBLE, RIGID, Finding, Report
+from .run import FLEXIBLE, HOSTILE, RIGID, Finding, Report
 
 _FLOOR = 1e-8  # margins below this are drawn as this
 Axis = tuple[str, Callable[[Scene], float]]
@@ -25,6 +25,10 @@ _FLEXIBLE: tuple[Axis, Axis] = (
     ("foundation $\\epsilon_n R^2/(mg)$", lambda scene: scene.contact.stiffness),
     ("bending $EI/(mgR^2)$", lambda scene: scene.ring.bending_stiffness),
 )
+
+
+_TITLES = {RIGID: "rigid", FLEXIBLE: "flexible, within its range", HOSTILE: "flexible, whatever can be typed"}
+_PLANES = {RIGID: _RIGID, FLEXIBLE: _FLEXIBLE, HOSTILE: _FLEXIBLE}
 
 
 def _panel(figure: Figure, axes: matplotlib.axes.Axes, findings: Sequence[Finding], plane: tuple[Axis, Axis]) -> None:
@@ -52,12 +56,12 @@ def _panel(figure: Figure, axes: matplotlib.axes.Axes, findings: Sequence[Findin
 def margins(report: Report) -> Figure:
     """Every scene as a dot in the plane that matters most to its solver, coloured by its largest margin."""
     with matplotlib.rc_context(STYLE):
-        figure = Figure(figsize=(12.5, 5.0), layout="constrained")
+        figure = Figure(figsize=(18.0, 5.0), layout="constrained")
         FigureCanvasAgg(figure)
-        for axes, name, plane in zip(figure.subplots(1, 2), (RIGID, FLEXIBLE), (_RIGID, _FLEXIBLE), strict=True):
-            mine = [f for f in report.findings if f.solver == name]
+        for axes, name, plane in zip(figure.subplots(1, 3), *zip(*_PLANES.items(), strict=True), strict=True):
+            mine = report.of(name)
             _panel(figure, axes, mine, plane)
-            axes.set_title(f"{name}: {len(mine)} scenes")
+            axes.set_title(f"{_TITLES[name]}: {len(mine)} scenes")
         return figure
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
 from math import isfinite, isnan
 
 import numpy as np
@@ -11,7 +10,8 @@ import numpy as np
 from flexible import FlexibleMotion, simulate
 from rigid import Kind, Release, Scene
 
-from .checks import NO, Margins, apart, impulses, in_si, listed, mirrored
+from .checks import NO, Checked, Margins, apart, impulses, in_si, listed, mirrored
+from .work import Work
 
 OUT_OF_RANGE = ("too far for a linear ring", "well above 1.3/k")
 _LOOSE = 30.0  # times rtol: what the error control, which works on the impulses step by step, may leave at the end
@@ -43,25 +43,24 @@ def _history(motion: FlexibleMotion) -> Margins:
 
 
 def _ledger(motion: FlexibleMotion) -> Margins:
-    """Energy is where the ledger says, nothing is gained and no loss is negative."""
+    """The integrals of the ledger explain where the energy went, and no loss is negative."""
     books = motion.ledger
     values = dataclasses.asdict(books)
     if not all(map(isfinite, values.values())):
         return {"finite": NO}
     scale = max(1.0, abs(books.initial), books.kinetic)
-    held = books.kinetic + books.gravity + books.ring_strain + books.contact_spring
-    lost = books.friction_loss + books.damping_loss + books.numerical_loss
     allowed = _allowed(motion.scene) * scale
     return {
-        "ledger closed": abs(held + lost - books.initial - books.hand_over) / scale / 1e-9,
+        "residual": abs(books.residual) / allowed,
         "numerical loss": abs(books.numerical_loss) / allowed,
         # the bristles of a sliding patch hold mu p before they slip as far; friction gives it to them in advance
-        "losses >= 0": -min(books.friction_loss + books.contact_spring, books.damping_loss, 0.0) / allowed,
+        "losses >= 0": -min(books.friction_loss + books.contact_spring, books.landing_loss, books.damping_loss, 0.0)
+        / allowed,
     }
 
 
-def _again(motion: FlexibleMotion, watch: Callable[[float], bool]) -> Margins:
-    """Mirrored, in SI units and restarted, as long as there is time.
+def _again(motion: FlexibleMotion, work: Work) -> Margins:
+    """Mirrored, in SI units and restarted, each with the work of a run.
 
     A rerun may take other steps: it agrees as the tolerance promises, not to round-off.
     """
@@ -73,10 +72,10 @@ def _again(motion: FlexibleMotion, watch: Callable[[float], bool]) -> Margins:
         others["restarted"] = (later, 1)
     margins = {}
     for name, (other, units) in others.items():
-        again = simulate(other, progress=watch)
-        if watch(0.0):
-            break
-        margins[name] = apart(impulses(motion)[:1], impulses(again)[:1] * units) / _allowed(scene)
+        work.renew()
+        again = simulate(other, progress=work)
+        if not work.spent:
+            margins[name] = apart(impulses(motion)[:1], impulses(again)[:1] * units) / _allowed(scene)
     return margins
 
 
@@ -92,23 +91,28 @@ def _from_the_middle(motion: FlexibleMotion) -> Scene | None:
     return scene.replace(release=Release(float(state.phi), float(state.omega), float(state.slip_velocity)))
 
 
-def flexible_margins(scene: Scene, thorough: bool, watch: Callable[[float], bool]) -> tuple[Margins, str]:
+def flexible_margins(scene: Scene, thorough: bool, work: Work) -> Checked:
     """All checks of a flexible scene, and how it ended.
 
-    ``watch`` is asked in every step; a run that it stops is checked as far as it went.
+    ``work`` is asked in every step; a run that it stops is checked as far as it went.
     """
-    motion = simulate(scene, history=True, progress=watch)
+    motion = simulate(scene, history=True, progress=work)
+    cut = work.spent
     margins = listed(motion)
     if not any(margins.values()):
         margins |= _history(motion) | _ledger(motion)
-        if thorough and motion.pulses and not watch(0.0):
-            margins |= _again(motion, watch)
-    return {name: NO if isnan(value) else max(value, 0.0) for name, value in margins.items()}, motion.ended
+        if thorough and motion.pulses and not cut:
+            margins |= _again(motion, work)
+    margins = {name: NO if isnan(value) else max(value, 0.0) for name, value in margins.items()}
+    return Checked(margins, motion.ended, motion.completed and not cut, cut)
 
 
-def against_all_nodes(scene: Scene, watch: Callable[[float], bool]) -> Margins:
+def against_all_nodes(scene: Scene, work: Work) -> Margins:
     """The normal impulse of the reduced hoop beside that of all nodes."""
-    reduced, full = (simulate(scene.replace(solve={"level": level}), progress=watch) for level in ("reduced", "full"))
-    if watch(0.0):
-        return {}
-    return {"all nodes": apart(impulses(reduced)[:1], impulses(full)[:1]) / (_allowed(scene) + 3e-3)}
+    found = []
+    for level in ("reduced", "full"):
+        work.renew()
+        found.append(impulses(simulate(scene.replace(solve={"level": level}), progress=work))[:1])
+        if work.spent:
+            return {}
+    return {"all nodes": apart(*found) / (_allowed(scene) + 3e-3)}

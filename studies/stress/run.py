@@ -2,49 +2,47 @@
 
 from __future__ import annotations
 
-import multiprocessing
+import re
 import time
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures import TimeoutError as Late
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import islice
 from typing import Any
 
 from rigid import Scene
 
-from ..running.workers import cores
-from .checks import Margins, toml
+from ..machine.processes import Processes, WorkerDied, cores
+from .checks import Checked, Margins, toml
+from .work import Bound, Work
 
-RIGID, FLEXIBLE, CYCLES = "rigid", "flexible", "cycles"
+RIGID, FLEXIBLE, HOSTILE, CYCLES = "rigid", "flexible", "hostile", "cycles"
+KINDS = (RIGID, FLEXIBLE, HOSTILE, CYCLES)
 THOROUGH = 5  # one rigid scene in so many is also integrated in time
 TWICE = 2  # one flexible scene in so many is run again, mirrored and in SI units
 ALL_NODES = 60  # one in so many with all nodes (not with --quick)
 CHUNK = 50
-CYCLE_COUNT = 1000
+HANGS = 60.0  # seconds of processor time in one run that takes no steps, or none that are counted
+ENOUGH = 0.8  # of the flexible scenes within the range of the model come to their end
 
 
 @dataclass(frozen=True)
 class Amount:
-    """How much is drawn, and the bound on the work of a scene in seconds."""
+    """How many scenes are drawn, and the bound on the work of each: seconds, or steps of a run."""
 
     rigid: int
     flexible: int
-    seconds_rigid: float
-    seconds_flexible: float
+    hostile: int
+    seconds_rigid: float = 20.0
+    steps: int = 12_000
+    steps_hostile: int = 5_000
 
 
-QUICK = Amount(rigid=800, flexible=40, seconds_rigid=20.0, seconds_flexible=1.0)
-WHOLE = Amount(rigid=2500, flexible=500, seconds_rigid=20.0, seconds_flexible=5.0)
+QUICK = Amount(rigid=800, flexible=24, hostile=16, steps=5_000, steps_hostile=1_000)
+WHOLE = Amount(rigid=2500, flexible=300, hostile=200)
 
-
-Watch = Callable[[float], bool]
-Check = Callable[[Scene, Watch, int], tuple[Margins, str]]
-
-
-class Bound(Exception):
-    """A scene went on although it had used up the work it is allowed."""
+Check = Callable[[Scene, Work, int], Checked]
 
 
 @dataclass(frozen=True)
@@ -59,6 +57,14 @@ class Finding:
     margins: Margins
     crash: str = ""
     cut: bool = False
+    completed: bool = True
+
+    @property
+    def reason(self) -> str:
+        """Why it was not run to its end, its numbers left out; empty where it was."""
+        if self.completed:
+            return ""
+        return "cut at the work bound" if self.cut else re.sub(r"-?\d[\d.]*(e[-+]?\d+)?", "#", self.ended)
 
     @property
     def broken(self) -> dict[str, float]:
@@ -88,30 +94,43 @@ class Report:
     def failures(self) -> list[Finding | str]:
         return [*(finding for finding in self.findings if finding.failed), *self.lost]
 
+    def of(self, solver: str) -> list[Finding]:
+        return [finding for finding in self.findings if finding.solver == solver]
+
+    def completed(self, solver: str) -> float:
+        """Share of the scenes that were run to their end."""
+        mine = self.of(solver)
+        return sum(finding.completed for finding in mine) / len(mine) if mine else 1.0
+
+    def reasons(self, solver: str) -> dict[str, list[int]]:
+        """The scenes that were not, by reason, the commonest first."""
+        found: dict[str, list[int]] = {}
+        for finding in self.of(solver):
+            if finding.reason:
+                found.setdefault(finding.reason, []).append(finding.number)
+        return dict(sorted(found.items(), key=lambda entry: -len(entry[1])))
+
     def worst(self, solver: str) -> dict[str, tuple[float, int, int]]:
         """By check: the worst margin, how many scenes took it, how many failed it."""
         table: dict[str, tuple[float, int, int]] = {}
-        for finding in self.findings:
-            if finding.solver == solver:
-                for name, value in finding.margins.items():
-                    most, count, failed = table.get(name, (0.0, 0, 0))
-                    table[name] = max(most, value), count + 1, failed + (not value <= 1)
+        for finding in self.of(solver):
+            for name, value in finding.margins.items():
+                most, count, failed = table.get(name, (0.0, 0, 0))
+                table[name] = max(most, value), count + 1, failed + (not value <= 1)
         return table
 
     def text(self) -> str:
         """For people."""
         lines = [f"{len(self.findings)} scenes, seed {self.seed}, {self.seconds:.0f} s, {len(self.failures)} failures."]
-        for solver in (RIGID, FLEXIBLE, CYCLES):
-            mine = [finding for finding in self.findings if finding.solver == solver]
+        for solver in KINDS:
+            mine = self.of(solver)
             if not mine:
                 continue
-            cut = sum(finding.cut for finding in mine)
-            stopped = sum(finding.ended.startswith("stopped") for finding in mine)
             slowest = max(finding.seconds for finding in mine)
-            lines.append(
-                f"\n{solver}: {len(mine)} scenes, {cut} cut at the work bound, "
-                f"{stopped} stopped early and said so, slowest {slowest:.2g} s"
-            )
+            whole = sum(finding.completed for finding in mine)
+            lines.append(f"\n{solver}: {len(mine)} scenes, {whole} run to their end, slowest {slowest:.2g} s")
+            for reason, scenes in self.reasons(solver).items():
+                lines.append(f"  {len(scenes)} not: {reason} ({', '.join(map(str, scenes))})")
             for name, (most, count, failed) in self.worst(solver).items():
                 lines.append(f"  {name:20} {count:6} scenes, {failed:3} failed, worst margin {most:.2g}")
         for failure in self.failures:
@@ -124,72 +143,70 @@ class Report:
             "seed": self.seed,
             "scenes": len(self.findings),
             "seconds": self.seconds,
+            "completed": {solver: self.completed(solver) for solver in KINDS},
+            "not_completed": {solver: self.reasons(solver) for solver in KINDS},
             "margins": {
                 solver: {name: {"worst": m, "scenes": n, "failed": f} for name, (m, n, f) in self.worst(solver).items()}
-                for solver in (RIGID, FLEXIBLE, CYCLES)
+                for solver in KINDS
             },
             "failures": [failure if isinstance(failure, str) else failure.text() for failure in self.failures],
         }
 
 
-class Budget:
-    """The work of one scene: asked in every step, it stops a motion that has used up its seconds where it is."""
-
-    def __init__(self, seconds: float) -> None:
-        self.seconds = seconds
-        self.start = time.process_time()
-
-    @property
-    def used(self) -> float:
-        return time.process_time() - self.start
-
-    def __call__(self, _: float = 0.0) -> bool:
-        if self.used > 3 * self.seconds:
-            raise Bound
-        return self.used > self.seconds
-
-
-def _find(solver: str, number: int, scene: Scene, seconds: float, check: Check) -> Finding:
+def _find(solver: str, number: int, scene: Scene, work: Work, check: Check) -> Finding:
     """Run the checks of a scene; whatever happens is told."""
-    budget = Budget(seconds)
-    margins: Margins = {}
-    ended, crash, cut = "", "", False
     try:
-        margins, ended = check(scene, budget, number)
-        cut = solver == FLEXIBLE and budget.used > seconds
+        found, crash = check(scene, work, number), ""
     except Bound:
-        ended, cut = "went on to the work bound", True
+        found, crash = Checked({}, "went on to the work bound", False, True), ""
     except Exception as error:
-        crash = f"{type(error).__name__}: {' '.join(str(error).split())}"
+        found, crash = Checked({}, "", False), f"{type(error).__name__}: {' '.join(str(error).split())}"
+    margins = found.margins
     if solver == RIGID:
         # it has no steps to be stopped at, and must come to its end by itself
-        margins = {**margins, "work bound": budget.used / seconds}
-    return Finding(solver, number, scene, ended, budget.used, margins, crash, cut)
+        margins = {**margins, "work bound": work.used / work.seconds}
+    return Finding(solver, number, scene, found.ended, work.used, margins, crash, found.cut, found.completed)
 
 
-def run_chunk(kind: str, seed: int, count: int, low: int, high: int, seconds: float, quick: bool) -> list[Finding]:
-    """Scenes ``low`` to ``high`` of a sequence of ``count``, in this process."""
-    from . import checks, cycles, draws
+@dataclass(frozen=True)
+class Task:
+    """Scenes ``low`` to ``high`` of a sequence of ``count``, each with a bound on its work."""
 
-    if kind == CYCLES:
-        return [
-            _find(CYCLES, number, scene, seconds, lambda scene, *_: cycles.drift(scene))
-            for number, scene in enumerate(cycles.HOOPS.values())
-        ]
-    if kind == RIGID:
-        _warm(RIGID)
-        scenes = islice(enumerate(draws.rigid_scenes(count, seed)), low, high)
+    kind: str
+    seed: int
+    count: int = 0
+    low: int = 0
+    high: int = 0
+    steps: int = 0
+    seconds: float = HANGS
+    all_nodes: bool = False
 
-        def check(scene: Scene, watch: Watch, number: int) -> tuple[Margins, str]:
-            return checks.rigid_margins(scene, number % THOROUGH == 0)
-    else:
-        _warm(FLEXIBLE)
-        scenes = islice(enumerate(draws.flexible_scenes(count, seed)), low, high)
 
-        def check(scene: Scene, watch: Watch, number: int) -> tuple[Margins, str]:
-            return _flexible(scene, number, quick, watch)
+def run_chunk(task: Task) -> list[Finding]:
+    """The scenes of a task, in this process."""
+    from . import checks, cycles, draws, flexible
 
-    return [_find(kind, number, scene, seconds, check) for number, scene in scenes]
+    def rigid_check(scene: Scene, _: Work, number: int) -> Checked:
+        return checks.rigid_margins(scene, number % THOROUGH == 0)
+
+    def flexible_check(scene: Scene, work: Work, number: int) -> Checked:
+        found = flexible.flexible_margins(scene, number % TWICE == 0, work)
+        if task.all_nodes and number % ALL_NODES == 0 and found.completed:
+            coarse = scene.replace(
+                solve={"rtol": max(scene.solve.rtol, 1e-3), "elements": min(scene.solve.elements, 72)}
+            )
+            return found._replace(margins=found.margins | flexible.against_all_nodes(coarse, work))
+        return found
+
+    draw, check = {
+        CYCLES: (lambda *_: iter(cycles.HOOPS.values()), lambda scene, *_: cycles.drift(scene)),
+        RIGID: (draws.rigid_scenes, rigid_check),
+        FLEXIBLE: (draws.flexible_scenes, flexible_check),
+        HOSTILE: (draws.hostile_scenes, flexible_check),
+    }[task.kind]
+    _warm(RIGID if task.kind in (RIGID, CYCLES) else FLEXIBLE)
+    scenes = islice(enumerate(draw(task.count, task.seed)), task.low, task.high or None)
+    return [_find(task.kind, number, scene, Work(task.steps, task.seconds), check) for number, scene in scenes]
 
 
 @cache
@@ -208,16 +225,6 @@ def _warm(kind: str) -> None:
             simulate_flexible(short.replace(solve={"resolve": "all"}))
 
 
-def _flexible(scene: Scene, number: int, quick: bool, watch: Watch) -> tuple[Margins, str]:
-    from . import flexible
-
-    margins, ended = flexible.flexible_margins(scene, number % TWICE == 0, watch)
-    if not quick and number % ALL_NODES == 0 and not watch(0.0):
-        coarse = scene.replace(solve={"rtol": max(scene.solve.rtol, 1e-3), "elements": min(scene.solve.elements, 72)})
-        margins |= flexible.against_all_nodes(coarse, watch)
-    return margins, ended
-
-
 def run_stress(
     scenes: int | None = None, seed: int = 0, quick: bool = False, progress: Callable[[float], None] | None = None
 ) -> Report:
@@ -226,7 +233,7 @@ def run_stress(
     Parameters
     ----------
     scenes : int, optional
-        How many; five in six are rigid.
+        How many; five in six are rigid, two thirds of the others within the range of the flexible model.
     seed : int
         Of the sequence.
     quick : bool
@@ -236,39 +243,36 @@ def run_stress(
     """
     amount = QUICK if quick else WHOLE
     if scenes is not None:
-        flexible = max(scenes // 6, 1)
-        amount = Amount(max(scenes - flexible, 1), flexible, amount.seconds_rigid, amount.seconds_flexible)
+        flexible, hostile = max(scenes // 9, 1), scenes // 18
+        amount = replace(amount, rigid=max(scenes - flexible - hostile, 1), flexible=flexible, hostile=hostile)
     start = time.perf_counter()
     report = Report(seed)
-    tasks = [(CYCLES, seed, 0, 0, 0, 60.0, quick)]
-    step = max(1, min(CHUNK, amount.flexible // 8))
-    tasks += [
-        (FLEXIBLE, seed, amount.flexible, low, min(low + step, amount.flexible), amount.seconds_flexible, quick)
-        for low in range(0, amount.flexible, step)
-    ]
-    tasks += [
-        (RIGID, seed, amount.rigid, low, min(low + CHUNK, amount.rigid), amount.seconds_rigid, quick)
-        for low in range(0, amount.rigid, CHUNK)
-    ]
-    # spawn: nothing of this process is inherited
-    executor = ProcessPoolExecutor(cores(), multiprocessing.get_context("spawn"))
+    tasks = [Task(CYCLES, seed)]
+    for kind, count, steps, seconds in (
+        (FLEXIBLE, amount.flexible, amount.steps, HANGS),
+        (HOSTILE, amount.hostile, amount.steps_hostile, HANGS),
+        (RIGID, amount.rigid, 0, amount.seconds_rigid),
+    ):
+        step = CHUNK if kind == RIGID else max(1, min(CHUNK, count // 8))
+        for low in range(0, count, step):
+            nodes = kind == FLEXIBLE and not quick
+            tasks.append(Task(kind, seed, count, low, min(low + step, count), steps, seconds, nodes))
+    processes = Processes(cores())
     try:
-        futures = [executor.submit(run_chunk, *task) for task in tasks]
+        futures = [processes.submit(run_chunk, task) for task in tasks]
         for number, (future, task) in enumerate(zip(futures, tasks, strict=True)):
-            kind, _, _, low, high, seconds, _ = task
+            where = f"# {task.kind} scenes {task.low} to {task.high}, seed {seed}"
             try:
                 # a chunk may have to wait for those before it
-                report.findings += future.result(timeout=300 + 3 * (high - low) * seconds)
+                report.findings += future.result(timeout=300 + 3 * (task.high - task.low) * task.seconds)
+            except WorkerDied:
+                report.lost.append(f"{where}: their process died")
             except Late:
-                report.lost.append(f"# {kind} scenes {low} to {high}, seed {seed}: they hang")
+                report.lost.append(f"{where}: they hang")
                 break
             if progress is not None:
                 progress((number + 1) / len(tasks))
     finally:
-        workers = list((getattr(executor, "_processes", None) or {}).values())
-        executor.shutdown(wait=False, cancel_futures=True)
-        if report.lost:
-            for worker in workers:
-                worker.kill()
+        processes.stop()
     report.seconds = time.perf_counter() - start
     return report

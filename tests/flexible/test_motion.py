@@ -28,18 +28,19 @@ def test_order_in_time(mass):
     """Sliding in contact with equal steps: TR-BDF2 is of second order, with and without mass in the ring.
 
     A soft floor and two modes, so that the steps resolve what vibrates: damping the rest away is no error of an order.
+    Fast and long enough that the errors, some 1e-9 of J_N, are above what Newton's method leaves.
     """
     scene = HOOP.replace(
-        hoop={"mass_ratio": mass}, release={"phi0": 1.5, "omega0": 1.0}, contact={"stiffness": 1e4},
+        hoop={"mass_ratio": mass}, release={"phi0": 1.5, "omega0": 2.0}, contact={"stiffness": 1e4},
         friction={"mu_s": 0.02, "mu": 0.02},
     )  # fmt: skip
     hoop = ReducedHoop(scene, modes=2)
     start = hand_over(hoop, rigid.simulate(scene), 0.0, "patch")
     assert start.mode != STICK
-    steps = 0.04 / np.array([100, 200, 400, 3200])
+    steps = 0.1 / np.array([100, 200, 400, 3200])
     ends = []
     for step in steps:
-        last, records, _ = steps_of(hoop, start, 0.04, step)
+        last, records, _ = steps_of(hoop, start, 0.1, step)
         ends.append([last.pos[2], records[-1].normal_impulse])
     errors = np.array(ends[:-1]) - ends[-1]
     for column in errors.T:
@@ -139,23 +140,6 @@ def test_hand_over_does_not_ring():
     assert swing[1] > 0.3
 
 
-def test_ledger_closes():
-    """Numerical loss goes to zero with rtol, about in proportion, and the terms add up."""
-    losses = []
-    for rtol in (1e-2, 1e-3, 1e-4):
-        ledger = flexible.simulate(PULSE.replace(solve={"rtol": rtol})).ledger
-        held = ledger.kinetic + ledger.gravity + ledger.ring_strain + ledger.contact_spring
-        lost = ledger.friction_loss + ledger.damping_loss + ledger.numerical_loss
-        assert held + lost == pytest.approx(ledger.initial + ledger.hand_over, rel=1e-12)
-        assert ledger.friction_loss > 0
-        assert ledger.damping_loss == 0
-        losses.append(abs(ledger.numerical_loss))
-    # the loss changes its sign on the way, so the decades are held to the first of them and not to each other
-    assert losses[1] < losses[0] / 3
-    assert losses[2] < losses[0] / 9
-    assert losses[2] < 1e-4 * ledger.initial
-
-
 @pytest.mark.parametrize("mass", [0.0, 0.1])
 def test_patch_law(mass):
     """While the patch sticks |F| <= mu_s N, while it slides |F| = mu N; both happen in this pulse."""
@@ -230,7 +214,7 @@ def test_ends_at_the_instant_asked_for(t_end):
 
 
 def test_a_motion_ends_where_progress_asks_it_to():
-    """What was reached by then is whole: its books are closed at the last step."""
+    """What was reached by then is whole: what its books leave unexplained is a tenth of the tolerance at most."""
     told = []
 
     def halfway(fraction):
@@ -243,9 +227,7 @@ def test_a_motion_ends_where_progress_asks_it_to():
     assert "as asked" in motion.ended
     assert told[-2] <= 0.3 < told[-1]
     books = motion.ledger
-    held = books.kinetic + books.gravity + books.ring_strain + books.contact_spring
-    lost = books.friction_loss + books.damping_loss + books.numerical_loss
-    assert held + lost == pytest.approx(books.initial + books.hand_over, abs=1e-12)
+    assert abs(books.residual) < 1e-3 * books.initial
     assert abs(books.numerical_loss) < 1e-2 * books.initial  # rtol
 
 
@@ -279,7 +261,7 @@ def test_a_skidding_hoop_is_handed_over_skidding():
 def test_losses_of_a_wide_patch(law, damping):
     """On a foundation so soft that the patch is a quarter of the radius, its points slip by different amounts.
 
-    The ledger still closes but for the integrator's error, which is the remainder, and no loss is negative.
+    The integrals of the losses still leave little of the energy unexplained, and no loss is negative.
     """
     scene = PULSE.replace(
         contact={"law": law, "stiffness": 700.0, "damping": damping},
@@ -289,7 +271,9 @@ def test_losses_of_a_wide_patch(law, damping):
     ledger = flexible.simulate(scene).ledger
     assert ledger.friction_loss > 0
     assert ledger.damping_loss >= -1e-9
-    assert abs(ledger.numerical_loss) < 3e-4 * ledger.initial  # rtol is 1e-4
+    # rtol is 1e-4
+    assert abs(ledger.numerical_loss) < 1e-4 * ledger.initial
+    assert abs(ledger.residual) < 1e-4 * ledger.initial
 
 
 def test_a_tight_tolerance_is_met_in_finite_time():

@@ -38,10 +38,10 @@ def series(tmp_path_factory, ring, ovals):
 def rolling_motion(R=1.0, g=1.0):
     """A hoop that rolls steadily: phi = pi/2 + t, N = 1 + t, F = 0.1, slip 0.2 in the second half."""
 
-    def sample(t):
+    def sample(t, side):
         one = np.ones_like(t)
         return States(
-            t=t, phi=np.pi / 2 + t, omega=one, x_C=R * t, y_C=R * one, energy=one,
+            t=t, phi=np.pi / 2 + t, omega=one, alpha=0 * one, x_C=R * t, y_C=R * one, energy=one,
             slip_velocity=np.where(t > 1, 0.2, 0.0), normal_force=1 + t, friction_force=0.1 * one,
         )  # fmt: skip
 

@@ -77,21 +77,14 @@ def test_at_rest_on_top_or_bottom(phi0):
         assert motion.at(0.0).omega == 0
 
 
-def test_released_at_the_bottom():
-    """A release at phi = pi exactly is no sweep past the floor: the first pulse is that of the next crossing."""
-    motion = simulate(Scene(Hoop(0.3), Friction(0.5, 0.4), Release(pi, 0.5), Run(until="pulse")))
-    assert len(motion.pulses) == 1
-    assert motion.pulses[0].t_start > 0
-
-
 def test_smooth_floor():
     """mu = 0: x of G is never pushed, energy is kept, and a run to rest says that it slides for ever."""
     motion = simulate(load_scene("paper-3.4-frictionless").replace(run={"until": "rest"}))
     assert motion.ended.startswith("slides for ever")
     states = motion.at(np.linspace(0, motion.t_end, 50))
     x = states.x_C + motion.scene.hoop.e * np.sin(states.phi)
-    # hundreds of swings, each adding its round-off
-    assert np.ptp(x) < 1e-11
+    # round-off of one swing and a half
+    assert np.ptp(x) < 1e-12
     assert np.ptp(states.energy) < 1e-11
 
 

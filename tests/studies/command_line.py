@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import Any
 
 HERE = Path(__file__).parent
+HANGS = 600
+"""Seconds after which a process is taken to hang: on a busy machine one that compiles first may take minutes."""
 ROOT = HERE.parents[1]
 
 SCENE = """\
@@ -38,7 +40,7 @@ def environment(**more: str) -> dict[str, str]:
 
 def process(*arguments: object, **options: Any) -> subprocess.CompletedProcess[str]:
     """Run a command line in a process of its own to its end."""
-    settings: dict[str, Any] = {"capture_output": True, "text": True, "timeout": 120, "env": environment()}
+    settings: dict[str, Any] = {"capture_output": True, "text": True, "timeout": HANGS, "env": environment()}
     return subprocess.run(command(*arguments), check=False, **(settings | options))
 
 

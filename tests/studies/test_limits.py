@@ -77,12 +77,25 @@ def test_cases_that_are_all_numerical_error_say_nothing_of_the_rate():
     assert observed_rate(S, noisy, error).value == pytest.approx(1.0, abs=1e-6)
 
 
-@pytest.mark.parametrize("count", [0, 1, 2, 3])
+@pytest.mark.parametrize("count", [0, 1, 2, 3, 4])
 def test_too_few_cases_give_no_false_certainty(count):
     found = limit_of(S[:count], (0.17 + S**-0.3)[:count], 0.17)
     assert found.uncertainty == np.inf
-    if count < 4:
-        assert found.rate_interval == (-np.inf, np.inf)
+    assert found.rate_interval == (-np.inf, np.inf)
+    assert found.rigid_inside is None
+
+
+def test_a_rate_that_is_known_needs_one_case_less():
+    assert limit_of(S[:3], (0.17 + S**-0.3)[:3], 0.17, exponent=0.3).rigid_inside is None
+    assert limit_of(S[:4], (0.17 + S**-0.3)[:4], 0.17, exponent=0.3).rigid_inside is True
+
+
+def test_an_interval_wider_than_all_that_was_measured_holds_nothing():
+    """Values that jump by 1 with no law in them: nothing from -3 to 3 could be outside."""
+    random = np.random.default_rng(5)
+    found = limit_of(S[:5], random.choice([-0.5, 0.5], 5) + 1e-3 * random.uniform(-1, 1, 5), 3.0)
+    assert found.uncertainty > found.span
+    assert found.rigid_inside is None
 
 
 def test_a_measure_that_does_not_change_is_its_own_limit():

@@ -139,6 +139,18 @@ def test_the_table_names_every_rung_and_the_limit(hoop):
         assert word in out
 
 
+@pytest.mark.parametrize("count", [3, 4])
+def test_three_or_four_rungs_are_too_few_for_an_interval(hoop, count):
+    line = ["study", "stiffness", "paper-3.3-massless", "--solver", THIRD, "--workers", 1, "--count", count]
+    status, out, _ = hoop(*line)
+    assert status == 0
+    words = " ".join(out.split())
+    assert words.count("too few rungs for an interval") == 2  # J_F/J_N and the loss
+    assert "inside that interval" not in words
+    limit = json.loads(hoop(*line, "--json")[1])["limit"]
+    assert all(entry["rigid_inside"] is None and entry["uncertainty"] is None for entry in limit.values())
+
+
 @pytest.mark.parametrize("how", ["failing", "unfinished"])
 def test_failing_rungs_are_told_and_the_rest_is_used(hoop, how):
     line = ["study", "stiffness", "paper-3.3-massless", "--solver", f"third_solver:{how}", "--workers", 1, "--json"]
@@ -161,6 +173,15 @@ def test_a_scene_without_a_pulse_is_one_sentence():
     calm = Scene(Hoop(k=0.75), Coefficients(2.0, 2.0), Release(phi0=3.1))
     with pytest.raises(StudyError, match="no pulse"):
         stiffness_study(calm.replace(run={"t_end": 0.01}), solver=THIRD, all_pulses=True)
+
+
+@pytest.mark.parametrize("damping", [0.0, 0.3])
+def test_the_damping_of_the_scene_is_its_own(damping):
+    """Also where it is 0; only one that is given to the study replaces it."""
+    scene = load_scene("paper-3.3-massless").replace(contact={"damping": damping})
+    ladder = Ladder("contact", 1e8, 1e10, 3)
+    assert stiffness_study(scene, ladder, solver=THIRD).scene.contact.damping == damping
+    assert stiffness_study(scene, ladder, solver=THIRD, damping=0.7).scene.contact.damping == 0.7
 
 
 def test_bad_ladders():

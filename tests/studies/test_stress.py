@@ -10,12 +10,13 @@ import pytest
 from rigid import scene_from_dict
 from studies.stress import checks, draws, run
 from studies.stress.run import Finding, Report
+from studies.stress.work import Work
 
 
 def test_scenes_are_seeded_and_spread():
-    first, again = (list(draws.flexible_scenes(256, 3)) for _ in range(2))
+    first, again = (list(draws.hostile_scenes(256, 3)) for _ in range(2))
     assert first == again
-    assert first != list(draws.flexible_scenes(256, 4))
+    assert first != list(draws.hostile_scenes(256, 4))
     for quantity, low, high in (
         (lambda s: s.hoop.k, 1e-7, 0.9),
         (lambda s: s.hoop.mass_ratio, 0, 30),
@@ -26,6 +27,16 @@ def test_scenes_are_seeded_and_spread():
     ):
         assert min(map(quantity, first)) <= low
         assert max(map(quantity, first)) >= high
+
+
+def test_flexible_scenes_are_within_the_range_of_the_model():
+    """The wall does not give way in the pulse (E I >= 13/k), and the weight sinks in by less than 1e-3 R."""
+    scenes = list(draws.flexible_scenes(256, 3))
+    assert all(s.ring.bending_stiffness * s.hoop.k >= 13 * (1 - 1e-12) for s in scenes)
+    # line contact of a foundation, N = m g: the deepest point (3 N / (4 sqrt(2) eps))^(2/3) of a rigid rim
+    assert all((3 / (4 * 2**0.5 * s.contact.stiffness)) ** (2 / 3) < 1e-3 for s in scenes)
+    assert {s.contact.law for s in scenes} == {"patch", "brush"}
+    assert {s.solve.resolve for s in scenes} == {"pulses", "all"}
 
 
 def test_a_failure_prints_a_scene_that_can_be_run_again():
@@ -54,20 +65,31 @@ def test_what_is_wrong_is_found(monkeypatch):
 def test_a_crash_and_a_run_without_end_are_told():
     scene = next(draws.rigid_scenes(1, 0))
 
-    def crash(*_: object) -> tuple[dict[str, float], str]:
+    def crash(*_: object) -> checks.Checked:
         raise ZeroDivisionError("by zero")
 
-    def endless(_: object, watch: run.Watch, __: int) -> tuple[dict[str, float], str]:
-        while True:
-            watch(0.0)
+    def endless(_: object, work: Work, __: int) -> checks.Checked:
+        while not work():
+            pass
+        return checks.Checked({}, "stopped at t = 1.5e-3, as asked", False, work.spent)
 
-    crashed = run._find(run.FLEXIBLE, 0, scene, 1.0, crash)
+    def deaf(_: object, work: Work, __: int) -> checks.Checked:
+        while True:
+            work()
+
+    crashed = run._find(run.FLEXIBLE, 0, scene, Work(100, 60.0), crash)
     assert crashed.failed
     assert "ZeroDivisionError" in crashed.text()
-    cut = run._find(run.FLEXIBLE, 0, scene, 0.01, endless)
-    assert cut.cut
-    assert not cut.failed
-    assert len(Report(0, [crashed, cut]).failures) == 1
+    cut = run._find(run.FLEXIBLE, 1, scene, Work(100, 60.0), endless)
+    lost = run._find(run.FLEXIBLE, 2, scene, Work(100, 0.01), deaf)
+    stuck = Finding("flexible", 3, scene, "stopped at t = 1e-5: no step", 0.1, {}, completed=False)
+    fine = Finding("flexible", 4, scene, "the first pulse is over", 0.1, {"energy": 0.5})
+    report = Report(0, [crashed, cut, lost, stuck, fine])
+    assert report.failures == [crashed]
+    assert report.completed("flexible") == 1 / 5
+    assert report.reasons("flexible")["cut at the work bound"] == [1, 2]
+    assert report.reasons("flexible")["stopped at t = #: no step"] == [3]
+    assert "2 not: cut at the work bound (1, 2)" in report.text()
 
 
 def test_quick_stress(hoop, tmp_path):
@@ -78,6 +100,12 @@ def test_quick_stress(hoop, tmp_path):
     assert (status, err) == (0, "")
     assert found["margins"]["rigid"]["energy"]["scenes"] >= 500
     assert found["margins"]["cycles"]["angle drifts"]["scenes"] >= 3
+    # each of the flexible scenes that count was run to its end, and is held to its bounds
+    assert found["completed"]["flexible"] >= run.ENOUGH
+    assert found["margins"]["flexible"]["ledger closed"]["scenes"] >= run.ENOUGH * run.QUICK.flexible
+    assert found["margins"]["flexible"]["mirrored"]["scenes"] >= 0.5 * run.ENOUGH * run.QUICK.flexible
+    told = sum(len(scenes) for scenes in found["not_completed"]["flexible"].values())
+    assert told == round((1 - found["completed"]["flexible"]) * run.QUICK.flexible)
     assert (tmp_path / "stress.png").stat().st_size > 10_000
 
 
@@ -85,3 +113,4 @@ def test_quick_stress(hoop, tmp_path):
 def test_another_sequence():
     report = run.run_stress(scenes=300, seed=1)
     assert not report.failures, report.text()
+    assert report.completed(run.FLEXIBLE) >= run.ENOUGH, report.text()

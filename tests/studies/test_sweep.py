@@ -2,33 +2,43 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import os
+import re
 import resource
 import signal
 import sqlite3
 import subprocess
+import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
-from command_line import SCENE, command, environment, is_one_sentence, process
+from command_line import HANGS, SCENE, command, environment, is_one_sentence, process
 
 from rigid import SceneError, load_scene, scene_from_dict, scene_to_dict
+from studies.machine.processes import Processes, WorkerDied
+from studies.running import files
 from studies.running.case import Case, run_case
 from studies.running.files import StudyError
+from studies.running.runs import Estimate, run_cases
 from studies.running.solvers import build
 from studies.running.store import Store
 from studies.running.workers import Here, pool
-from studies.sweep import load_sweep, run_sweep, sweep_from_dict
+from studies.sweep import MAX_CASES, load_sweep, run_sweep, sweep_from_dict
 
 KS = "[0.1, 0.15, 0.2, 0.25, 0.3, 0.35]"
 
 
-def sweep_file(folder: Path, solvers: str = "['rigid', 'third_solver:softened']", **lists: str) -> Path:
-    """A sweep over k (six values) and whatever else is given as ``hoop__r="[1.0, 1.02]"``."""
-    text = SCENE.format(k=lists.pop("k", KS)) + f"[sweep]\nsolvers = {solvers}\n"
+THIRD = "third_solver:softened"
+
+
+def sweep_file(folder: Path, **lists: str) -> Path:
+    """A sweep over k (six values) and whatever else is given as ``hoop__r="[1.0, 1.02]"``, rigid unless told."""
+    text = SCENE.format(k=lists.pop("k", KS)) + "[sweep]\nsolvers = ['rigid']\n"
     for name, values in lists.items():
         part, key = name.split("__")
         text = (
@@ -39,6 +49,11 @@ def sweep_file(folder: Path, solvers: str = "['rigid', 'third_solver:softened']"
     file = folder / "many.toml"
     file.write_text(text)
     return file
+
+
+def by(*solvers: str) -> list[str]:
+    """Solvers as a command line names them."""
+    return [word for name in solvers for word in ("--solver", name)]
 
 
 def wait_for_rows(folder: Path, count: int) -> None:
@@ -53,14 +68,13 @@ def wait_for_rows(folder: Path, count: int) -> None:
 
 def test_every_combination_is_a_row_for_each_solver(hoop, tmp_path):
     file = sweep_file(tmp_path, k="[0.1, 0.25]", contact__stiffness="[1e8, 1e9, 1e10]")
-    status, out, err = hoop("study", "sweep", file, "--out", tmp_path / "out", "--workers", 1, "--json")
+    line = ["study", "sweep", file, "--out", tmp_path / "out", "--workers", 1, "--json"]
+    status, out, err = hoop(*line, *by("rigid", THIRD))
     assert (status, err) == (0, "")
     rows = json.loads(out)["rows"]
     assert len(rows) == 2 * 3 * 2
     seen = [(row["hoop.k"], row["contact.stiffness"], row["solver"]) for row in rows]
-    assert seen == [
-        (k, s, w) for k in (0.1, 0.25) for s in (1e8, 1e9, 1e10) for w in ("rigid", "third_solver:softened")
-    ]
+    assert seen == [(k, s, w) for k in (0.1, 0.25) for s in (1e8, 1e9, 1e10) for w in ("rigid", THIRD)]
     rigid = {row["impulse_ratio"] for row in rows if row["solver"] == "rigid" and row["hoop.k"] == 0.1}
     assert len(rigid) == 1  # the rigid hoop does not look at the contact
     third = [row["impulse_ratio"] for row in rows if row["solver"] != "rigid" and row["hoop.k"] == 0.1]
@@ -69,7 +83,7 @@ def test_every_combination_is_a_row_for_each_solver(hoop, tmp_path):
 
 def test_the_table_is_a_data_frame_and_a_csv_of_the_same_numbers(tmp_path):
     pandas = pytest.importorskip("pandas")
-    table = run_sweep(load_sweep(sweep_file(tmp_path, k="[0.1, 0.25]")), Here())
+    table = run_sweep(load_sweep(sweep_file(tmp_path, k="[0.1, 0.25]"), ["rigid", THIRD]), Here())
     frame = table.to_dataframe()
     assert list(frame["hoop.k"]) == [0.1, 0.1, 0.25, 0.25]
     (tmp_path / "table.csv").write_text(table.to_csv())
@@ -80,20 +94,21 @@ def test_the_table_is_a_data_frame_and_a_csv_of_the_same_numbers(tmp_path):
 def test_a_base_scene_by_name():
     sweep = sweep_from_dict({"sweep": {"scene": "paper-3.1", "solvers": "rigid"}, "friction": {"mu": [0.2, 0.3]}})
     assert sweep.keys == ("friction.mu",)
-    assert [scene.friction.mu for _, scene in sweep.points] == [0.2, 0.3]
-    assert sweep.points[1][1] == scene_from_dict(scene_to_dict(load_scene("paper-3.1")))
+    scenes = [scene for _, scene in sweep.points]
+    assert [scene.friction.mu for scene in scenes] == [0.2, 0.3]
+    assert scenes[1] == scene_from_dict(scene_to_dict(load_scene("paper-3.1")))
 
 
 def test_a_case_that_fails_is_a_row_with_its_reason(hoop, tmp_path):
     file = sweep_file(
         tmp_path,
-        "['third_solver:failing']",
         k="[0.1]",
         contact__stiffness="[1e9, 1e11]",
         friction__mu_s="[0.2, 0.35]",
     )
     file.write_text(file.read_text().replace("mu_s = 0.35\n", ""))
-    status, out, err = hoop("study", "sweep", file, "--out", tmp_path / "out", "--workers", 1, "--json")
+    line = ["study", "sweep", file, "--out", tmp_path / "out", "--workers", 1, "--json"]
+    status, out, err = hoop(*line, *by("third_solver:failing"))
     assert status == 1
     assert "3 of 4" in err
     rows = {(row["friction.mu_s"], row["contact.stiffness"]): row for row in json.loads(out)["rows"]}
@@ -107,6 +122,8 @@ def test_a_case_that_fails_is_a_row_with_its_reason(hoop, tmp_path):
     ("text", "told"),
     [
         ("[hoop]\nk = [0.1]\n[sweep]\nsolvers = ['nobody']", "nobody"),
+        ("[hoop]\nk = [0.1]\n[sweep]\nsolvers = ['os:abort']", "--solver module:function"),
+        ("[hoop]\nk = [0.1]\n[sweep]\nsolvers = 'third_solver:softened'", "--solver module:function"),
         ("[hoop]\nk = [0.1]\n[sweep]\nworkers = 3", "sweep.workers"),
         ("[hoop]\nk = []\n[friction]\nmu = 1\nmu_s = 1\n[release]\nphi0_deg = 1", "hoop.k"),
         ("[hoop]\nkk = [0.1]\n[friction]\nmu = 1\nmu_s = 1\n[release]\nphi0_deg = 1", "hoop.kk"),
@@ -183,7 +200,7 @@ def test_a_file_that_is_no_study_is_one_sentence(hoop, tmp_path):
     (tmp_path / "study.sqlite").write_text(
         "not a database, though it has the name of one, and is long enough to tell" * 20
     )
-    status, _, err = hoop("study", "sweep", sweep_file(tmp_path), "--out", tmp_path, "--workers", 1)
+    status, _, err = hoop("study", "sweep", sweep_file(tmp_path), "--out", tmp_path, "--workers", 1, "--json")
     assert status == 2
     assert is_one_sentence(err)
     assert "study.sqlite" in err
@@ -191,10 +208,10 @@ def test_a_file_that_is_no_study_is_one_sentence(hoop, tmp_path):
 
 def test_a_full_disk_is_one_sentence_and_the_rest_is_kept(tmp_path):
     """A limit on the size of files stands in for the disk: SQLite's file reaches it after some rows."""
-    file = sweep_file(tmp_path, "['rigid']", k=str([round(0.1 + 0.005 * i, 3) for i in range(60)]))
+    file = sweep_file(tmp_path, k=str([round(0.1 + 0.005 * i, 3) for i in range(60)]))
     out = tmp_path / "out"
     limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))  # noqa: E731
-    done = process("study", "sweep", file, "--out", out, "--workers", 1, preexec_fn=limit)
+    done = process("study", "sweep", file, "--out", out, "--workers", 1, "--json", preexec_fn=limit)
     assert done.returncode == 2
     assert is_one_sentence(done.stderr)
     kept = len(Store(out).done())
@@ -209,27 +226,30 @@ def _hears_interrupts() -> None:
 
 
 def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(tmp_path):
-    file = sweep_file(tmp_path, "['third_solver:slow']")
+    file, slow = sweep_file(tmp_path), by("third_solver:slow")
     out = tmp_path / "out"
-    line = command("study", "sweep", file, "--out", out, "--workers", 2)
+    line = command("study", "sweep", file, "--out", out, "--workers", 2, *slow)
     # tests that were started in the background hand down a Ctrl-C that is ignored
     running = subprocess.Popen(
         line, env=environment(), stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=_hears_interrupts
     )
     wait_for_rows(out, 1)
     os.killpg(running.pid, signal.SIGINT)  # as a terminal does: to the workers too
-    _, err = running.communicate(timeout=30)
+    _, err = running.communicate(timeout=HANGS)
     assert running.returncode == 130
-    assert is_one_sentence(err)
+    announced, interrupted = filter(None, err.splitlines())
+    assert "6 cases" in announced
+    assert is_one_sentence(interrupted)
     assert 1 <= len(Store(out).done()) < 6
-    assert process("study", "sweep", file, "--out", out, "--workers", 1).returncode == 0
-    assert_same_as_undisturbed(file, out, tmp_path)
+    assert process("study", "sweep", file, "--out", out, "--workers", 1, *slow).returncode == 0
+    assert_same_as_undisturbed(file, slow, out, tmp_path)
 
 
-def assert_same_as_undisturbed(file: Path, out: Path, tmp_path: Path) -> None:
+def assert_same_as_undisturbed(file: Path, solvers: list[str], out: Path, tmp_path: Path) -> None:
     """The table in ``out`` is, to the last bit, that of the same sweep run at once."""
     calm = tmp_path / "undisturbed"
-    done = process("study", "sweep", file, "--out", calm, "--workers", 1, env=environment(HOOP_TEST_MARK=str(file)))
+    line = ("study", "sweep", file, "--out", calm, "--workers", 1, *solvers)
+    done = process(*line, env=environment(HOOP_TEST_MARK=str(file)))
     assert done.returncode == 0
     assert written(calm) == written(out)
 
@@ -240,15 +260,15 @@ def written(folder: Path) -> list[str]:
 
 
 def test_kill_9_loses_no_finished_case_and_leaves_no_worker_behind(tmp_path):
-    file = sweep_file(tmp_path, "['third_solver:slow']")
+    file, slow = sweep_file(tmp_path), by("third_solver:slow")
     file.write_text(file.read_text() + "histories = true\n")
     out = tmp_path / "out"
-    line = command("study", "sweep", file, "--out", out, "--workers", 2)
+    line = command("study", "sweep", file, "--out", out, "--workers", 2, *slow)
     running = subprocess.Popen(line, env=environment(), start_new_session=True)
     wait_for_rows(out, 2)
     running.kill()
-    running.wait(timeout=30)
-    deadline = time.monotonic() + 20
+    running.wait(timeout=HANGS)
+    deadline = time.monotonic() + HANGS
     while alive(running.pid):
         assert time.monotonic() < deadline, "a worker outlived the sweep"
         time.sleep(0.1)
@@ -258,9 +278,9 @@ def test_kill_9_loses_no_finished_case_and_leaves_no_worker_behind(tmp_path):
         found = Store(out).get(key)
         assert found is not None
         assert len(found.histories) == len(found.pulses)
-    assert process("study", "sweep", file, "--out", out, "--workers", 1).returncode == 0
+    assert process("study", "sweep", file, "--out", out, "--workers", 1, *slow).returncode == 0
     assert kept <= Store(out).done()
-    assert_same_as_undisturbed(file, out, tmp_path)
+    assert_same_as_undisturbed(file, slow, out, tmp_path)
 
 
 def alive(group: int) -> bool:
@@ -276,21 +296,22 @@ def alive(group: int) -> bool:
 
 
 def test_two_runs_in_one_folder_agree(tmp_path):
-    file = sweep_file(tmp_path)
+    file, solvers = sweep_file(tmp_path), by("rigid", THIRD)
     out = tmp_path / "out"
-    line = command("study", "sweep", file, "--out", out, "--workers", 1)
-    both = [subprocess.Popen(line, env=environment(), stderr=subprocess.PIPE, text=True) for _ in range(2)]
+    line = command("study", "sweep", file, "--out", out, "--workers", 1, "--json", *solvers)
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, "text": True}
+    both = [subprocess.Popen(line, env=environment(), **quiet) for _ in range(2)]
     for running in both:
-        _, err = running.communicate(timeout=60)
+        _, err = running.communicate(timeout=HANGS)
         assert (running.returncode, err) == (0, "")
     with sqlite3.connect(out / "study.sqlite") as connection:
         assert connection.execute("PRAGMA integrity_check").fetchone() == ("ok",)
     assert len(Store(out).done()) >= 12
-    assert_same_as_undisturbed(file, out, tmp_path)
+    assert_same_as_undisturbed(file, solvers, out, tmp_path)
 
 
 def test_a_case_that_kills_its_worker_takes_no_other_with_it(tmp_path):
-    sweep = load_sweep(sweep_file(tmp_path, "['third_solver:deadly']"))
+    sweep = load_sweep(sweep_file(tmp_path), ["third_solver:deadly"])
     with pool(2) as place:
         table = run_sweep(sweep, place)
     reasons = {row.values["hoop.k"]: row.outcome.failure for row in table.rows}
@@ -301,7 +322,8 @@ def test_a_case_that_kills_its_worker_takes_no_other_with_it(tmp_path):
 def test_an_unreachable_scheduler_is_one_sentence(hoop, tmp_path):
     pytest.importorskip("distributed")
     for address in ("nonsense", "carrier-pigeon://loft"):
-        status, _, err = hoop("study", "sweep", sweep_file(tmp_path), "--out", tmp_path / "out", "--scheduler", address)
+        line = ("study", "sweep", sweep_file(tmp_path), "--out", tmp_path / "out", "--json", "--scheduler", address)
+        status, _, err = hoop(*line)
         assert status == 2
         assert is_one_sentence(err)
 
@@ -313,14 +335,14 @@ def test_a_cluster_that_loses_a_worker_gives_the_same_table(tmp_path, monkeypatc
     monkeypatch.setenv("HOOP_TEST_MARK", str(mark))
     for name, value in environment().items():
         monkeypatch.setenv(name, value)
-    file = sweep_file(tmp_path, "['third_solver:deadly_once']")
+    file, solvers = sweep_file(tmp_path), by("third_solver:deadly_once")
     cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None)
     with cluster:
-        line = ("study", "sweep", file, "--out", tmp_path / "out", "--scheduler", cluster.scheduler_address)
+        line = ("study", "sweep", file, "--out", tmp_path / "out", "--scheduler", cluster.scheduler_address, *solvers)
         done = process(*line, env=environment(HOOP_TEST_MARK=str(mark)))
     assert done.returncode == 0, done.stderr
     assert mark.exists()
-    assert_same_as_undisturbed(file, tmp_path / "out", tmp_path)
+    assert_same_as_undisturbed(file, solvers, tmp_path / "out", tmp_path)
 
 
 def test_nothing_that_can_be_run_is_said_at_once():
@@ -328,3 +350,164 @@ def test_nothing_that_can_be_run_is_said_at_once():
         sweep_from_dict({"sweep": {"scene": "paper-3.1"}, "hoop": {"k": [1.5, 2.0]}})
     with pytest.raises((StudyError, SceneError), match="nobody"):
         sweep_from_dict({"sweep": {"scene": "paper-3.1", "solvers": ["nobody"]}})
+
+
+def of_lists(count: int, keys: int) -> dict[str, object]:
+    """A sweep file's data with so many values of each of so many keys."""
+    names = ["mass_ratio", "r", "R", "m", "g"][: keys - 1]
+    lists = {name: [1.01 + 0.01 * i for i in range(count)] for name in names}
+    return {"sweep": {"scene": "paper-3.1"}, "hoop": {"k": [0.1 + 0.001 * i for i in range(count)], **lists}}
+
+
+def test_a_product_too_large_is_refused_before_it_is_made():
+    """113 values of each of five keys, twice: 3.7e10 scenes would be made for hours, and fill any memory."""
+    with pytest.raises(SceneError, match=r"36848703586 cases.*more than 100000"):
+        sweep_from_dict(of_lists(113, 5))
+    assert sweep_from_dict(of_lists(7, 5), max_cases=2 * 7**5).cases == 2 * 7**5
+    with pytest.raises(SceneError, match="--max-cases"):
+        sweep_from_dict(of_lists(7, 5), max_cases=2 * 7**5 - 1)
+
+
+def test_the_bound_is_an_option_and_nothing_is_left_of_a_refused_sweep(hoop, tmp_path):
+    line = ("study", "sweep", sweep_file(tmp_path), "--workers", 1, "--out", tmp_path / "out", "--max-cases")
+    status, out, err = hoop(*line, 5)
+    assert (status, out) == (2, "")
+    assert is_one_sentence(err)
+    assert not (tmp_path / "out").exists()
+    status, _, err = hoop(*line, 6)
+    assert (status, err) == (0, f"hoop: 6 cases: 6 of hoop.k × 1 solver, into {tmp_path / 'out'}.\n")
+    assert f"{MAX_CASES} by default" in " ".join(hoop("study", "sweep", "-h")[1].split())
+
+
+def test_what_a_long_sweep_takes_is_told_from_its_first_cases(tmp_path):
+    """240 cases of 10 s on two workers: the first 24 tell of the other 216, 18 minutes; the dearest two compiled."""
+    outcome = run_case(Case("rigid", load_scene("paper-3.1")))
+    store = Store(tmp_path)
+    estimate = Estimate(240, 2, store)
+    said = []
+    for number in range(240):
+        now = dataclasses.replace(outcome, key=f"{number:032}", seconds=60.0 if number < 2 else 10.0)
+        store.add(now)
+        said.append(estimate.after(now))
+    assert [number for number, sentence in enumerate(said) if sentence is not None] == [23]
+    assert "the other 216 take some 18 minutes and" in said[23]
+    size = float(re.search(r"and ([\d.]+) kB", said[23])[1])
+    assert size == pytest.approx(store.size() / 1e3, rel=0.3)  # SQLite's file grows by pages of 4 kB
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_solver_that_leaves_is_a_failed_case(tmp_path, workers):
+    with pool(workers) as place:
+        table = run_sweep(load_sweep(sweep_file(tmp_path), ["third_solver:leaving"]), place)
+    reasons = {row.values["hoop.k"]: row.outcome.failure for row in table.rows}
+    assert reasons.pop(0.3) == "SystemExit: enough of it"
+    assert set(reasons.values()) == {""}
+
+
+def rewritten(row: str) -> Callable[[Path], None]:
+    """Damage to a row of the table."""
+
+    def damage(folder: Path) -> None:
+        with sqlite3.connect(folder / "study.sqlite") as connection:
+            (key,) = connection.execute("SELECT key FROM cases ORDER BY key").fetchone()
+            connection.execute(f"UPDATE cases SET {row} WHERE key = ?", (key,))
+        connection.close()
+
+    return damage
+
+
+def overwritten(content: bytes | None) -> Callable[[Path], None]:
+    """Damage to a file of arrays; None removes it."""
+
+    def damage(folder: Path) -> None:
+        file = sorted((folder / "histories").iterdir())[0]
+        file.unlink()
+        if content is not None:
+            file.write_bytes(content)
+
+    return damage
+
+
+DAMAGE = {
+    "no JSON": rewritten("outcome = '{'"),
+    "no text": rewritten("outcome = x'00ff'"),
+    "a digit": rewritten("""outcome = replace(outcome, '"impulse_ratio": 0.1', '"impulse_ratio": 0.2')"""),
+    "no histories": rewritten("histories = '[]'"),
+    "no checksum": rewritten("checksum = ''"),
+    "arrays missing": overwritten(None),
+    "arrays empty": overwritten(b""),
+    "arrays random": overwritten(np.random.default_rng(1).bytes(5000)),
+}
+
+
+@pytest.mark.parametrize("how", DAMAGE)
+def test_a_damaged_result_is_run_again_and_that_is_said(hoop, tmp_path, how):
+    file = sweep_file(tmp_path, k="[0.1, 0.15, 0.2]")
+    file.write_text(file.read_text() + "histories = true\n")
+    line = ("study", "sweep", file, "--out", tmp_path / "out", "--workers", 1, "--json")
+    first = hoop(*line)
+    assert (first[0], first[2]) == (0, "")
+    DAMAGE[how](tmp_path / "out")
+    assert hoop(*line) == (0, first[1], f"hoop: 1 damaged result in {tmp_path / 'out'}: run again.\n")
+    assert hoop(*line) == first
+
+
+def test_the_folder_of_another_version_is_one_sentence(hoop, tmp_path):
+    (tmp_path / "out").mkdir()
+    with sqlite3.connect(tmp_path / "out" / "study.sqlite") as connection:
+        connection.execute("CREATE TABLE cases (key TEXT PRIMARY KEY, outcome TEXT)")
+    connection.close()
+    line = ("study", "sweep", sweep_file(tmp_path), "--out", tmp_path / "out", "--workers", 1, "--json")
+    status, out, err = hoop(*line)
+    assert (status, out) == (2, "")
+    assert is_one_sentence(err)
+    assert "another version" in err
+
+
+def test_parts_of_files_that_dead_processes_left_are_removed(tmp_path):
+    gone = subprocess.Popen([sys.executable, "-c", ""])
+    gone.wait()
+    histories = tmp_path / "histories"
+    histories.mkdir()
+    host = files._host()
+    dead, alive = (histories / f".part-{host}-{process}-abc_d.npz" for process in (gone.pid, os.getpid()))
+    old, young = (histories / f".part-else-where-{process}-abc.npz" for process in (1, 2))
+    for part in (dead, alive, old, young):
+        part.touch()
+    os.utime(old, (0, 0))
+    Store(tmp_path)
+    assert {path.name for path in histories.iterdir()} == {alive.name, young.name}
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_workers_of_other_sources_end_the_sweep(workers):
+    case = Case("rigid", load_scene("paper-3.1"), build="0.0+of-another-checkout")
+    with pool(workers) as place, pytest.raises(StudyError, match="of-another-checkout: they must agree"):
+        run_cases([case], place)
+
+
+def test_a_solver_that_was_edited_is_another_case(tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(tmp_path)
+    module = tmp_path / "edited_solver.py"
+    keys = []
+    for text in ("def solve(): pass\n", "def solve(): return 1\n"):
+        module.write_text(text)
+        build.cache_clear()
+        keys.append(Case("edited_solver:solve", load_scene("paper-3.1")).key)
+    assert keys[0] != keys[1]
+
+
+def test_workers_that_hang_or_die_are_ended_and_replaced():
+    processes = Processes(2)
+    hanging = processes.submit(time.sleep, 1000)
+    dying = processes.submit(os._exit, 3)
+    assert processes.submit(abs, -2).result(timeout=60) == 2
+    with pytest.raises(WorkerDied):
+        dying.result(timeout=60)
+    with pytest.raises(ZeroDivisionError):
+        processes.submit(divmod, 1, 0).result(timeout=60)
+    with pytest.raises(Exception, match="pickle"):
+        processes.submit(lambda: 0).result(timeout=60)
+    assert processes.submit(abs, -3).result(timeout=60) == 3
+    processes.stop()
+    assert hanging.exception(timeout=0) is not None

@@ -74,3 +74,10 @@ def deadly_once(scene: Scene, *, history: bool = False, progress: object = None)
         mark.touch()
         os.kill(os.getpid(), 9)
     return slow(scene)
+
+
+def leaving(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
+    """The same, but at k = 0.3 it wants to end the program."""
+    if scene.hoop.k == 0.3:
+        raise SystemExit("enough of it")
+    return softened(scene)

@@ -63,7 +63,7 @@ def scene_b(rtol: float = 1e-3, elements: int = 240, level: str = "reduced") -> 
         Release(2.9, 4.0 * sqrt(R)),
         Run(t_end=0.1426 / sqrt(R)),
         ring=Ring(bending_stiffness=BENDING),
-        contact=Contact(law="brush", stiffness=FOUNDATION, tangential_ratio=1.0),
+        contact=Contact(law="brush", stiffness=FOUNDATION, tangential_ratio=1.0, damping=0.0),
         solve=Solve(resolve="all", start="undeformed", rtol=rtol, elements=elements, level=level),
     )
 

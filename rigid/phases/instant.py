@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from math import inf
 
-from .kernel.angle import angle_of, trig
-from .kernel.compile import kernel
-from .kernel.layout import (  # fmt: skip
+from ..kernel.angle import angle_of, trig
+from ..kernel.compile import kernel
+from ..kernel.layout import (  # fmt: skip
     ANGLE,
     FLIGHT,
     GAP,
@@ -26,43 +26,41 @@ from .kernel.layout import (  # fmt: skip
     WIDTH,
     X_C,
     XDOT,
+    ZETA,
     T,
 )
-from .kernel.polynomial import polish, value
-from .phases.flight import fly
-from .phases.pointmass import drop, roll_point_mass
-from .phases.rolling import rolling_forces
-from .phases.rolling_phase import roll_on
-from .phases.slipping import JAM, ORDER, S_D, S_P, S_T, normal_force
-from .phases.slipping_phase import NOTHING_YET, carry, end_of_slip, step
-from .record.pulse import energy
+from ..kernel.polynomial import polish, value
+from ..record.pulse import energy
+from .flight import fly
+from .pointmass import drop, roll_point_mass, skimming_acceleration
+from .rolling import rolling_acceleration, rolling_forces
+from .rolling_phase import roll_on
+from .slipping import JAM, ORDER, S_D, S_P, S_T, normal_force, slipping_acceleration
+from .slipping_phase import NOTHING_YET, carry, end_of_slip, step
 
 MOST_STEPS = 400_000  # in one phase: beyond the work bound of the motion itself
-COLUMNS = 8  # phi, omega, x_C, height of the contact point, slip velocity, N, F, energy
+COLUMNS = 9  # phi, omega, x_C, height of the contact point, slip velocity, N, F, energy, phiddot
 
 
 @kernel
-def write_state(par, state, normal, friction, out, i):
+def write_state(par, state, normal, friction, alpha, out, i):
     """One row of ``out``."""
     j = i * COLUMNS
     out[j] = angle_of(state[ANGLE], state[TOP], state[WHOLE])
     out[j + 1], out[j + 2], out[j + 3] = state[OMEGA], state[X_C], state[GAP]
     out[j + 4], out[j + 5], out[j + 6], out[j + 7] = state[SLIP], normal, friction, energy(par, state)
+    out[j + 8] = alpha
 
 
 @kernel
-def entry_sample(par, phases, count, times, out, work, state, tape):
-    """Rows of ``out`` for increasing ``times``; ``phases`` are ``count`` records of the tape.
-
-    An instant that two phases share belongs to the later one.
+def entry_sample(par, phases, owner, times, out, work, state, tape):
+    """Rows of ``out`` for increasing ``times``; ``phases`` are records of the tape, of which ``owner`` says by
+    number which one each time belongs to.
     """
-    p = 0
     i = 0
     while i < len(times):
-        while p + 1 < count and phases[(p + 1) * WIDTH + 1] <= times[i]:
-            p += 1
+        p = owner[i]
         kind = phases[p * WIDTH]
-        until = phases[(p + 1) * WIDTH + 1] if p + 1 < count else inf
         for j in range(MOVING):
             state[j] = phases[p * WIDTH + 1 + j]
         start = state[T]
@@ -71,7 +69,7 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
             p_known = inf
             steps = 0
             state[SLIP_SCALE] = 0.0
-            while i < len(times) and times[i] < until:
+            while i < len(times) and owner[i] == p:
                 length = step(par, state, mu_hat, p_known, work)
                 length, event = end_of_slip(work, length, 1.0 if kind == SKID else -1.0)
                 tt = work[S_T]
@@ -85,40 +83,46 @@ def entry_sample(par, phases, count, times, out, work, state, tape):
                 elif work[S_D][0] <= JAM * par[GYR] or steps > MOST_STEPS:
                     duration = inf  # jammed: nothing moves in what is left of the phase
                 keep = (state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C], state[XDOT])
-                while i < len(times) and times[i] < until and times[i] <= before + duration:
+                while i < len(times) and owner[i] == p and times[i] <= before + duration:
                     x = 0.0
                     if times[i] > before and duration < inf:
                         tt[0] = before - times[i]
-                        x = polish(tt, ORDER, 0.0, length)
+                        # at the end of the step its time may be round-off short of what is asked for
+                        x = polish(tt, ORDER, 0.0, length) if value(tt, ORDER, length) > 0.0 else length
                         tt[0] = 0.0
                         carry(par, state, mu_hat, work, x)
                     # a tiny disk may lift off between two instants that the clock can tell: a contact never pulls
                     normal = max(0.0, normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP]))
-                    write_state(par, state, normal, -mu_hat * normal, out, i)
+                    alpha = slipping_acceleration(par, mu_hat, normal, state[ANGLE], state[TOP])
+                    write_state(par, state, normal, -mu_hat * normal, alpha, out, i)
                     state[T] = before
                     state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C], state[XDOT] = keep
                     i += 1
                 p_known = value(work[S_P], ORDER, length)
                 carry(par, state, mu_hat, work, length)
             continue
-        while i < len(times) and times[i] < until:
+        while i < len(times) and owner[i] == p:
             for j in range(MOVING):
                 state[j] = phases[p * WIDTH + 1 + j]
             time = times[i] - start
             normal = 0.0
             friction = 0.0
+            alpha = 0.0
             if kind == ROLL and par[GYR] > 0.0:
                 roll_on(par, state, time)
                 normal, friction = rolling_forces(par, state[OMEGA], state[ANGLE], state[TOP])
+                alpha = rolling_acceleration(par[ZETA], state[OMEGA], state[ANGLE], state[TOP])
             elif kind == ROLL:
                 roll_point_mass(par, state, tape, start + time)
                 s, _, h, _ = trig(state[ANGLE], state[TOP])
                 w = state[OMEGA] * state[OMEGA]
                 normal = h - 0.5 * (h + w * h)
                 friction = s * (1 - 0.5 * (1 + w))
+                alpha = rolling_acceleration(0.0, state[OMEGA], state[ANGLE], state[TOP])
             elif kind == FLIGHT:
                 fly(par, state, time)
             elif kind == SKIM:
                 drop(state, time)
-            write_state(par, state, normal, friction, out, i)
+                alpha = skimming_acceleration(state[OMEGA], state[ANGLE], state[TOP])
+            write_state(par, state, normal, friction, alpha, out, i)
             i += 1

@@ -1,0 +1,73 @@
+"""Compiling is told while it lasts, and its seconds are nobody's run time.
+
+It is told as a warning of the logger ``hoop-pulse``: on stderr where nothing else was arranged, in a script or a pipe
+as on a terminal.
+"""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from functools import cache
+from typing import Any
+
+SOLVERS = ("rigid", "flexible")
+
+_logger = logging.getLogger("hoop-pulse")
+_told: set[str] = set()
+_thread = threading.local()
+
+
+@cache
+def tell() -> None:
+    """From now on, say when a kernel of this project is being compiled."""
+    from numba.core import event
+
+    class Listener(event.Listener):
+        """Told by numba at the beginning and end of each function that it compiles and does not find on disk."""
+
+        def on_start(self, happening: Any) -> None:
+            _begin(happening.data["dispatcher"].py_func.__module__.partition(".")[0])
+
+        def on_end(self, happening: Any) -> None:
+            _end()
+
+    event.register("numba:compile", Listener())
+
+
+def _begin(package: str) -> None:
+    """A function is being compiled, perhaps as a part of another one."""
+    depth = getattr(_thread, "depth", 0)
+    ours = getattr(_thread, "ours", False)
+    if depth == 0:
+        _thread.ours = ours = package in SOLVERS
+        _thread.start = time.perf_counter()
+    _thread.depth = depth + 1
+    if depth == 0 and ours and package not in _told:
+        from .store import user_cache
+
+        _told.add(package)
+        folder, trouble = user_cache()
+        _logger.warning(
+            "hoop: compiling the %s solver for this machine, once: half a minute, or two if it is busy. Kept in %s%s.",
+            package,
+            folder,
+            f", as {trouble}" if trouble else "",
+        )
+
+
+def _end() -> None:
+    _thread.depth -= 1
+    if _thread.depth == 0 and _thread.ours:
+        _thread.seconds = compile_seconds() + time.perf_counter() - _thread.start
+
+
+def compile_seconds() -> float:
+    """Seconds that this thread has spent compiling kernels so far."""
+    return getattr(_thread, "seconds", 0.0)
+
+
+def running_clock() -> float:
+    """A clock that stands still while this thread compiles kernels."""
+    return time.perf_counter() - compile_seconds()

@@ -1,0 +1,65 @@
+"""The energy ledger of a flexible motion as an account that adds up, and what has to be said of the motion."""
+
+from __future__ import annotations
+
+import dataclasses
+from math import floor, log10
+from typing import TYPE_CHECKING
+
+from rigid import Kind
+
+if TYPE_CHECKING:
+    from flexible import FlexibleMotion
+
+HEADING = "Energy ledger: the first line is the sum of the others"
+
+NOTED = 1e-3
+"""Share of the energy from which on a hand-over is spoken of."""
+
+
+def account(motion: FlexibleMotion) -> list[tuple[str, str]]:
+    """Entries of the ledger by name, with as many decimals for all as give the largest seven digits."""
+    books = dataclasses.asdict(motion.ledger)
+    largest = max(map(abs, books.values()))
+    decimals = min(max(6 - floor(log10(largest)), 0), 300) if largest > 0 else 0
+    # the other zero has no sign
+    return [(name.replace("_", " "), f"{round(value, decimals) + 0.0:.{decimals}f}") for name, value in books.items()]
+
+
+def remarks(motion: FlexibleMotion) -> list[str]:
+    """Sentences on the ledger and on the phases."""
+    return [sentence for sentence in (_hand_over(motion), _chatter(motion)) if sentence]
+
+
+def _hand_over(motion: FlexibleMotion) -> str:
+    if motion.ledger.hand_over == 0:
+        return ""
+    scene, changed = motion.scene, abs(motion.ledger.hand_over)
+    said = (
+        "Hand over: energy that left (< 0: came in) where the rigid hoop, which stands for the flexible one between "
+        "pulses, gave way to it and came back."
+    )
+    held = max(abs(motion.ledger.initial), scene.energy_unit)
+    if changed > NOTED * held:
+        said += (
+            f" It is {changed / held:.1%} of the energy: sag, patch or vibration are too large to be left out between "
+            'pulses; solve.resolve = "all" keeps them.'
+        )
+    return said
+
+
+def _chatter(motion: FlexibleMotion) -> str:
+    from flexible.models.rim_contact import patch_period
+
+    scene = motion.scene
+    period = patch_period(scene) * scene.time_unit
+    flexible = [phase for pulse in motion.pulses for phase in getattr(pulse, "phases", ())]
+    hops = sum(phase.kind == Kind.FLIGHT and phase.t_end - phase.t_start < period for phase in flexible)
+    if not hops:
+        return ""
+    damping = scene.contact.damping
+    how = f"The contact, damped at {damping:g}," if damping > 0 else "The undamped contact"
+    return (
+        f"{how} chatters in the pulses: {hops} of their {len(flexible)} phases are hops shorter than a period of the "
+        f"patch's own vibration, {period:.3g}; a {'larger ' if damping > 0 else ''}contact.damping ends that."
+    )

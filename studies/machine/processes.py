@@ -1,0 +1,170 @@
+"""Processes of this machine that work side by side, each held by a thread that knows what it is at.
+
+The standard library's pool does not say which task a dead worker had, is broken as a whole by it, and offers no way
+to end a worker that hangs. Here a death is the failure of one task, and :meth:`Processes.stop` ends everything at
+once.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import queue
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
+from contextlib import contextmanager
+from multiprocessing.connection import Connection
+from multiprocessing.connection import wait as wait_for_any
+from multiprocessing.context import SpawnProcess
+from typing import Any
+
+_ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
+
+_STARTING = threading.Lock()
+
+Task = tuple[Callable[..., Any], tuple[Any, ...]]
+
+
+def cores() -> int:
+    """Cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+class WorkerDied(RuntimeError):
+    """The process that had a task is gone, and the task with it."""
+
+
+class Processes:
+    """``count`` worker processes; tasks go to whichever is free, in their order."""
+
+    def __init__(self, count: int) -> None:
+        self._tasks: queue.SimpleQueue[tuple[Task, Future[Any]] | None] = queue.SimpleQueue()
+        self._closing = threading.Event()
+        self._workers: dict[int, SpawnProcess] = {}
+        self._threads = [threading.Thread(target=self._hold, args=(slot,), daemon=True) for slot in range(count)]
+        for thread in self._threads:
+            thread.start()
+
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        """Have a worker call an importable function; a death of the worker is :class:`WorkerDied` in the future."""
+        future: Future[Any] = Future()
+        self._tasks.put(((function, arguments), future))
+        return future
+
+    def stop(self) -> None:
+        """End the workers now, whatever they are at; what they had is cancelled or dies with them."""
+        self._closing.set()
+        for _ in self._threads:
+            self._tasks.put(None)
+        with _STARTING:  # whoever is being started is started, and sees that it is too late
+            for worker in self._workers.values():
+                worker.kill()
+        for thread in self._threads:
+            thread.join()
+
+    def _hold(self, slot: int) -> None:
+        """One thread's work: hand tasks to one process and its answers to their futures, and replace it if it dies."""
+        _deaf_to_interrupts()
+        pipe: Connection | None = None
+        while (taken := self._tasks.get()) is not None:
+            task, future = taken
+            if self._closing.is_set() or not future.set_running_or_notify_cancel():
+                future.cancel()
+                continue
+            try:
+                pipe = pipe or self._start(slot)
+                pipe.send(task)
+                answer, error = self._answer(pipe, self._workers[slot])
+            except WorkerDied as death:
+                pipe, error = None, death
+            except OSError:  # it had died before it could be given the task
+                pipe, error = None, WorkerDied("its worker process died")
+            except Exception as unsendable:  # the task or its answer cannot be pickled
+                error = unsendable
+            if error is not None:
+                future.set_exception(error)
+            else:
+                future.set_result(answer)
+        if pipe is not None:
+            pipe.close()
+
+    def _start(self, slot: int) -> Connection:
+        """A new worker for a slot."""
+        # spawn: nothing of this process, its threads least of all, is inherited but the environment
+        context = multiprocessing.get_context("spawn")
+        ours, theirs = context.Pipe()
+        worker = context.Process(target=_work, args=(theirs,), daemon=True)
+        with _STARTING, _one_thread():
+            if self._closing.is_set():
+                raise WorkerDied("the pool is closed")
+            worker.start()
+            self._workers[slot] = worker
+        theirs.close()
+        return ours
+
+    @staticmethod
+    def _answer(pipe: Connection, worker: SpawnProcess) -> tuple[Any, BaseException | None]:
+        wait_for_any([pipe, worker.sentinel])
+        try:
+            if pipe.poll():  # also where it died just after it had answered
+                answer: tuple[Any, BaseException | None] = pipe.recv()
+                return answer
+        except (EOFError, OSError):
+            pass
+        worker.join()
+        raise WorkerDied("its worker process died")
+
+
+def _work(pipe: Connection) -> None:
+    """What a worker does: leave interrupts to the parent, end with it even if it is killed, and answer."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()
+    while True:
+        try:
+            function, arguments = pipe.recv()
+        except (EOFError, OSError):
+            return
+        except Exception as error:  # the task cannot be unpickled here
+            pipe.send((None, error))
+            continue
+        try:
+            answer: tuple[Any, BaseException | None] = (function(*arguments), None)
+        except Exception as error:
+            answer = (None, error)
+        try:
+            pipe.send(answer)
+        except (EOFError, OSError):
+            return
+        except Exception as error:  # what came out cannot be pickled
+            pipe.send((None, TypeError(f"the answer cannot be sent: {error}")))
+
+
+def _end_with(sentinel: int) -> None:
+    wait_for_any([sentinel])
+    os._exit(1)
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """The environment of a worker started meanwhile: one BLAS thread each, as there is a worker for every core."""
+    before = {name: os.environ.get(name) for name in _ONE_THREAD}
+    os.environ.update(_ONE_THREAD)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+
+
+def _deaf_to_interrupts() -> None:
+    """Processes that this thread starts are deaf to Ctrl-C from their first instruction, before they could say so
+    themselves."""
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})

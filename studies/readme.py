@@ -1,0 +1,293 @@
+"""The README's pictures and numbers, each with the command that makes it.
+
+    python -m studies.readme                    what there is, and which command makes it
+    python -m studies.readme --pictures         make the pictures anew, into .images
+    python -m studies.readme --check            run the commands of the numbers; exit 1 where the README says another
+    python -m studies.readme --only distance.png --only brush ...
+
+A command runs once, however many pictures and numbers it makes. For developers: it needs a checkout.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cache, partial
+from pathlib import Path
+from typing import Any
+
+import click
+
+from .running.files import StudyError, write_whole
+
+ROOT = Path(__file__).parent.parent
+IMAGES = ROOT / ".images"
+
+STUDY = "hoop study stiffness paper-3.3-massless --json --out study"
+BRUSH = "hoop study stiffness paper-3.3-massless --law brush --json"
+UNDAMPED = "hoop study stiffness paper-3.3-massless --damping 0 --json"
+PULSE = "hoop flexible paper-3.3-light --out first-pulse --fields"
+FILM = "hoop view first-pulse --gif first-pulse.gif --field hoop_stress --frames 90"
+RIGID = "hoop bench rigid --peers --json --out bench"
+FLEXIBLE = "hoop bench flexible --peers --json --out bench"
+SCALING = "hoop bench scaling --json --out bench"
+STRESS = "hoop stress --scenes 1200 --seed 4 --json --out stress"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A file of .images."""
+
+    name: str
+    commands: tuple[str, ...]
+    """What makes it, in this order, in an empty folder."""
+    made: str
+    """Where they leave it."""
+
+
+PICTURES = (
+    Picture("pulse.png", (STUDY,), "study/pulse.png"),
+    Picture("impulses.png", (STUDY,), "study/impulses.png"),
+    Picture("distance.png", (STUDY,), "study/distance.png"),
+    Picture("first-pulse.gif", (PULSE, FILM), "first-pulse.gif"),
+    Picture("bench-rigid.png", (RIGID,), "bench/bench-rigid.png"),
+    Picture("bench-flexible.png", (FLEXIBLE,), "bench/bench-flexible.png"),
+    Picture("bench-scaling.png", (SCALING,), "bench/bench-scaling.png"),
+    Picture("margins.png", (STRESS,), "stress/stress.png"),
+)
+
+
+@dataclass(frozen=True)
+class Stated:
+    """A number that the README states."""
+
+    table: str
+    """The table or paragraph that it stands in."""
+    words: str
+    """A regular expression that finds it; its one group is the number as it is written."""
+    command: str
+    value: Callable[[Any], float]
+    """The number, in what the command prints."""
+    factor: float = 1.0
+    """How many times more or less it may be, for what the machine's load moves; 1 is to the last digit stated."""
+
+    def written(self, readme: str) -> str | None:
+        found = re.search(self.words, readme)
+        return found[1] if found else None
+
+    def agrees(self, written: str, now: float) -> bool:
+        """Whether the README's number is what is printed now."""
+        stated = plain_number(written)
+        if self.factor > 1:
+            return abs(stated) / self.factor <= abs(now) <= abs(stated) * self.factor
+        return abs(stated - now) <= 0.5001 * last_digit(written)
+
+
+_RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+
+
+def plain_number(written: str) -> float:
+    """A number as the README writes them: 0.1701, 5·10⁻⁵, 10⁻⁴, −0.93."""
+    text = written.replace("−", "-").strip()
+    found = re.fullmatch(r"(?:(-?[\d.]+)·)?10([⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+)", text)
+    if found:
+        return float(found[1] or 1) * 10.0 ** int(found[2].translate(_RAISED))
+    return float(text)
+
+
+def last_digit(written: str) -> float:
+    """What one unit of the last digit is worth."""
+    mantissa, _, power = written.replace("−", "-").partition("·")
+    digits = len(mantissa.partition(".")[2])
+    return 10.0**-digits * (plain_number(power) if power else 1.0)
+
+
+def _rung(power: int, name: str) -> Callable[[Any], float]:
+    """A measure at the rung of foundation 10^power."""
+
+    def value(study: Any) -> float:
+        near = min(study["cases"], key=lambda case: abs(case["contact_stiffness"] / 10.0**power - 1))
+        return float(near[name])
+
+    return value
+
+
+def _limit(measure: str, name: str) -> Callable[[Any], float]:
+    return lambda study: float(study["limit"][measure][name])
+
+
+def _row(of: str, solver: str, setting: str, scene: str = "") -> Callable[[Any], float]:
+    """A column of the benchmark's row whose solver, setting and scene begin so."""
+
+    def value(bench: Any) -> float:
+        asked = {"solver": solver, "setting": setting, "scene": scene}
+        row = next(row for row in bench["rows"] if all(row[name].startswith(words) for name, words in asked.items()))
+        return float(row[of])
+
+    return value
+
+
+def _ratio(words: str) -> Callable[[Any], float]:
+    """A stated ratio of a benchmark, by how its name begins."""
+    return lambda bench: next(float(r["measured"]) for name, r in bench["ratios"].items() if name.startswith(words))
+
+
+def _ends(pick: Callable[[list[float]], float]) -> Callable[[Any], float]:
+    """Of J_F/J_N at foundations of 10^10 and more."""
+    return lambda study: pick([c["impulse_ratio"] for c in study["cases"] if c.get("contact_stiffness", 0) > 0.99e10])
+
+
+def _ladder() -> list[Stated]:
+    """The table under "What the numbers mean"."""
+    number = r"([\d.]+)"
+    stated = []
+    for power, label in (
+        (7, r"flexible, foundation 10⁷[^|]*"),
+        (10, r"flexible, 10¹⁰[^|]*"),
+        (13, r"flexible, 10¹³[^|]*"),
+    ):
+        stated += [
+            Stated("limit", rf"\| {label} \| {number} \|", STUDY, _rung(power, "impulse_ratio")),
+            Stated("limit", rf"\| {label} \| [\d.]+ \| {number} \|", STUDY, _rung(power, "friction_loss")),
+        ]
+    fit, pair = r"\| limit, fitted[^|]*", r"[\d.]+ ± [\d.]+ \|"
+    for place, name in ((f"{fit} \\| ", "impulse_ratio"), (f"{fit} \\| {pair} ", "friction_loss")):
+        stated += [
+            Stated("limit", rf"{place}{number} ±", STUDY, _limit(name, "value")),
+            Stated("limit", rf"{place}[\d.]+ ± {number} \|", STUDY, _limit(name, "uncertainty")),
+        ]
+    stated += [
+        Stated("limit", rf"\| rigid \| {number} \|", STUDY, _limit("impulse_ratio", "rigid")),
+        Stated("limit", rf"\| rigid \| [\d.]+ \| {number} \|", STUDY, _limit("friction_loss", "rigid")),
+    ]
+    return stated
+
+
+_POWER = r"((?:[\d.]+·)?10[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+|[\d.]+)"
+
+NUMBERS: tuple[Stated, ...] = (
+    *_ladder(),
+    Stated("brush", r"instead of 0.35: ([\d.]+) ±", BRUSH, _limit("impulse_ratio", "value")),
+    Stated("brush", r"instead of 0.35: [\d.]+ ± ([\d.]+) against", BRUSH, _limit("impulse_ratio", "uncertainty")),
+    Stated("brush", r"± [\d.]+ against ([\d.]+\d)", BRUSH, _limit("impulse_ratio", "rigid")),
+    Stated("brush", r"hoop with μ_s = ([\d.]+) instead", BRUSH, lambda study: float(study["reference"]["mu_s"])),
+    Stated("undamped", r"stays at ([\d.]+) to [\d.]+ from", UNDAMPED, _ends(min)),
+    Stated("undamped", r"stays at [\d.]+ to ([\d.]+) from", UNDAMPED, _ends(max)),
+    Stated("rigid", r"\| one call, compiled \| ([\d.]+) ms", RIGID,
+           lambda b: 1e3 * _row("seconds_median", "hoop-pulse", "one call", "k = 0.1")(b), 2.0),
+    Stated("rigid", r"both cores \| ([\d.]+) ms", RIGID,
+           lambda b: 1e3 * _row("seconds_median", "hoop-pulse", "batch", "k = 0.1")(b), 2.0),
+    Stated("rigid", rf"\| one call, compiled \| [\d.]+ ms \| {_POWER} \|", RIGID,
+           _row("error", "hoop-pulse", "one call", "k = 0.1"), 3.0),
+    Stated("rigid", r"One call is ([\d.]+) times as fast", RIGID, _ratio("rigid: faster than scipy"), 1.5),
+    Stated("rigid", r"a batch ([\d.]+) times per scene", RIGID, _ratio("rigid: faster per scene in a batch"), 1.5),
+    Stated("rigid", r"costs ([\d.]+) times", RIGID, _ratio("rigid: cost of k = 1e-5"), 1.3),
+    Stated("flexible", r"rtol 10⁻³ \| ([\d.]+) s \|", FLEXIBLE,
+           _row("seconds_median", "hoop-pulse reduced", "rtol 1e-03"), 2.0),
+    Stated("flexible", rf"\| reduced, rtol 10⁻³ \| [\d.]+ s \| {_POWER} \|", FLEXIBLE,
+           _row("error", "hoop-pulse reduced", "rtol 1e-03"), 2.0),
+    Stated("flexible", r"That is ([\d.]+) times Exudyn", FLEXIBLE, _ratio("flexible: faster than Exudyn"), 1.5),
+    Stated("scaling", r"grows like stiffness\^([−\d.]+)", SCALING,
+           lambda b: next(float(p) for name, p in b["exponents"].items() if "stiffness" in name), 5.0),
+)  # fmt: skip
+"""Numbers that are held to what is printed. Of tables of times the ones that the text draws on."""
+
+
+class Bench:
+    """A folder in which commands run, each once."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.printed = cache(self._run)
+
+    def _run(self, command: str) -> str:
+        """What a command prints.
+
+        Raises
+        ------
+        StudyError
+            It failed.
+        """
+        click.echo(f"$ {command}", err=True)
+        start = [sys.executable, "-c", "from studies.cli import main; main()"]
+        done = subprocess.run(
+            [*start, *shlex.split(command)[1:]], cwd=self.folder, stdout=subprocess.PIPE, text=True, check=False
+        )
+        if done.returncode:
+            raise StudyError(f"{command} ended with {done.returncode}.")
+        return done.stdout
+
+
+def make(pictures: Sequence[Picture], bench: Bench, into: Path = IMAGES) -> None:
+    """Make pictures; each is replaced whole once it is there."""
+    for picture in pictures:
+        for command in picture.commands:
+            bench.printed(command)
+        made = bench.folder / picture.made
+        if not made.is_file():
+            raise StudyError(f"{picture.commands[-1]} left no {picture.made}.")
+        write_whole(into / picture.name, partial(shutil.copyfile, made))
+        click.echo(f"{picture.name}: made")
+
+
+def check(numbers: Sequence[Stated], bench: Bench, readme: str) -> int:
+    """Print each number of the README beside today's; how many differ or are no longer there."""
+    wrong = 0
+    for stated in numbers:
+        written = stated.written(readme)
+        if written is None:
+            wrong += 1
+            click.echo(f"{stated.table}: the README has nothing like {stated.words}")
+            continue
+        try:
+            now = stated.value(json.loads(bench.printed(stated.command)))
+        except (StudyError, LookupError, StopIteration, TypeError, ValueError) as error:
+            wrong += 1
+            click.echo(f"{stated.table}: {written}, but not to be had today: {type(error).__name__} {error}")
+            continue
+        agrees = stated.agrees(written, now)
+        wrong += not agrees
+        click.echo(f"{stated.table}: {written}, now {now:.6g}{'' if agrees else ': DIFFERS'}")
+    return wrong
+
+
+@click.command()
+@click.option("--pictures", is_flag=True, help="Make the pictures anew.")
+@click.option("--check", "checking", is_flag=True, help="Compare the README's numbers with today's.")
+@click.option("--only", multiple=True, metavar="NAME", help="Only this picture or table; may be given several times.")
+@click.option("--folder", type=click.Path(path_type=Path), help="Where the commands run and leave their files.")
+def main(pictures: bool, checking: bool, only: tuple[str, ...], folder: Path | None) -> None:
+    """The README's pictures and numbers, and the commands that make them."""
+    wanted = [picture for picture in PICTURES if not only or picture.name in only]
+    numbers = [stated for stated in NUMBERS if not only or stated.table in only]
+    if not wanted and not numbers:
+        raise click.UsageError(f"{', '.join(only)} is no picture and no table of the README.")
+    if not (pictures or checking):
+        for picture in wanted:
+            click.echo(f"{picture.name:20} {' && '.join(picture.commands)}")
+        for table in dict.fromkeys((stated.table, stated.command) for stated in numbers):
+            click.echo("{:20} {}".format(*table))
+        return
+    with tempfile.TemporaryDirectory(prefix="readme-") as temporary:
+        place = folder or Path(temporary)
+        place.mkdir(parents=True, exist_ok=True)
+        bench = Bench(place)
+        try:
+            if pictures:
+                make(wanted, bench)
+            wrong = check(numbers, bench, (ROOT / "README.md").read_text(encoding="utf-8")) if checking else 0
+        except StudyError as error:
+            raise click.ClickException(str(error)) from None
+    if wrong:
+        raise click.ClickException(f"{wrong} of {len(numbers)} numbers of the README are not what is printed today.")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,35 @@
+"""A flexible pulse in which the run ends is measured as far as it was run, and marked."""
+
+from __future__ import annotations
+
+from math import isnan
+
+import pytest
+
+import flexible
+import rigid
+
+SCENE = rigid.load_scene("paper-3.3-massless").replace(solve={"rtol": 1e-3})
+
+
+@pytest.mark.parametrize("share", [0.3, 0.7])
+def test_cut_by_the_end_of_the_run(share):
+    """The rigid hoop over the same time has J_N within a few per cent: the patch shifts events by about its width."""
+    whole = rigid.simulate(SCENE.replace(run={"until": "pulse"})).pulses[0]
+    t_end = whole.t_start + share * (whole.t_end - whole.t_start)
+    motion = flexible.simulate(SCENE.replace(run={"t_end": t_end}))
+    assert motion.completed
+    assert motion.t_end == pytest.approx(t_end, rel=1e-9)
+    (pulse,) = motion.pulses
+    assert pulse.cut
+    assert isnan(pulse.newton_restitution)
+    assert pulse.t_end == motion.t_end
+    stiff = rigid.simulate(SCENE.replace(run={"t_end": t_end})).pulses[0]
+    assert stiff.cut
+    assert pulse.normal_impulse == pytest.approx(stiff.normal_impulse, rel=0.1)
+
+
+def test_a_whole_pulse_is_not_marked():
+    (pulse,) = flexible.simulate(SCENE.replace(run={"until": "pulse"})).pulses
+    assert not pulse.cut
+    assert not isnan(pulse.newton_restitution)

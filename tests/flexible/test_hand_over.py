@@ -1,0 +1,75 @@
+"""The hand-over takes the phase that its forces belong to, and rates over a time that follows the pulse."""
+
+from math import radians
+
+import numpy as np
+import pytest
+
+import flexible
+import rigid
+from flexible.handover import hand_over, pose_at
+from flexible.models.reduced import ReducedHoop
+from rigid import Friction, Hoop, Kind, Release, Run, Scene
+
+
+def stiff(k):
+    """A first pulse of a massless hoop whose ring all but stands still and whose patch is thin beside the disk."""
+    scene = Scene(Hoop(k, 1.02), Friction(0.35, 0.3), Release(radians(10)), Run(until="pulse"))
+    return scene.replace(ring={"bending_stiffness": 1e14}, contact={"stiffness": 1e10 * (0.1 / k) ** 2})
+
+
+def test_a_pose_at_a_boundary_is_of_one_phase():
+    """Phase and forces of the later one, or of the earlier where that is asked for."""
+    motion = rigid.simulate(stiff(0.1))
+    for before, after in zip(motion.phases[:-1], motion.phases[1:], strict=True):
+        t = after.t_start
+        for side, phase in (("left", before), ("right", after)):
+            pose = pose_at(motion, t, side)
+            assert pose.kind == phase.kind
+            if phase.kind != Kind.ROLL:
+                assert abs(pose.friction_force / pose.normal_force) == pytest.approx(0.3, rel=1e-9)
+    assert pose_at(motion, after.t_start).kind == after.kind
+
+
+@pytest.mark.parametrize("k", [0.1, 0.01, 1e-3])
+@pytest.mark.parametrize("place", ["early", "late", "at a boundary"])
+def test_rate_of_the_patch(k, place):
+    """Under N = (4/3) eps d sqrt(2 d) a rigid ring sinks at d' = (2/3) d N'/N, with the rigid hoop's N'.
+
+    Its pulse takes k^2, and N jumps where its phases meet. The patch's 24 points ripple by parts of a thousand, the
+    ring yields a little: 1 %.
+    """
+    scene = stiff(k)
+    motion = rigid.simulate(scene)
+    pulse = motion.pulses[0]
+    shares = {"early": 0.1, "late": 0.6}
+    t = pulse.t_start + shares.get(place, 0) * (pulse.t_end - pulse.t_start)
+    if place == "at a boundary":
+        t = motion.phases[-1].t_start
+        assert pulse.t_start < t < pulse.t_end
+    state = hand_over(ReducedHoop(scene), motion, t, "patch")
+    h = 1e-4 * k**2
+    n = motion.at(t + h * np.arange(3)).normal_force
+    rate = (-3 * n[0] + 4 * n[1] - n[2]) / (2 * h)
+    assert state.vel[1] == pytest.approx(2 / 3 * state.pos[1] * rate / n[0], rel=1e-2)
+
+
+def test_acceleration_of_a_flexible_motion():
+    """phiddot is the solver's own, the slope of its phidot: trapezoids add up to the change of phidot between events.
+
+    Steps of second order that keep impulses to rtol = 1e-4 keep this to 1e-3 of the largest phidot.
+    """
+    scene = rigid.load_scene("paper-3.3-heavier").replace(run={"until": "pulse"})
+    motion = flexible.simulate(scene, history=True)
+    history = motion.history
+    t, alpha, omega = history.t, history.alpha, history.omega
+    change = np.concatenate([[0.0], np.cumsum((alpha[1:] + alpha[:-1]) / 2 * np.diff(t))])
+    assert np.abs(omega - omega[0] - change).max() < 1e-3 * np.abs(omega).max()
+    # and motion.at gives it, on both sides of an event, which left two records of one time
+    twice = np.flatnonzero(np.diff(t) == 0)
+    assert len(twice)
+    for i in twice:
+        assert float(motion.at(t[i], "left").alpha) == alpha[i]
+        assert float(motion.at(t[i]).alpha) == alpha[i + 1]
+    before = motion.at(t[0] / 2)
+    assert float(before.alpha) == float(rigid.simulate(scene).at(t[0] / 2).alpha)

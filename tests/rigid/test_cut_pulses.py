@@ -1,0 +1,105 @@
+"""A pulse in which the run begins or ends is listed as far as it was run, and told from a whole one."""
+
+from __future__ import annotations
+
+from math import isnan, pi
+
+import numpy as np
+import pytest
+
+from rigid import Friction, Hoop, Release, Run, Scene, load_scene, simulate, simulate_batch
+from studies.running.case import Case, run_case
+
+SCENE = load_scene("paper-3.1")
+
+
+@pytest.fixture(scope="module")
+def whole():
+    return simulate(SCENE).pulses[0]
+
+
+def quadrature(motion, pulse):
+    """Integrals of N and F by Gauss over the phases within a pulse."""
+    nodes, weights = np.polynomial.legendre.leggauss(30)
+    edges = {pulse.t_start, pulse.t_end} | set(np.linspace(pulse.t_start, pulse.t_end, 20))
+    edges |= {p.t_start for p in motion.phases if pulse.t_start < p.t_start < pulse.t_end}
+    sums = np.zeros(2)
+    for a, b in zip(sorted(edges), sorted(edges)[1:], strict=False):
+        states = motion.at(0.5 * (a + b) + 0.5 * (b - a) * nodes)
+        sums += 0.5 * (b - a) * np.array([weights @ states.normal_force, weights @ states.friction_force])
+    return sums
+
+
+@pytest.mark.parametrize("t_end", [5.70, 5.75])
+def test_cut_by_the_end(whole, t_end):
+    """Before the bottom (passed at 5.74) and behind it: listed up to the end, with its own impulses."""
+    assert whole.t_start < t_end < whole.t_end
+    motion = simulate(SCENE.replace(run={"t_end": t_end}))
+    (pulse,) = motion.pulses
+    assert pulse.cut
+    assert (pulse.t_start, pulse.t_end) == (whole.t_start, t_end)
+    # two ways to the same integral; Gauss with 30 nodes on smooth panels leaves round-off
+    assert quadrature(motion, pulse) == pytest.approx([pulse.normal_impulse, pulse.friction_impulse], rel=1e-9)
+    assert isnan(pulse.newton_restitution)
+    assert motion.to_dict()["pulses"][0]["cut"] is True
+
+
+@pytest.mark.parametrize("offset", [-0.05, 0.05])
+def test_cut_by_the_release(offset):
+    """Released inside the pulse, before its bottom and behind it."""
+    scene = Scene(Hoop(0.1), Friction(0.5, 0.4), Release(pi + offset, 5.0), Run(turns=2))
+    motion = simulate(scene)
+    assert float(motion.at(0.0).normal_force) > 1
+    assert motion.pulses[0].cut
+    assert motion.pulses[0].t_start == 0
+    assert not any(pulse.cut for pulse in motion.pulses[1:])
+    first = motion.pulses[0]
+    assert quadrature(motion, first) == pytest.approx([first.normal_impulse, first.friction_impulse], rel=1e-9)
+
+
+def test_the_two_halves_of_a_pulse_add_up_to_it(whole):
+    """Cut anywhere and released again there: the impulses and the loss of the halves add up to the whole."""
+    t = 5.74
+    state = simulate(SCENE).at(t)
+    first = simulate(SCENE.replace(run={"t_end": t})).pulses[0]
+    release = Release(float(state.phi), float(state.omega), float(state.slip_velocity))
+    second = simulate(SCENE.replace(release=release, run={"turns": 1})).pulses[0]
+    assert first.cut
+    assert second.cut
+    for name in ("normal_impulse", "friction_impulse", "friction_loss"):
+        # a restart carries the round-off of phi ~ 1e-16 into forces that change over k ~ 0.1
+        assert getattr(first, name) + getattr(second, name) == pytest.approx(getattr(whole, name), rel=1e-9)
+
+
+def test_whole_pulses_are_not_marked(whole):
+    assert not whole.cut
+    assert not any(pulse.cut for pulse in simulate(SCENE.replace(run={"turns": 4})).pulses)
+
+
+def test_until_the_first_pulse_waits_for_a_whole_crossing():
+    """What is left of a pulse when the disk is released behind the bottom does not end such a run."""
+    motion = simulate(Scene(Hoop(0.3), Friction(0.5, 0.4), Release(pi, 0.5), Run(until="pulse")))
+    assert [pulse.cut for pulse in motion.pulses] == [True, False]
+    assert motion.t_end == motion.pulses[1].t_end
+
+
+def test_a_batch_marks_them_too():
+    batch = simulate_batch([SCENE], t_end=5.75)
+    assert batch.pulse_count[0] == 1
+    assert batch.cut[0, 0] == 1
+    assert batch.normal_impulse[0, 0] == simulate(SCENE.replace(run={"t_end": 5.75})).pulses[0].normal_impulse
+    assert simulate_batch([SCENE], turns=2).cut[0, 0] == 0
+
+
+def test_studies_measure_whole_pulses_only():
+    cut = run_case(Case("rigid", SCENE.replace(run={"t_end": 5.75})))
+    assert cut.failure == ""
+    assert cut.pulses == ()
+    assert cut.motion["pulses"][0]["cut"] is True
+
+
+def test_energy_gained_in_a_pulse_would_show():
+    """The loss is the difference of two energies and nothing hides its sign: rolling leaves round-off, either way."""
+    scene = load_scene("paper-3.2-k0.75").replace(run={"turns": 40})
+    losses = np.array([pulse.friction_loss for pulse in simulate(scene).pulses])
+    assert np.abs(losses).max() < 1e-14

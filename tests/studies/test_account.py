@@ -1,0 +1,52 @@
+"""The energy ledger as it is printed, and what is said of it."""
+
+import pytest
+
+import flexible
+from rigid import load_scene
+from studies.cli.account import account, remarks
+
+SCENE = load_scene("paper-3.3-massless").replace(run={"until": "pulse"}, solve={"rtol": 1e-3})
+
+
+@pytest.fixture(scope="module")
+def chattering():
+    """Undamped: it hops some ten times behind the stick."""
+    return flexible.simulate(SCENE.replace(contact={"damping": 0.0}))
+
+
+def test_the_printed_column_adds_up_to_its_first_line(chattering):
+    names, shown = zip(*account(chattering), strict=True)
+    assert names[0] == "initial"
+    decimals = {len(text.partition(".")[2]) for text in shown}
+    assert len(decimals) == 1
+    values = [float(text) for text in shown]
+    # half a digit for every line
+    assert values[0] == pytest.approx(sum(values[1:]), abs=len(values) / 2 * 10 ** -decimals.pop())
+    assert values[0] == pytest.approx(chattering.ledger.initial, rel=1e-6)
+
+
+def test_an_account_in_joules_has_as_many_digits():
+    """Seven of the largest entry."""
+    si = SCENE.replace(hoop={"R": 0.3, "m": 2e-3, "g": 9.81})
+    motion = flexible.simulate(si)
+    assert float(dict(account(motion))["initial"]) == pytest.approx(motion.ledger.initial, rel=1e-6)
+    assert motion.ledger.initial < 10 * si.energy_unit < 0.1
+
+
+def test_chatter_is_told_and_that_damping_ends_it(chattering):
+    hops = sum(phase.kind.value == "flight" for phase in chattering.pulses[0].phases)
+    assert hops > 3
+    (sentence,) = [text for text in remarks(chattering) if "chatter" in text]
+    assert f"{hops} of their {len(chattering.pulses[0].phases)} phases" in sentence
+    assert "contact.damping" in sentence
+    assert not any("chatter" in text for text in remarks(flexible.simulate(SCENE)))
+
+
+def test_a_hand_over_is_flagged_where_it_is_large():
+    """On a soft floor the sag alone is more than a thousandth of the energy."""
+    for foundation, flagged in ((1e5, True), (1e10, False)):
+        scene = SCENE.replace(contact={"stiffness": foundation}, ring={"bending_stiffness": 1e5})
+        motion = flexible.simulate(scene)
+        assert (abs(motion.ledger.hand_over) > 1e-3 * motion.ledger.initial) == flagged
+        assert any("of the energy" in text for text in remarks(motion)) == flagged

@@ -1,0 +1,58 @@
+"""The README's pictures and numbers have a command each, and their comparison finds a wrong one."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from studies import readme
+
+TEXT = (readme.ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def test_every_picture_has_its_command_and_none_is_unused():
+    shown = set(re.findall(r"\]\(\.images/([^)]+)\)", TEXT))
+    assert shown == {picture.name for picture in readme.PICTURES}
+    assert shown == {path.name for path in readme.IMAGES.iterdir()}
+
+
+def test_every_number_is_found_in_the_readme_and_can_be_read():
+    for stated in readme.NUMBERS:
+        written = stated.written(TEXT)
+        assert written is not None, stated.words
+        assert stated.agrees(written, readme.plain_number(written))
+
+
+@pytest.mark.parametrize(
+    ("written", "value", "unit"),
+    [("0.1701", 0.1701, 1e-4), ("5·10⁻⁵", 5e-5, 1e-5), ("10⁻⁴", 1e-4, 1.0), ("−0.93", -0.93, 1e-2), ("190", 190, 1)],
+)
+def test_numbers_as_people_write_them(written, value, unit):
+    assert readme.plain_number(written) == pytest.approx(value)
+    assert readme.last_digit(written) == pytest.approx(unit)
+
+
+def test_a_number_that_differs_is_told(capsys):
+    stated = readme.Stated("limit", r"is ([\d.]+)", "command", lambda found: found["y"])
+    bench = readme.Bench(Path())
+    bench.printed = lambda command: json.dumps({"y": 0.17004})
+    assert readme.check([stated], bench, "it is 0.1700") == 0
+    assert readme.check([stated], bench, "it is 0.1701") == 1
+    assert "DIFFERS" in capsys.readouterr().out
+    assert readme.check([stated], bench, "it was never said") == 1
+    bench.printed = lambda command: "{}"
+    assert readme.check([stated], bench, "it is 0.1700") == 1
+
+
+def test_a_picture_is_made_by_its_command(tmp_path):
+    (tmp_path / "images").mkdir()
+    picture = readme.Picture("ring.msh", ("hoop scenes", "hoop rigid paper-3.1 --out here"), "here/pulse.png")
+    readme.make([picture], readme.Bench(tmp_path), tmp_path / "images")
+    assert (tmp_path / "images" / "ring.msh").stat().st_size > 10_000
+    with pytest.raises(readme.StudyError, match=r"left no here/nothing"):
+        readme.make([readme.Picture("a", ("hoop scenes",), "here/nothing")], readme.Bench(tmp_path), tmp_path)
+    with pytest.raises(readme.StudyError, match="ended with 2"):
+        readme.make([readme.Picture("a", ("hoop rigid nothing",), "a")], readme.Bench(tmp_path), tmp_path)

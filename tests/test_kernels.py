@@ -1,0 +1,220 @@
+"""Compiled kernels: kept outside the package, never stale, compiled once, and told."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from concurrent.futures import Future
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+import flexible
+import rigid
+from rigid.kernel import announce, store
+
+ROOT = Path(__file__).parent.parent
+CALLEE = "flexible/contact/normal.py"
+
+# A kernel of flexible.contact.assembly and the one that it calls in flexible.contact.normal: one point on the floor
+# whose own gap alone moves its force, so that the result is -(way - slip)/elastic times the diagonal: -0.5*3 = -1.5.
+PROGRAM = """
+import numpy as np
+from flexible.contact.assembly import slip_by_gaps
+from flexible.contact.detection import Points
+from flexible.contact.normal import Foundation
+from rigid.kernel.announce import compile_seconds
+whole, real = np.zeros(1, np.int64), np.zeros(1)
+kinds = {"number": whole, "last": np.ones(1, np.bool_), "local": whole, "shape": np.zeros((1, 3))}
+points = Points(*[kinds.get(name, real) for name in Points._fields])
+foundation = Foundation(np.ones(1), np.full(1, 3.0), real, 0.0, 1.0)
+up = np.zeros((1, 5))
+up[0, 0] = 1.0
+print(slip_by_gaps(points, np.ones(1), foundation, 0.0, 2.0, up, 3)[0], compile_seconds() > 0)
+"""
+
+
+def copy_of_the_packages(folder: Path) -> Path:
+    """The two solvers, as if installed into ``folder``; without the face of ``flexible``, for nothing but kernels."""
+    for package in ("rigid", "flexible"):
+        shutil.copytree(ROOT / package, folder / package, ignore=shutil.ignore_patterns("__pycache__"))
+    (folder / "flexible" / "__init__.py").write_text("")
+    (folder / "flexible" / "contact" / "__init__.py").write_text("")
+    return folder
+
+
+def run(installation: Path, cache: Path, **environment: str) -> tuple[float, bool, str]:
+    """The kernel's result, whether something was compiled for it, and what stderr says; from another folder."""
+    variables = {"PYTHONPATH": str(installation), "NUMBA_CACHE_DIR": str(cache), **environment}
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM],
+        cwd=installation.parent,
+        env={**os.environ, **variables},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stderr
+    number, compiled = done.stdout.split()
+    return float(number), compiled == "True", done.stderr
+
+
+def files(folder: Path) -> set[Path]:
+    return {path.relative_to(folder) for path in folder.rglob("*") if path.is_file()}
+
+
+class Warm(NamedTuple):
+    """An installation that has run once, and what was seen."""
+
+    installation: Path
+    cache: Path
+    compiled: bool
+    said: str
+    before: set[Path]
+
+
+@pytest.fixture(scope="module")
+def warm(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("warm")
+    installation, cache = copy_of_the_packages(folder / "installation"), folder / "cache"
+    before = files(installation)
+    number, compiled, said = run(installation, cache, PYTHONDONTWRITEBYTECODE="1")
+    assert number == -1.5
+    return Warm(installation, cache, compiled, said, before)
+
+
+def test_compiled_is_told_once_and_kept_outside_the_package(warm):
+    assert warm.compiled
+    assert warm.said.count("\n") == 1
+    assert warm.said.startswith("hoop: compiling the flexible solver")
+    assert files(warm.installation) == warm.before
+
+
+def test_a_changed_callee_is_never_served_from_the_cache(tmp_path, warm):
+    """Nor are the same sources compiled again, wherever they stand."""
+    installation, cache = copy_of_the_packages(tmp_path / "copy"), tmp_path / "cache"
+    shutil.copytree(warm.cache, cache)
+    assert run(installation, cache) == (-1.5, False, "")
+    text = (installation / CALLEE).read_text(encoding="utf-8")
+    edited = text.replace("row[1] -= factor * foundation.diagonal", "row[1] -= 2 * factor * foundation.diagonal")
+    assert edited != text
+    (installation / CALLEE).write_text(edited, encoding="utf-8")
+    assert run(installation, cache)[:2] == (-3.0, True)
+
+
+def test_kernels_beside_a_shared_installation_are_used(tmp_path, warm):
+    """By a user whose own cache cannot be written either: a file stands where the folder should be."""
+    installation = copy_of_the_packages(tmp_path / "shared")
+    shutil.copytree(warm.cache / store.NAME, installation / store.SHARED)
+    (tmp_path / "file").write_text("")
+    home = dict.fromkeys(("HOME", "XDG_CACHE_HOME", "LOCALAPPDATA", "USERPROFILE"), str(tmp_path / "home"))
+    assert run(installation, tmp_path / "file" / "cache", **home) == (-1.5, False, "")
+    assert (tmp_path / "file").read_text() == ""
+
+
+def test_another_folder_than_expected_is_told(tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "file" / "cache"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setenv("HOME", str(tmp_path))
+    folder, trouble = store.user_cache.__wrapped__()
+    assert not folder.is_relative_to(tmp_path / "file")
+    assert "cannot be written" in trouble
+
+
+def test_the_fingerprint_covers_every_source_and_nothing_else(tmp_path):
+    stage = ROOT / "flexible" / "models" / "stage.py"
+    covered = store.sources([stage])
+    assert ROOT / CALLEE in covered
+    assert ROOT / "flexible" / "solve.py" not in covered
+    assert all(path.is_relative_to(ROOT) for path in covered)
+    # constants enter a kernel too
+    assert ROOT / "rigid" / "kernel" / "layout.py" in store.sources([ROOT / "rigid" / "phases" / "choice.py"])
+    installation = copy_of_the_packages(tmp_path)
+    moved = [installation / "flexible" / "models" / "stage.py"]
+    assert store.fingerprint([stage]) == store.fingerprint(moved)
+
+
+def test_every_kernel_stands_outside_the_packages():
+    packages = [Path(package.__file__).parent for package in (rigid, flexible)]
+    for module in [module for name, module in sys.modules.items() if name.startswith("flexible.")]:
+        for value in vars(module).values():
+            if hasattr(value, "py_func"):
+                source = Path(value.py_func.__code__.co_filename)
+                assert not any(source.is_relative_to(package) for package in packages)
+
+
+def test_folders_are_named_by_all_that_compiled_code_depends_on():
+    import numba
+
+    name = store.machine()
+    assert f"numba{numba.__version__}" in name
+    assert sys.implementation.cache_tag in name
+    assert re.fullmatch(r"[\w.+-]+", name)
+
+
+def test_unused_kernels_are_removed_and_others_kept(tmp_path):
+    day = 86400.0
+    now = 1000 * day
+    for name, age in (("old", 61), ("new", 59)):
+        place = tmp_path / f"{name}-numba0-cp-cpu" / "flexible.contact.forces-0123"
+        (place / "__pycache__").mkdir(parents=True)
+        os.utime(place, (now - age * day, now - age * day))
+    (tmp_path / "something else").mkdir()
+    store.prune(tmp_path, now)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["new-numba0-cp-cpu", "something else"]
+
+
+@pytest.mark.parametrize("variable", ["", "~/kernels"])
+def test_the_environment_says_where(monkeypatch, tmp_path, variable):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv("USERPROFILE", str(tmp_path))
+    monkeypatch.setenv("NUMBA_CACHE_DIR", variable)
+    if variable:
+        assert store._wanted_cache() == tmp_path / "kernels" / store.NAME
+    else:
+        assert store.NAME in store._wanted_cache().parts
+
+
+def test_one_worker_compiles_for_all(monkeypatch):
+    from studies.running import workers
+    from studies.running.case import Case
+    from studies.running.solvers import prepare
+
+    asked = []
+
+    class Executor:
+        def submit(self, function, *arguments):
+            asked.append(function)
+            future = Future()
+            future.set_result(None)
+            return future
+
+    monkeypatch.setattr(workers, "is_cold", lambda package: package == "flexible")
+    monkeypatch.setattr(workers.Processes, "_start", lambda self: Executor())
+    place = workers.Processes(2)
+    scene = rigid.load_scene("paper-3.3-massless")
+    for solver in ("rigid", "flexible", "flexible"):
+        place.submit(Case(solver, scene))
+    assert asked == [workers.run_case, prepare, workers.run_case, workers.run_case]
+
+
+def test_seconds_of_compiling_are_no_run_time(monkeypatch, caplog):
+    """Two kernels of five seconds, each with a part of its own, told once; what others compile is not ours to tell."""
+    now = [0.0]
+    monkeypatch.setattr(announce.time, "perf_counter", lambda: now[0])
+    monkeypatch.setattr(announce, "_told", set())
+    before, clock = announce.compile_seconds(), announce.running_clock()
+    for package in ("flexible", "flexible", "someone_else"):
+        announce._begin(package)
+        now[0] += 2.0
+        announce._begin("numba")
+        now[0] += 3.0
+        announce._end()
+        announce._end()
+    assert announce.compile_seconds() - before == 10.0
+    assert announce.running_clock() - clock == 5.0
+    assert [record.name for record in caplog.records] == ["hoop-pulse"]
