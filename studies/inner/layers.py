@@ -27,6 +27,7 @@ from .march import (
     STATE,
     STICK,
     ScaledContact,
+    System,
     march,
 )  # fmt: skip
 
@@ -145,9 +146,8 @@ def layer(
         kept.sliding[:] = np.sign(friction)
     if contact.law == BRUSH and event.kind == START and contact.mu_s > contact.mu:
         _break_away(contact, event, half, normal, friction, kept)
-    records, switches, end = march(
-        body, contact, eps, state, mode, kept, np.array([duration, np.inf * np.sign(event.omega), fineness, 1.0])
-    )
+    ends = np.array([duration, np.inf * np.sign(event.omega), fineness, 1.0])
+    records, switches, end = march(System(body, contact, eps), state, mode, kept, ends)
     columns = dict(zip(COLUMNS, records.T, strict=True))
     return Layer(
         event=event,

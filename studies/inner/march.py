@@ -33,6 +33,9 @@ STATE = 10
 # columns of a record
 COLUMNS = ("tau", "normal_force", "friction_force", "slip", "height", "mode", "psi", "omega")
 
+System = namedtuple("System", ["body", "contact", "eps"])
+System.__doc__ = "A hoop, its contact, and eps: 0 for the inner problem, the small parameter itself for a whole motion."
+
 ScaledContact = namedtuple("ScaledContact", ["law", "kappa", "mu_s", "mu", "theta", "slip_scale"])
 ScaledContact.__doc__ = "Law, tangential ratio, coefficients, relaxation time and V_s on the scaled clock."
 
@@ -68,9 +71,10 @@ def _forces(state: Any, contact: Any, mode: int, kept: Any) -> tuple[float, floa
 
 
 @jit
-def _rates(state: Any, body: Any, contact: Any, eps: float, mode: int, kept: Any) -> Any:
+def _rates(state: Any, system: Any, mode: int, kept: Any) -> Any:
     """Derivatives of the state by tau."""
-    normal, friction = _forces(state, contact, mode, kept)
+    body, eps = system.body, system.eps
+    normal, friction = _forces(state, system.contact, mode, kept)
     a, b, ec = _arms(body.e, body.one_minus_e, state[PSI])
     w = state[OMEGA] ** 2
     alpha = (normal * a - friction * b) / body.gyration
@@ -84,12 +88,12 @@ def _rates(state: Any, body: Any, contact: Any, eps: float, mode: int, kept: Any
 
 
 @jit
-def _advance(state: Any, body: Any, contact: Any, eps: float, mode: int, kept: Any, h: float) -> Any:
+def _advance(state: Any, system: Any, mode: int, kept: Any, h: float) -> Any:
     """One Runge-Kutta step of length ``h``."""
-    k1 = _rates(state, body, contact, eps, mode, kept)
-    k2 = _rates(state + h / 2 * k1, body, contact, eps, mode, kept)
-    k3 = _rates(state + h / 2 * k2, body, contact, eps, mode, kept)
-    k4 = _rates(state + h * k3, body, contact, eps, mode, kept)
+    k1 = _rates(state, system, mode, kept)
+    k2 = _rates(state + h / 2 * k1, system, mode, kept)
+    k3 = _rates(state + h / 2 * k2, system, mode, kept)
+    k4 = _rates(state + h * k3, system, mode, kept)
     return state + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
 
 
@@ -148,14 +152,48 @@ def _note(row: Any, tau: float, state: Any, contact: Any, mode: int, kept: Any) 
 
 
 @jit
-def march(body: Any, contact: Any, eps: float, start: Any, mode: int, kept: Any, ends: Any) -> Any:
+def _cut(state: Any, system: Any, mode: int, kept: Any, h: float, event: bool, psi_end: float) -> Any:
+    """The part of a step of length ``h`` that ends at an event or at an angle: (length, state, event, at the angle)."""
+    low, high = 0.0, h
+    after, late = state, False
+    while high - low > 1e-14 * h:
+        middle = (low + high) / 2
+        if middle in (low, high):
+            break
+        found = _advance(state, system, mode, kept, middle)
+        is_late = (found[PSI] - psi_end) * state[OMEGA] > 0
+        broken = event and _excess(found, system.contact, mode, kept) > 0
+        if is_late or broken:
+            high, after, event, late = middle, found, broken, is_late
+        else:
+            low = middle
+    if high == h:
+        after = _advance(state, system, mode, kept, h)
+        late = (after[PSI] - psi_end) * state[OMEGA] > 0
+    return high, after, event, late
+
+
+@jit
+def _settled(state: Any, system: Any, mode: int, kept: Any) -> int:
+    """Bring the bristles up to date after a step; the mode, which is another where the patch is off the floor."""
+    contact = system.contact
+    half, _, eta = _normal(state, contact.theta)
+    if contact.law == BRUSH:
+        brush_pull(kept, contact, half, state[ROLLED], state[WAY], eta, True)
+    elif contact.law == PATCH and half == 0 and state[SLIP] != 0:  # what comes down comes down sliding
+        return SLIDE_LEFT if state[SLIP] > 0 else SLIDE_RIGHT
+    elif contact.law == PATCH and mode == STICK and half > 0:
+        step_on(kept, half, state[ROLLED], state[WAY])
+    return mode
+
+
+@jit
+def march(system: Any, start: Any, mode: int, kept: Any, ends: Any) -> Any:
     """March from ``start`` on.
 
     Parameters
     ----------
-    body, contact : namedtuple
-    eps : float
-        0 for the inner problem, the small parameter itself for the whole motion.
+    system : System
     start : (STATE,) array
     mode : int
         STICK, SLIDE_RIGHT or SLIDE_LEFT (``patch``).
@@ -173,50 +211,28 @@ def march(body: Any, contact: Any, eps: float, start: Any, mode: int, kept: Any,
     state : (STATE,) array
         At the end.
     """
-    state = start.copy()
+    contact, state = system.contact, start.copy()
     tau, steps, rows, marks = 0.0, 0, 0, 0
     widest = max(_normal(state, 0.0)[0], 1.0)
     records, switches = np.empty((1024, len(COLUMNS))), np.empty((64, 2))
-    way = 1.0 if state[OMEGA] >= 0 else -1.0
     running, fresh = True, True
     _note(records[rows], tau, state, contact, mode, kept)
     rows += 1
     while running:
-        h = ends[2] * _step_length(state, body, contact, widest)
+        h = ends[2] * _step_length(state, system.body, contact, widest)
         if fresh:
             h /= 8
         if tau + h >= ends[0]:
             h, running = ends[0] - tau, False
-        after = _advance(state, body, contact, eps, mode, kept, h)
+        after = _advance(state, system, mode, kept, h)
         # right after a switch the excess is round-off of zero
         event = not fresh and _excess(after, contact, mode, kept) > 0
-        late = way * (after[PSI] - ends[1]) > 0
-        fresh = False
-        if event or late:
-            low, high = 0.0, h
-            while high - low > 1e-14 * h:
-                middle = (low + high) / 2
-                found = _advance(state, body, contact, eps, mode, kept, middle)
-                is_late = way * (found[PSI] - ends[1]) > 0
-                broken = event and _excess(found, contact, mode, kept) > 0
-                if is_late or broken:
-                    high, after, event, late = middle, found, broken, is_late
-                else:
-                    low = middle
-                if middle <= low and middle >= high:
-                    break
-            h, running = high, not late
-        tau += h
-        state = after
+        if event or (after[PSI] - ends[1]) * state[OMEGA] > 0:
+            h, after, event, late = _cut(state, system, mode, kept, h, event, ends[1])
+            running = not late
+        tau, state, fresh = tau + h, after, False
         steps += 1
-        half, _, eta = _normal(state, contact.theta)
-        if contact.law == BRUSH:
-            brush_pull(kept, contact, half, state[ROLLED], state[WAY], eta, True)
-        elif contact.law == PATCH and mode == STICK and half > 0:
-            step_on(kept, half, state[ROLLED], state[WAY])
-        turned = mode
-        if contact.law == PATCH and half == 0 and state[SLIP] != 0:  # what comes down comes down sliding
-            turned = SLIDE_LEFT if state[SLIP] > 0 else SLIDE_RIGHT
+        turned = _settled(state, system, mode, kept)
         switching = (event and running) or turned != mode
         if rows + 2 >= records.shape[0]:
             records = np.concatenate((records, np.empty_like(records)))
@@ -224,7 +240,7 @@ def march(body: Any, contact: Any, eps: float, start: Any, mode: int, kept: Any,
             _note(records[rows], tau, state, contact, mode, kept)
             rows += 1
         if switching:
-            if event and turned == mode:
+            if turned == mode:
                 if mode != STICK:
                     state[SLIP] = 0.0
                 turned = _switch(state, contact, mode, kept)

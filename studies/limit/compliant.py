@@ -30,6 +30,7 @@ from ..inner.march import (
     SLIP,
     STATE,
     STICK,
+    System,
     march,
 )  # fmt: skip
 from ..inner.scales import epsilon
@@ -75,7 +76,7 @@ def march_through(way: Passage, eps: float, fineness: float = 0.1) -> tuple[np.n
     for psi in way.edges:
         if psi != way.start:
             ends = np.array([np.inf, psi, fineness, _SPARSE])
-            records, turned, state = march(way.body, way.contact, eps, state, mode, kept, ends)
+            records, turned, state = march(System(way.body, way.contact, eps), state, mode, kept, ends)
             mode = int(records[-1, 5])
             switches = len(turned)
         if psi == way.edges[0]:

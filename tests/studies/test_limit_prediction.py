@@ -146,16 +146,16 @@ def test_a_regularised_law_comes_like_the_four_fifths_power():
     """F = -mu N v/sqrt(v^2 + v_s^2): the slip runs ahead at its start by an amount of that order, without a fit."""
     way = passage(scene_of(0.1, 0.0, "brush"))
     assert any(event.kind == START for event in way.events)
-    eps = 1e-5
+    eps = 1e-4
     ratios = []
-    for v_s in (1e-4, 1e-5):
+    for v_s in (1e-3, 1e-4):
         soft = replace(way, contact=way.contact._replace(law=REGULARISED, theta=0.5, slip_scale=v_s / eps))
         gained, _ = march_through(soft, eps)
         pulse = way.pulse
         off = gained[[FRICTION_IMPULSE, NORMAL_IMPULSE]] * eps - [pulse.friction_impulse, pulse.normal_impulse]
         ratios.append(off / (powers(soft)[4 / 5][:2] * v_s**0.8))
-    # the next term is smaller by v_s^(1/5): 0.1 at 1e-5, and 1.6 times that at 1e-4
-    assert abs(ratios[1] - 1).max() < 0.3
+    # the next term is smaller by v_s^(1/5), which is 0.16 at 1e-4 and 1.6 times that at 1e-3
+    assert abs(ratios[1] - 1).max() < 0.5
     assert (abs(ratios[1] - 1) < abs(ratios[0] - 1)).all()
 
 
