@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from math import degrees, isfinite
 from typing import Any
 
-from ..plots.sheet import Column, Sheet
+from ..plots.sheet import Column, Sheet, number
 from ..running.measures import MEASURES
-from ..stiffness.summary import number
 from .damping import Spot
 from .study import OBSERVED, LimitStudy
 
