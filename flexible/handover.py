@@ -123,11 +123,18 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> Sta
     """
     s, c = sin(pose.phi), cos(pose.phi)
     a_x, angular = pose.accelerations(hoop)
-    ring = hoop.resting(pose.omega, angular, a_x * s + c, a_x * c - s)
+    lost = MarchError(
+        f"no start at phi = {pose.phi:.6g}: no equilibrium of the ring under N = {pose.normal_force:.4g} was found"
+    )
     zero = np.zeros(3 + hoop.coordinates)
+    try:
+        ring = hoop.resting(pose.omega, angular, a_x * s + c, a_x * c - s)
+        if pose.normal_force <= 0:
+            ring.linearise(1.0)
+    except np.linalg.LinAlgError:
+        raise lost from None
     if pose.normal_force <= 0:
         window = hoop.window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
-        ring.linearise(1.0)
         ring.move(window, np.zeros(2 * (2 * window[1] + 1)))
         u = ring.response(window)[0].reshape(-1, 2)
         # just clear of the floor
@@ -137,9 +144,7 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> Sta
         return State(t, x_C, pos, zero, zero, STICK, window, u, *nothing, pose.slip_velocity)
     patch = Patch(hoop, pose.phi, pose.normal_force, pose.friction_force)
     if not settle(ring, patch):
-        raise MarchError(
-            f"no start at phi = {pose.phi:.6g}: no equilibrium of the ring under N = {pose.normal_force:.4g} was found"
-        )
+        raise lost
     pos = np.concatenate([[0.0, patch.height, pose.phi], ring.coordinates])
     return State(
         t, x_C, pos, zero, zero, STICK, patch.window, patch.u, patch.nodal, patch.res, patch.bristles, patch.flags,

@@ -34,10 +34,11 @@ from .normal import force_by_gaps, press
 SPACING, EPS_N, EPS_T, MU_S, MU = range(5)
 # positions in the array of resultants: forces, energies, length of the patch and how much of it sticks, mean way along
 # the floor in the step, angles psi of its ends, whether it left the window, elastic normal force, damping factor,
-# damping drag, and the work of the bristles beyond their mean force times the mean way
+# damping drag, the work of the bristles beyond their mean force times the mean way, and how far the feet of the
+# bristles of a sliding patch slid in the step
 NORMAL, FRICTION, NORMAL_ENERGY, BRISTLE_ENERGY, LENGTH, STUCK, SLIP, LOW, HIGH, OUTSIDE, ELASTIC, ETA, DRAG = range(13)
-BEYOND = 13
-RESULTANTS = 14
+BEYOND, FEET = 13, 14
+RESULTANTS = 15
 
 UNDAMPED = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 1.0])
 
@@ -172,6 +173,8 @@ def contact_forces(
     res[LENGTH] = foundation.length
     res[STUCK] = tractions.stuck / foundation.length if foundation.length > 0 else 0.0
     res[SLIP], res[ELASTIC], res[ETA], res[DRAG] = slip, elastic, eta, drag
+    if (mode == SLIDE_RIGHT or mode == SLIDE_LEFT) and foundation.length > 0:
+        res[FEET] = (tractions.sliding - tractions.held) / (eps_t * foundation.length)
     res[BEYOND] = ((carried.pull + held) * (carried.way - carried.mean)).sum() / 2
     active = 0
     for i in range(total):

@@ -45,6 +45,8 @@ Tractions = namedtuple(
         "by_gap",  # (n, 5), by the gaps of two points before, the point, two points behind
         "energy",  # of all bristles
         "stuck",  # length of the patch that sticks
+        "sliding",  # what the bristles of a sliding patch pull in all, and
+        "held",  # what they would pull had their feet stayed where they were when the step began
     ],
 )
 
@@ -139,8 +141,9 @@ def edge_of_patch(g_in: float, g_out: float, inner: float) -> tuple[float, float
 
 
 @jit
-def _weights(points: Any, bristles: Any, spacing: float, brush: bool) -> tuple[Any, Any]:
+def _weights(points: Any, bristles: Any, spacing: float, mode: int) -> tuple[Any, Any]:
     """Length of patch that belongs to each point, and its derivatives by the gaps of (n, 5) points around it."""
+    brush, sticks = mode == BRUSH, mode == STICK
     gap = points.gap
     total = gap.shape[0]
     weight, by = np.zeros(total), np.zeros((total, 5))
@@ -160,7 +163,7 @@ def _weights(points: Any, bristles: Any, spacing: float, brush: bool) -> tuple[A
         else:
             d = gap[outside] - gap[inside]
             f, f_in, f_out, f_inner = -gap[inside] / d, -gap[outside] / d**2, gap[inside] / d**2, 0.0
-        if not brush and bristles.touched[outside]:  # an edge that points leave: bristles stay stretched up to it
+        if sticks and bristles.touched[outside]:  # an edge that points leave: bristles stay stretched up to it
             weight[inside] += spacing * (f - f * f / 2)
             weight[outside] += spacing * f * f / 2
             by[inside, 2] += spacing * (1 - f) * f_in
@@ -185,13 +188,13 @@ def rub(
     """Tangential forces; stretches and directions of ``bristles`` are brought up to date in place."""
     total = points.gap.shape[0]
     stretch, sliding = bristles.stretch, bristles.sliding
-    weight, weight_by = _weights(points, bristles, spacing, mode == BRUSH)
+    weight, weight_by = _weights(points, bristles, spacing, mode)
     # friction that slides is shared like the foundation's forces; bristles that take it over pull as much in all
     lumped = -eps_n * (weight * np.minimum(points.gap, 0.0)).sum()
     even = foundation.force.sum() / lumped if lumped > 0 else 1.0
     force, share = np.zeros(total), np.zeros(total)
     by_abscissa, by_phi, by_gap = np.zeros(total), np.zeros(total), np.zeros((total, 5))
-    energy, stuck = 0.0, 0.0
+    energy, stuck, held, pulled = 0.0, 0.0, 0.0, 0.0
     for i in range(total):
         pressure = -eps_n * min(points.gap[i], 0.0)
         if mode == SLIDE_RIGHT or mode == SLIDE_LEFT:
@@ -200,8 +203,10 @@ def rub(
             share[i] = mode * mu * foundation.force[i]
             force[i] = eta * share[i]
             force_by_gaps(by_gap[i, 1:4], eta * mode * mu, foundation, before, i, behind)
+            held -= weight[i] * eps_t * stretch[i]
             # what a damper adds to the pressure is no spring: bristles that held it would give it back when they stick
             stretch[i] = -min(eta, 1.0) * even * mode * mu * pressure / eps_t
+            pulled -= weight[i] * eps_t * stretch[i]
             energy += weight[i] * eps_t * stretch[i] ** 2 / 2
         elif weight[i] != 0:
             limit = (mu if sliding[i] != 0 else mu_s) * eta * pressure
@@ -222,4 +227,4 @@ def rub(
             for q in range(5):
                 by_gap[i, q] += traction * weight_by[i, q]
             energy += weight[i] * traction**2 / (2 * eps_t)
-    return Tractions(force, share, by_abscissa, by_phi, by_gap, energy, stuck)
+    return Tractions(force, share, by_abscissa, by_phi, by_gap, energy, stuck, pulled, held)

@@ -6,14 +6,16 @@ them, exactly for a linear ring, near its present shape for the exact one, which
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import Any, Protocol
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
-from scipy.sparse.linalg import splu
 
 from ..contact.forces import HIGH, LOW, MU, NORMAL, OUTSIDE, SLIDE_RIGHT, SPACING, UNDAMPED, contact_forces
+from ..ring.nodal import factored
+from .stage import largest
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -73,7 +75,7 @@ class RestingNodes:
     def linearise(self, share: float) -> None:
         u = self.coordinates
         matrix = (self.ring.tangent(u) + share * self.inertia).tocsc()
-        self._solve = splu(matrix).solve
+        self._solve = factored(matrix)
         self.base = u - self._solve(self.ring.elastic(u) + share * (self.inertia @ u + self.load))
         self._columns: dict[Window, Array] = {}
 
@@ -91,7 +93,7 @@ class RestingNodes:
 
     def move(self, window: Window, force: Array) -> float:
         moved = self.base + self._answer(window) @ force
-        change = float(np.abs(moved - self.coordinates).max() / max(np.abs(moved).max(), 1e-300))
+        change = largest(moved - self.coordinates) / max(largest(moved), 1e-300)
         self.coordinates = moved
         return change
 
@@ -143,7 +145,9 @@ class Patch:
             misfit = self.u.ravel() - offset - compliance @ flat
             # what a misfit of the rim makes of the force: patch and ring in series
             scale = 1 + abs(tangent[1, 1]) / (1 + abs(tangent[1, 1]) * np.abs(compliance).max())
-            error = max(abs(force[1] - wanted), scale * np.abs(misfit).max())
+            error = max(largest(force[1:2] - wanted), scale * largest(misfit))
+            if not isfinite(error):
+                return False
             floor = 1e-15 * (1 + abs(tangent[1, 1])) * (abs(self.height) + np.abs(self.u).max())
             if error < 1e-10 * (1 + wanted) + floor:
                 self.low, self.high = self.res[LOW] - self.law[SPACING], self.res[HIGH] + self.law[SPACING]
@@ -202,7 +206,11 @@ def settle(ring: RestingRing, patch: Patch) -> bool:
     share, step = 0.0, 1.0
     while share < 1:
         start, known = ring.coordinates, dict(patch.__dict__)
-        if _settled(ring, patch, share + step):
+        try:
+            settled = _settled(ring, patch, share + step)
+        except np.linalg.LinAlgError:
+            settled = False
+        if settled:
             share += step
             step = min(2 * step, 1 - share)
         else:

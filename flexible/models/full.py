@@ -7,22 +7,21 @@ borders are exact in every iteration, so that the ring's may lag behind.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import cos, sin
-from typing import Any
+from math import cos, isfinite, sin
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.linalg import splu
 
 from rigid import Scene
 
 from ..contact.forces import ELASTIC, EPS_N, EPS_T, HIGH, LENGTH, LOW, NORMAL, OUTSIDE, SLIP, contact_forces
 from ..ring.fem import Ring, ring_of
 from ..ring.frame import DISK_INERTIA, OFFSET, RING_INERTIA, RING_MASS
-from ..ring.nodal import Inertia, NodalRing, inertia, turned
+from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
 from .rim_contact import POINTS, RimContact
-from .state import State
+from .stage import largest
+from .state import Stage, State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -39,7 +38,7 @@ class _Factored:
         if not ring.massless:
             matrix = matrix + ring.mass * (1 / beta**2 - w * w) + ring.gyro * (alpha + 2 * w / beta)
         options = {"SymmetricMode": True}
-        self.solve = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options).solve
+        self.solve = factored(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
         self.ring, self.w, self.beta = ring, w, beta
         self._columns: dict[Window, Array] = {}
 
@@ -144,7 +143,7 @@ class FullHoop(RimContact):
         beta: float,
         guess: Array,
         near: tuple[Window, Array] | None = None,
-    ) -> Any:
+    ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
         if self.ring.massless:  # no inertia to go by: from where the ring was
             guess = guess.copy()
@@ -172,7 +171,7 @@ class FullHoop(RimContact):
         beta: float,
         guess: Array,
         window: Window,
-    ) -> tuple[Any, bool]:
+    ) -> tuple[Stage, bool]:
         """The stage in one window, and whether the patch left it."""
         law, dofs = self.law, self.ring.dofs(*window)
         u_old = self.displacement(old, window)
@@ -188,22 +187,24 @@ class FullHoop(RimContact):
             own = inertia(self.ring, pos, vel, acc, beta)
             frame, ring = own.frame - force, own.ring.copy()
             ring[dofs] -= nodal.ravel()
-            worst = max(np.abs(frame).max(), np.abs(ring).max())
-            if not np.isfinite(worst):
-                break
+            worst = max(largest(frame), largest(ring))
+            if not isfinite(worst):
+                return Stage(False), False
             small = self.tolerance * (1 + res[NORMAL])
             if worst > small:
                 depth = abs(pos[1]) + np.abs(u).max()
                 small += 4e-16 * (law[EPS_N] + law[EPS_T]) * res[LENGTH] * depth
                 small += 1e-14 * (damper[0] + 1) * res[ELASTIC]
                 small += 1e-15 * damper[3] * (abs(res[SLIP]) + abs(damper[4])) + self.ring.round_off(pos[3:])
-                small += 4e-16 * np.abs(vel_pred[3:]).max(initial=0.0) / beta * self.ring.body[RING_MASS]
+                small += 4e-16 * np.abs(acc[3:]).max(initial=0.0) * self.ring.body[RING_MASS]
             factored = self._factor(pos, vel, acc, beta, lags and iteration > 1 and worst > 0.05 * last)
             matrix = NewtonMatrix(factored, own, tangent, window)
             if worst <= small and iteration > 0:
                 ok = True
                 break
             step_frame, step_ring = matrix.solve(frame, ring)
+            if not isfinite(max(largest(step_frame), largest(step_ring))):
+                return Stage(False), False
             damping = 0.5 if iteration > 3 and worst > last else 1.0
             last = worst
             d[:3] -= damping * step_frame
@@ -211,7 +212,7 @@ class FullHoop(RimContact):
         outside = bool(res[OUTSIDE] != 0)
         if self.ring.massless:
             acc[3:] = 0.0
-        return (ok and not outside, d, acc, matrix, window, u, nodal, res, bristles, flags), outside
+        return Stage(ok and not outside, d, acc, matrix, window, u, nodal, res, bristles, flags), outside
 
     def _factor(self, pos: Array, vel: Array, acc: Array, beta: float, anew: bool) -> _Factored:
         if anew or self._factored is None or not self._factored.serves(vel[2], beta):
@@ -246,7 +247,7 @@ class FullHoop(RimContact):
         load = (with_error.frame - without.frame) / beta**2, (with_error.ring - without.ring) / beta**2
         frame, u = matrix.solve(*load)
         slow = np.abs(self._slow @ u).max(initial=0.0) / (1 + ring.body[RING_MASS]) ** 0.5
-        return float(max(abs(frame[0] + frame[2]), abs(frame[1]), abs(frame[2]), slow))
+        return largest(np.array([frame[0] + frame[2], frame[1], frame[2], slow]))
 
     def energy_error(self, state: State, beta: float, matrix: NewtonMatrix, error: Array, moved: Array) -> float:
         """See :class:`flexible.models.state.Model`."""

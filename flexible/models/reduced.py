@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,8 +12,8 @@ from ..ring.frame import RING_MASS, energies, inertia
 from ..ring.reduction import ReducedRing, reduce
 from .equilibrium import RestingModes
 from .rim_contact import POINTS, RimContact
-from .stage import filtered_error, solve_stage
-from .state import State
+from .stage import filtered_error, largest, solve_stage
+from .state import Stage, State
 
 Array = NDArray[np.float64]
 
@@ -67,7 +65,7 @@ class ReducedHoop(RimContact):
         beta: float,
         guess: Array,
         near: tuple[tuple[int, int], Array] | None = None,
-    ) -> Any:
+    ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
         phi = pos_pred[2] + guess[2]
         low, high = old.res[LOW], old.res[HIGH]
@@ -89,7 +87,7 @@ class ReducedHoop(RimContact):
             if iterations != -2:
                 break
             margin = 2 * margin + self.element
-        return iterations >= 0, d, acc, matrix, window, u, nodal, res, bristles, flags
+        return Stage(iterations >= 0, d, acc, matrix, window, u, nodal, res, bristles, flags)
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity, ring strain (of the modes and of the static part)."""
@@ -106,7 +104,7 @@ class ReducedHoop(RimContact):
         ring = self.ring
         error = filtered_error(ring.body, ring.modal, ring.gyro, state.pos, state.vel, state.acc, beta, matrix, error)
         ringing = np.abs(error[3:]).max(initial=0.0) / (1 + ring.body[RING_MASS]) ** 0.5
-        return float(max(abs(error[0] + error[2]), abs(error[1]), abs(error[2]), ringing))
+        return largest(np.array([error[0] + error[2], error[1], error[2], ringing]))
 
     def energy_error(self, state: State, beta: float, matrix: Array, error: Array, moved: Array) -> float:
         """See :class:`flexible.models.state.Model`."""

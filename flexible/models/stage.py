@@ -25,6 +25,17 @@ ERROR_WEIGHTS = (_W - (1 - _W) / 3, _W - (3 * _W + 1) / 3, BETA - BETA / 3)
 
 
 @jit
+def largest(values: Any) -> float:
+    """Largest absolute value, infinite if any is not a number: comparing with one would pass it over."""
+    most = 0.0
+    for value in values.flat:
+        if not np.isfinite(value):
+            return np.inf
+        most = max(most, abs(value))
+    return most
+
+
+@jit
 def solve_stage(
     body: Any,
     modal: Any,
@@ -84,33 +95,31 @@ def solve_stage(
         t_ux = tangent[3:, :3].copy()
         scale = 1.0 + (law[EPS_N] + law[EPS_T]) * res[LENGTH]  # turns an error of u into one of the forces
         moved = compliance @ flat
-        worst, astray = 0.0, 0.0  # of forces, and of displacements as forces on the foundation
         for i in range(3):
             residual[i] = own[i] - force[i]
-            worst = max(worst, abs(residual[i]))
         for i in range(n):
             pushed = 0.0
             for k in range(2 * nodes):
                 pushed += shapes[k, i] * flat[k]
             residual[3 + i] = own[3 + i] - pushed
-            worst = max(worst, abs(residual[3 + i]))
         for k in range(2 * nodes):
             modal_part = 0.0
             for i in range(n):
                 modal_part += shapes[k, i] * pos[3 + i]
             residual[m + k] = scale * (u[k // 2, k % 2] - modal_part - moved[k])
-            astray = max(astray, abs(residual[m + k]))
+        # of forces, and of displacements as forces on the foundation
+        worst, astray = largest(residual[:m]), largest(residual[m:])
         # below this, the forces are round-off of the gap
         floor = 4e-16 * scale * (abs(pos[1]) + np.abs(u).max()) + 1e-14 * (damper[0] + 1) * res[ELASTIC]
         floor += 1e-15 * damper[3] * (abs(res[SLIP]) + abs(damper[4]))
         small = tolerance * (1 + res[NORMAL]) + floor
+        if not np.isfinite(worst + astray + small):
+            break
         # a ring softer than the foundation moves by its compliance times what the forces may be off
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
             iterations = iteration
             break
         worst = max(worst, astray)
-        if not np.isfinite(worst):
-            break
         matrix[:m, :m] = own_tangent
         matrix[:3, :3] -= tangent[:3, :3]
         matrix[:3, m:] = -tangent[:3, 3:]
@@ -124,6 +133,8 @@ def solve_stage(
         for k in range(2 * nodes):
             matrix[m + k, m + k] += scale
         update = np.linalg.solve(matrix, residual)
+        if not np.isfinite(largest(update)):
+            break
         damping = 1.0
         if iteration > 3 and worst > last:
             damping = 0.5

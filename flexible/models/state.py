@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,7 @@ class State:
     flags: NDArray[np.int8]
     slip_velocity: float
     elastic_rate: float = 0.0  # of N_el
+    feet_velocity: float = 0.0  # of the feet of a sliding patch's bristles, along the floor
 
     @property
     def normal_force(self) -> float:
@@ -39,6 +40,21 @@ class State:
     @property
     def friction_force(self) -> float:
         return float(self.res[FRICTION])
+
+
+class Stage(NamedTuple):
+    """One stage of a step, solved or not; of one that is not, only ``ok`` has a meaning."""
+
+    ok: bool
+    d: Any = None  # increment of pos
+    acc: Any = None
+    matrix: Any = None  # Newton's
+    window: Any = None
+    u: Any = None
+    nodal: Any = None
+    res: Any = None
+    bristles: Any = None
+    flags: Any = None
 
 
 class Model(Protocol):
@@ -60,8 +76,8 @@ class Model(Protocol):
         beta: float,
         guess: Array,
         near: tuple[tuple[int, int], Array] | None = None,
-    ) -> Any:
-        """Solve one stage: (ok, d, acc, matrix, window, u, nodal, res, bristles, flags).
+    ) -> Stage:
+        """Solve one stage. Whatever fails in it is a stage that is not ok, or a LinAlgError.
 
         ``guess`` starts the increment, ``near`` (a window and its displacement) the ring.
         """

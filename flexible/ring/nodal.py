@@ -11,12 +11,15 @@ equilibrium at every stage: the same equations with M = 0.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import cos, sin
+from typing import Any, cast
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
+from scipy.sparse.linalg import splu
 
 from rigid import Scene
 
@@ -25,6 +28,20 @@ from .frame import DISK_INERTIA, OFFSET, RING_INERTIA, RING_MASS
 from .reduction import body_constants
 
 Array = NDArray[np.float64]
+
+
+def factored(matrix: sp.csc_matrix, **options: Any) -> Callable[[Array], Array]:
+    """What solves with a sparse matrix.
+
+    Raises
+    ------
+    LinAlgError
+        As any other solver does: the matrix is singular.
+    """
+    try:
+        return cast("Callable[[Array], Array]", splu(matrix, **options).solve)
+    except RuntimeError as error:
+        raise np.linalg.LinAlgError(str(error)) from None
 
 
 class NodalRing:

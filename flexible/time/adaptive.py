@@ -8,19 +8,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import NamedTuple
 
-from ..contact.forces import BRISTLE_ENERGY, BRUSH, ELASTIC, FRICTION, NORMAL, SLIDE_LEFT, SLIDE_RIGHT, STICK
+from ..contact.forces import BRISTLE_ENERGY, BRUSH, ELASTIC, SLIDE_LEFT, SLIDE_RIGHT, STICK
 from ..models.state import Books, Model, Record, State, record
+from .events import SLIP_ENDS, SLIP_STARTS, TURN, Ends, locate, passed, watches
 from .tr_bdf2 import MarchError, Trial, attempt, restart
 
-
-def _excess(model: Model, state: State) -> float:
-    """Positive when the patch can no longer go on as it does."""
-    if state.mode == STICK:  # a damper may take all of N while the bristles still pull
-        return abs(state.res[FRICTION]) - model.mu_s * state.res[NORMAL] if state.res[ELASTIC] > 0 else -1.0
-    if state.mode == BRUSH or state.res[NORMAL] == 0 or model.mu_s == 0:
-        return -1.0
-    return state.mode * state.slip_velocity
+SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
+AFRESH = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
+MOST_STALLS = 50  # events within a shortest step of each other
 
 
 def _free(state: State) -> State:
@@ -30,10 +27,37 @@ def _free(state: State) -> State:
     return replace(state, mode=SLIDE_LEFT if state.slip_velocity > 0 else SLIDE_RIGHT)
 
 
+class Step(NamedTuple):
+    """An accepted step, and the event at which it ends."""
+
+    trial: Trial
+    event: int | None
+    attempts: int
+
+
+def _until_event(model: Model, state: State, trial: Trial, ends: Ends) -> Step | None:
+    """A step that passes no event: ``trial``, or a shorter one up to its first event; None where none can be solved."""
+    event, attempts = None, 0
+    for watch in watches(state, ends):
+
+        def past(step: Trial, watch: int = watch) -> float:
+            return passed(watch, model.mu_s, ends, state, step.state)
+
+        if past(trial) < 0:
+            continue
+        before = passed(watch, model.mu_s, ends, state, state)
+        located = locate(lambda h: attempt(model, state, h), past, trial, before, trial.state.t - state.t)
+        attempts += located.attempts
+        if located.trial is None:
+            return None
+        trial, event = located.trial, watch if located.at_event else None
+    return Step(trial, event, attempts)
+
+
 def march(
     model: Model,
     state: State,
-    done: Callable[[State], float],
+    ends: Ends,
     rtol: float,
     h: float = 1e-4,
     largest_step: float = 0.05,
@@ -41,7 +65,7 @@ def march(
     progress: Callable[[State], object] | None = None,
     keep: Callable[[State], None] | None = None,
 ) -> tuple[State, list[Record], int, str]:
-    """March until ``done(state)`` turns positive; that instant is located.
+    """March to the first of the ends, which is located.
 
     ``progress`` is told every state that was reached, and stops the march by a true answer; ``keep`` is given the state
     behind every record.
@@ -54,7 +78,7 @@ def march(
     attempts : int
         Steps tried.
     ended : str
-        Empty when ``done`` ended the march, otherwise why it stopped early.
+        Empty when one of the ends was reached, otherwise why the march stopped early.
     """
     books = Books()
     records: list[Record] = []
@@ -66,30 +90,29 @@ def march(
 
     state = _free(state)
     note(state)
-    attempts, accepted = 0, 0
+    attempts, turns, stalls = 0, 0, 0
+    if _over(state, ends, turns):
+        return state, records, attempts, ""
     tolerance = 3.0 * rtol**1.5  # second order: the error over a pulse goes as its power 2/3
     while attempts < max_steps:
+        if h < SHORTEST:
+            return state, records, attempts, _stuck(state, "no step however short could be solved")
         attempts += 1
-        trial = attempt(model, state, h)
+        asked = min(h, ends.t - state.t)
+        trial = attempt(model, state, asked)
         if trial is None:
-            h /= 4
-            if h < 1e-13:
-                return state, records, attempts, _stuck(state)
+            h = asked / 4
             continue
         if trial.error > tolerance:
-            h *= max(0.2, 0.9 * (tolerance / trial.error) ** (1 / 3))
-            if h < 1e-13:
-                return state, records, attempts, _stuck(state)
+            h = asked * max(0.2, 0.9 * (tolerance / trial.error) ** (1 / 3))
             continue
-        grown = min(h * min(3.0, 0.9 * (tolerance / max(trial.error, 1e-300)) ** (1 / 3)), largest_step)
-        event: Callable[[State], float] | None = None
-        for watch in (lambda s: _excess(model, s), done):
-            if watch(trial.state) > 0:
-                located = _locate(model, state, trial, watch)
-                attempts += located[1]
-                if located[0].state.t < trial.state.t or event is None:
-                    trial, event = located[0], watch
-        accepted += 1
+        grown = min(asked * min(3.0, 0.9 * (tolerance / max(trial.error, 1e-300)) ** (1 / 3)), largest_step)
+        step = _until_event(model, state, trial, ends)
+        if step is None:
+            h = asked / 4
+            continue
+        trial, event = step.trial, step.event
+        attempts += step.attempts
         books.normal_impulse += trial.impulses[0]
         books.friction_impulse += trial.impulses[1]
         stored = float(trial.state.res[BRISTLE_ENERGY] - state.res[BRISTLE_ENERGY])
@@ -97,15 +120,19 @@ def march(
         books.damping_loss += trial.damped
         books.numerical_loss += trial.numerical
         books.off_floor += trial.off_floor
+        stalls = stalls + 1 if trial.state.t - state.t < SHORTEST else 0
+        turns += event == TURN
         state = _free(trial.state)
         note(state)
-        asked = progress is not None and progress(state)
-        if done(state) >= 0:
+        stopped = progress is not None and progress(state)
+        if _over(state, ends, turns):
             return state, records, attempts, ""
-        if asked:
+        if stopped:
             return state, records, attempts, f"stopped at t = {state.t:.6g}, as asked"
-        if event is not None:
-            mode = STICK if state.mode != STICK else (1 if state.res[FRICTION] > 0 else -1)
+        if stalls > MOST_STALLS:
+            return state, records, attempts, _stuck(state, "stick and slip follow each other without end")
+        if event in (SLIP_STARTS, SLIP_ENDS):
+            mode = STICK if event == SLIP_ENDS else SLIDE_RIGHT if state.friction_force > 0 else SLIDE_LEFT
             if mode == STICK:  # to the last digit, which a step that was cut short may not have
                 state = replace(state, slip_velocity=0.0)
             try:
@@ -117,43 +144,18 @@ def march(
             released = before.ring_strain + before.contact_spring - after.ring_strain - after.contact_spring
             books.friction_loss += released
             note(state)
-            h = min(h, grown) / 8
+            h = max(min(asked, grown) / 8, AFRESH)
         else:
             h = grown
     return state, records, attempts, f"stopped at t = {state.t:.6g} after {max_steps} steps"
 
 
-def _stuck(state: State) -> str:
-    return (
-        f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g} (N = {state.normal_force:.4g}): "
-        "no step however short could be solved"
-    )
+def _over(state: State, ends: Ends, turns: int) -> bool:
+    """Whether one of the ends is reached."""
+    phi = state.pos[2]
+    turned = turns >= ends.turns > 0
+    return bool(turned or phi <= ends.low or phi >= ends.high or ends.t - state.t < SHORTEST)
 
 
-def _locate(model: Model, old: State, trial: Trial, watch: Callable[[State], float]) -> tuple[Trial, int]:
-    """The step that ends where ``watch`` turns positive, by the Illinois method on the step's length."""
-    low, f_low = 0.0, min(watch(old), 0.0)
-    high, f_high, best = trial.state.t - old.t, watch(trial.state), trial
-    width, n = high, 0
-    side = 0
-    while n < 30 and high - low > 1e-10 * width:
-        n += 1
-        h = high - f_high * (high - low) / (f_high - f_low) if f_high > f_low else (low + high) / 2
-        h = min(max(h, low + 0.001 * (high - low)), high - 0.001 * (high - low))
-        middle = attempt(model, old, h)
-        if middle is None:
-            break
-        value = watch(middle.state)
-        if value >= 0:
-            high, f_high, best = h, value, middle
-            if side == 1:
-                f_low /= 2
-            side = 1
-        else:
-            low, f_low = h, value
-            if side == -1:
-                f_high /= 2
-            side = -1
-        if 0 <= value < 1e-9:
-            break
-    return best, n
+def _stuck(state: State, why: str) -> str:
+    return f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g} (N = {state.normal_force:.4g}): {why}"

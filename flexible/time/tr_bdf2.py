@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from math import isfinite
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..contact.forces import BEYOND, DRAG, ELASTIC, ETA, FRICTION, NORMAL, NORMAL_ENERGY, SLIP
+from ..contact.forces import BEYOND, DRAG, ELASTIC, ETA, FEET, FRICTION, NORMAL, NORMAL_ENERGY, SLIP
 from ..models.stage import BETA, ERROR_WEIGHTS, TAU
-from ..models.state import Model, State
+from ..models.state import Model, Stage, State
 
 Array = NDArray[np.float64]
 
@@ -36,11 +38,12 @@ class Trial:
 
 
 def attempt(model: Model, old: State, h: float) -> Trial | None:
-    """One TR-BDF2 step of length ``h``; None if Newton failed or met a singular matrix."""
+    """One TR-BDF2 step of length ``h``; None if Newton failed, whatever it failed by."""
     try:
-        return _stages(model, old, h)
+        trial = _stages(model, old, h)
     except np.linalg.LinAlgError:
         return None
+    return trial if trial is not None and isfinite(trial.error) else None
 
 
 def _stages(model: Model, old: State, h: float) -> Trial | None:
@@ -52,10 +55,10 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
     elastic_pred = elastic0 + beta * old.elastic_rate
     pos_pred, vel_pred = pos0 + 2 * beta * vel0 + beta**2 * acc0, vel0 + beta * acc0
     damper = np.array([rho, elastic_pred, 1.0, drag, beta * old.slip_velocity, TAU / BETA])
-    first = model.stage(old, old.mode, damper, pos_pred, vel_pred, beta, beta**2 * acc0)
-    if not first[0]:
+    first = _solved(model, old, old.mode, damper, pos_pred, vel_pred, beta, beta**2 * acc0)
+    if not first.ok:
         return None
-    d, acc_mid, res_mid = first[1], first[2], first[7]
+    d, acc_mid, res_mid = first.d, first.acc, first.res
     pos_mid, vel_mid = pos_pred + d, vel_pred + d / beta
     c_mid, c_old = 1 / (TAU * (2 - TAU)), -((1 - TAU) ** 2) / (TAU * (2 - TAU))
     vel_pred = c_mid * vel_mid + c_old * vel0
@@ -63,14 +66,15 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
     elastic_pred = c_mid * res_mid[ELASTIC] + c_old * elastic0
     damper = np.array([rho, elastic_pred, 1.0, drag, c_mid * res_mid[SLIP], 1 / BETA])
     guess = beta**2 * (acc_mid + (acc_mid - acc0) * (1 - TAU) / TAU)
-    second = model.stage(old, old.mode, damper, pos_pred, vel_pred, beta, guess, (first[4], first[5]))
-    if not second[0]:
+    second = _solved(model, old, old.mode, damper, pos_pred, vel_pred, beta, guess, (first.window, first.u))
+    if not second.ok:
         return None
     _, d, acc, matrix, window, u, nodal, res, bristles, flags = second
     pos, vel = pos_pred + d, vel_pred + d / beta
     error = h * (ERROR_WEIGHTS[0] * acc0 + ERROR_WEIGHTS[1] * acc_mid + ERROR_WEIGHTS[2] * acc)
     slip_mid, slip = (r[SLIP] if r[NORMAL] > 0 else p[0] for r, p in ((res_mid, pos_mid), (res, pos)))
-    bend = (slip - slip_mid / TAU) / (1 - TAU)
+    slip_velocity = _ending(float(slip_mid), float(slip), h)
+    feet_velocity = _ending(float(res_mid[FEET]), float(res[FEET]), h)
     forces = (old.res, res_mid, res)
     impulses = [h * sum(w * r[i] for w, r in zip(_QUADRATURE, forces, strict=True)) for i in (NORMAL, FRICTION)]
     ways = (0.0, float(slip_mid), float(slip))
@@ -83,12 +87,37 @@ def _stages(model: Model, old: State, h: float) -> Trial | None:
     elastic_rate = float(res[ELASTIC] - elastic_pred) / beta
     state = State(
         old.t + h, x_C, pos, vel, acc, old.mode, window, u, nodal, res, bristles, flags,
-        float((slip + bend) / h), elastic_rate,
+        slip_velocity, elastic_rate, feet_velocity,
     )  # fmt: skip
     size = model.momentum_error(state, beta, matrix, error)
     moved = h * (ERROR_WEIGHTS[0] * vel0 + ERROR_WEIGHTS[1] * vel_mid + ERROR_WEIGHTS[2] * vel)
     gained = model.energy_error(state, beta, matrix, error, moved)
     return Trial(state, size, (impulses[0], impulses[1]), work, damped, -gained, off)
+
+
+def _solved(
+    model: Model,
+    old: State,
+    mode: int,
+    damper: Array,
+    pos: Array,
+    vel: Array,
+    beta: float,
+    guess: Array,
+    near: Any = None,
+) -> Stage:
+    """A stage, not ok whatever fails in it; without numbers to begin with it is not tried: no angle, no rim."""
+    if not isfinite(pos.sum() + vel.sum() + guess.sum() + damper.sum()):
+        return Stage(False)
+    try:
+        return model.stage(old, mode, damper, pos, vel, beta, guess, near)
+    except np.linalg.LinAlgError:
+        return Stage(False)
+
+
+def _ending(middle: float, end: float, h: float) -> float:
+    """Rate at the end of a step of what is 0 at its beginning, a parabola in time."""
+    return (end + (end - middle / TAU) / (1 - TAU)) / h
 
 
 def _work(force: Sequence[float], way: Sequence[float]) -> float:
@@ -113,21 +142,22 @@ def _damped(results: Sequence[Array]) -> float:
 
 
 def restart(model: Model, state: State, mode: int) -> State:
-    """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
-    beta = 1e-7
+    """The same instant under another law of friction: accelerations and static displacements jump, nothing else.
+
+    A stage of no length: what it moves, ``beta^2 acc``, must be nothing to the thinnest patch, whose depth as it opens
+    is some 1e-12 R, or N is another one after every event than before it.
+    """
+    beta = 1e-15
     damper = np.array([0.0, 0.0, state.res[ETA] if state.res[ELASTIC] > 0 else 1.0, 0.0, 0.0, 1.0])
-    try:
-        solved = model.stage(state, mode, damper, state.pos, state.vel, beta, beta**2 * state.acc)
-    except np.linalg.LinAlgError:
-        solved = (False,) * 10
-    ok, d, acc, _, window, u, nodal, res, bristles, flags = solved
-    if not ok:
+    solved = _solved(model, state, mode, damper, state.pos, state.vel, beta, beta**2 * state.acc)
+    if not solved.ok:
         raise MarchError(f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved")
     pos = state.pos.copy()
-    pos[3:] += d[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
+    pos[3:] += solved.d[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
     return replace(
-        state, pos=pos, acc=acc, mode=mode, window=window, u=u, nodal=nodal, res=res, bristles=bristles, flags=flags
-    )
+        state, pos=pos, acc=solved.acc, mode=mode, window=solved.window, u=solved.u, nodal=solved.nodal,
+        res=solved.res, bristles=solved.bristles, flags=solved.flags, feet_velocity=0.0,
+    )  # fmt: skip
 
 
 def advanced(model: Model, state: State, t: float) -> State | None:

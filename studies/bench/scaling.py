@@ -55,6 +55,7 @@ def _long_run(steps: int) -> Contestant:
     from flexible.handover import hand_over
     from flexible.models.reduced import ReducedHoop
     from flexible.time.adaptive import march
+    from flexible.time.events import Ends
 
     scene = reference.scene_b(1e-3)
     scene = scene.replace(release=Release(2.9, 0.0), run={"t_end": 20.0}, solve={"start": "equilibrium"})
@@ -62,7 +63,7 @@ def _long_run(steps: int) -> Contestant:
     def run() -> None:
         hoop = ReducedHoop(scene)
         state = hand_over(hoop, simulate(scene), 0.0, scene.contact.law)
-        march(hoop, state, lambda now: -1.0, scene.solve.rtol, max_steps=steps)
+        march(hoop, state, Ends(), scene.solve.rtol, max_steps=steps)
 
     return _sized(STEPS, steps, run)
 

@@ -7,6 +7,7 @@ import numpy as np
 from flexible.contact.forces import RESULTANTS, STICK
 from flexible.models.state import State
 from flexible.time.adaptive import march
+from flexible.time.events import Ends
 from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
 
 #: the hoop of the paper's sec. 3.3, on a floor soft enough to be quick
@@ -34,7 +35,7 @@ def steps_of(hoop, state, t_end, step):
     states = [state]
     count = round((t_end - state.t) / step)
     last, records, _, ended = march(
-        hoop, state, lambda s: s.t - t_end, 0.5, h=(t_end - state.t) / count * (1 + 1e-12),
+        hoop, state, Ends(t=t_end), 0.5, h=(t_end - state.t) / count * (1 + 1e-12),
         largest_step=(t_end - state.t) / count * (1 + 1e-12), progress=states.append,
     )  # fmt: skip
     assert not ended

@@ -115,3 +115,31 @@ def test_tangent_of_the_contact(mode, damper):
         up = np.eye(len(x))[1] * step
         work = (forces(x + up)[2][NORMAL_ENERGY] - forces(x - up)[2][NORMAL_ENERGY]) / (2 * step)
         assert -work == pytest.approx(forces(x)[2][NORMAL], rel=1e-6)
+
+
+@pytest.mark.parametrize("mode", [STICK, BRUSH])
+@pytest.mark.parametrize("way", [1, -1])
+def test_tangent_of_points_that_enter(mode, way):
+    """A rim that comes down while it rolls and creeps: no point has a bristle yet, each enters at its own instant.
+
+    Friction by itself, whose entries are a thousandth of the normal forces': 1e-5 of its largest, what central
+    differences of 1e-9 of forces of 1e-16/1e-9 leave. The instant moves with gap, phi and abscissa.
+    """
+    law = np.array([2e-4, EPS, 0.8 * EPS, 9.0, 9.0])  # nothing slides
+    depth, phi = (1.5 / EPS) ** (2 / 3) / 2, 2.9
+    first = element_at(VERTEX, pi - phi) - 1
+    flat, none, flags = np.zeros((9, 2)), np.empty((0, 3)), np.empty(0, np.int8)
+    old = np.array([0.0, 0.3 * depth, phi])
+
+    def result(x):
+        return contact_forces(x[:3], x[3:].reshape(-1, 2), first, VERTEX, law, mode, old, flat, none, flags, UNDAMPED)
+
+    x = np.concatenate([[2e-6, -depth, phi + way * 0.004], 1e-8 * np.sin(np.arange(18))])
+    assert result(x)[3][NORMAL] > 0
+    assert abs(result(x)[3][FRICTION]) > 1e-3
+    assert len(result(x)[4]) > 10
+    step = 1e-9
+    columns = [(result(x + step * e)[0][0] - result(x - step * e)[0][0]) / (2 * step) for e in np.eye(len(x))]
+    friction = result(x)[2][0]
+    assert np.abs(columns - friction).max() < 1e-5 * np.abs(friction).max()
+    assert np.array(columns[:3]) == pytest.approx(friction[:3], rel=1e-3)  # V, h, phi, whose entry is 1e-5 of V's

@@ -14,6 +14,7 @@ from flexible.models.select import FAR, Range, hoop_of
 from flexible.ring.fem import ring_of
 from flexible.ring.nodal import inertia
 from flexible.time.adaptive import march
+from flexible.time.events import Ends
 from flexible.time.tr_bdf2 import MarchError
 from flexible.units import dimensionless
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
@@ -39,7 +40,7 @@ def measures(hoop, rtol):
     scene = scene_b()
     inner = dimensionless(scene)
     start = undeformed(hoop, Pose(2.9, 4.0 * scene.time_unit, 0.0, 0.0, 0.0, Kind.ROLL), BRUSH)
-    _, records, _, ended = march(hoop, start, lambda s: s.t - inner.run.t_end, rtol)
+    _, records, _, ended = march(hoop, start, Ends(t=inner.run.t_end), rtol)
     assert not ended
     last = records[-1]
     return np.array([
