@@ -235,33 +235,39 @@ def test_scales_of_a_scene():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("foundation", [1e10, 1e13])
-def test_the_flexible_solver_has_the_same_history(end_of_spin, foundation):
-    """Every stiffness on one clock: tau = (t - t*)/eps from the instant at which the flexible patch sticks."""
+def test_the_flexible_solver_has_the_same_history(end_of_spin):
+    """Every stiffness on one clock: tau = (t - t*)/eps from the instant at which the flexible patch sticks.
+
+    An elastic ring's N, F and V are the inner problem's but for a term of order eps, ten times less at a foundation of
+    1e13 than at 1e10, and that term is what the disk's going on makes of it.
+    """
     from flexible import simulate as flexible
-    from studies.inner.march import STICK
 
     body, contact, event = end_of_spin
-    scene = scene_of(0.1).replace(
-        contact={"stiffness": foundation},
-        ring={"bending_stiffness": 1e12},
-        run=Run(until="pulse"),
-        solve={"rtol": 1e-5},
-    )
-    eps = epsilon(scene)
-    kept = flexible(scene, history=True).history
-    first = int(np.argmax((kept.phi > event.phi - 0.02) & (kept.slip_velocity >= -1e-12)))
-    reference = layer(body, contact, event, 3.0)
-    tau = (kept.t - kept.t[first]) / eps
-    inside = (tau > 0.05) & (tau < 3.0)
-    assert inside.sum() > 20
-    # N and F move by 300 m g sqrt(g/R) times eps per unit of tau as the disk goes on; the integrator damps a little
-    allowed = 0.02 + 3 * eps * 3e2 / 30
-    for seen, found, size in (
-        (kept.normal_force, reference.normal_force, 30.0),
-        (kept.friction_force, reference.friction_force, 40.0),
-        (kept.slip_velocity / eps, reference.slip, 4.0),
-    ):
-        expected = np.interp(tau[inside], reference.tau, found)
-        assert np.abs(seen[inside] - expected).max() < allowed * size
-    assert STICK == 0
+    away = []
+    for foundation in (1e10, 1e13):
+        scene = scene_of(0.1).replace(
+            contact={"stiffness": foundation},
+            ring={"bending_stiffness": 1e12},
+            run=Run(until="pulse"),
+            solve={"rtol": 1e-5},
+        )
+        eps = epsilon(scene)
+        kept = flexible(scene, history=True).history
+        first = int(np.argmax((kept.phi > event.phi - 0.02) & (kept.slip_velocity >= -1e-12)))
+        tau = (kept.t - kept.t[first]) / eps
+        inside = (tau > 0.0) & (tau < 3.0)
+        assert inside.sum() > 50
+        seen = np.array([kept.normal_force[inside], kept.friction_force[inside], kept.slip_velocity[inside] / eps])
+
+        def expected(eps: float, tau=tau[inside]) -> np.ndarray:
+            found = layer(body, contact, event, 3.0, eps=eps)
+            columns = (found.normal_force, found.friction_force, found.slip)
+            return np.array([np.interp(tau, found.tau, column) for column in columns])
+
+        size = np.array([30.0, 40.0, 10.0])  # of the jumps of N and F, and of V
+        away.append((np.abs(seen - expected(0.0)).max(axis=1) / size).max())
+        # what is left: the layer begins with H' = 0, where the spin has eps dH/dt = eps 1e4/(2 A) of it
+        assert (np.abs(seen - expected(eps)).max(axis=1) < (0.01 + 150 * eps) * size).all()
+    assert away[1] < 0.05
+    assert away[0] == pytest.approx(10 * away[1], rel=0.2)
