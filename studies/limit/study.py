@@ -255,6 +255,8 @@ def _flexible(
     out: Any,
     progress: Callable[[float], None] | None,
 ) -> list[Sight]:
+    if not foundations:
+        return []
     against = tuple((name, prediction.terms[name].limit) for name in ("impulse_ratio", "friction_loss"))
     cases = [Case("flexible", _at(scene, foundation), against) for foundation in foundations]
     sights = []
