@@ -93,9 +93,9 @@ def damping_figure(spots: Sequence[Spot]) -> Figure:
                 right.plot(*np.array(beyond).T, "o", color=colour, ms=4)
         left.axhline(spots[0].limit, color=RIGID, lw=2.6, alpha=0.3)
         left.set_xscale("symlog", linthresh=0.003)
-        left.set(xlabel="damping ratio", ylabel="$J_F/J_N$", title="foundation εR²/(mg)")
-        left.legend(ncols=2)
+        left.set(xlabel="damping ratio", ylabel="$J_F/J_N$", xlim=(0, None))
+        left.legend(ncols=2, title="foundation εR²/(mg)")
         right.axhline(0, color=RIGID, lw=2.6, alpha=0.3)
         right.set_xscale("symlog", linthresh=0.3)
-        right.set(xlabel=r"$x = \zeta\omega T_{stick}$", ylabel="beyond the predicted distance")
+        right.set(xlabel=r"$x = \zeta\omega T_{stick}$", ylabel="beyond the predicted distance", xlim=(0, None))
         return figure
