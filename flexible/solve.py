@@ -1,8 +1,8 @@
 """A scene through the flexible hoop: simulate(scene) -> FlexibleMotion.
 
 ``resolve = "pulses"`` runs the rigid closed form between pulses and the flexible hoop only inside them: each
-flexible stretch begins a little before the rigid hoop's pulse, in quasi-static equilibrium, and ends with it. The
-rigid hoop is always the one that the contact law tends to (:mod:`flexible.limit`).
+flexible segment begins a little before the rigid hoop's pulse, in quasi-static equilibrium, and ends with it. The
+rigid hoop is always the one that the contact law tends to (:mod:`flexible.contact.laws`).
 ``resolve = "all"`` is flexible from the release on, swing by swing.
 
 A run to rest ends where the rigid hoop, released from the flexible one's state, would slip no more: it rolls for ever
@@ -24,25 +24,24 @@ from rigid import Kind, Motion, Pulse, Release, Run, Scene
 from rigid.phases.choice import LEAST_LOSS, SLIPS
 
 from .builder import Builder
-from .contact.forces import STICK
+from .contact.laws.listing import rigid_limit
 from .handover import hand_over
-from .limit import rigid_limit
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
 from .motion import FlexibleMotion, FlexiblePulse
-from .segment import Stretch
+from .segment import Segment
 from .time.events import Ends
 from .time.tr_bdf2 import MarchError
 from .units import dimensionless
 
 Progress = Callable[[float], object]
 
-LEAD = 0.5  # a flexible stretch begins this many pulse lengths before the pulse, to let its start settle
+LEAD = 0.5  # a flexible segment begins this many pulse lengths before the pulse, to let its start settle
 
 
 class _Progress:
-    """Fraction done, from the angle swept within the stretch that runs."""
+    """Fraction done, from the angle swept within the segment that runs."""
 
     def __init__(self, report: Progress | None) -> None:
         self.report = report
@@ -105,7 +104,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             return _last_turn(scene.run.turns or 0) if over else motion.ended
         start = max(0.0, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
         try:
-            state = hand_over(hoop, motion, start, scene.contact.law)
+            state = hand_over(hoop, motion, start)
         except MarchError as error:
             builder.add_rigid(motion, start)
             builder.completed = False
@@ -122,14 +121,14 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, _swept(span))
         state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, progress=watch)
-        stretch = builder.add_flexible(records, attempts)
+        segment = builder.add_flexible(records, attempts)
         if not (trouble or cut) and sign * (float(state.pos[2]) - pulse.phi_end) < 0:
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get through the pulse"
         if trouble:
             builder.completed = False
             return trouble + _too_soft(scene)
-        first = stretch.crossing(pulse.phi_start, stretch.t_start)
-        measured = stretch.pulse(stretch.t_start if first is None else first, stretch.t_end)
+        first = segment.crossing(pulse.phi_start, segment.t_start)
+        measured = segment.pulse(segment.t_start if first is None else first, segment.t_end)
         builder.pulses.append(_cut(measured) if pulse.cut else measured)
         done += 1
         if scene.run.until == "pulse":
@@ -137,7 +136,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         rest = _rest_of(scene.run, builder)
         if rest is None:
             return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
-        current = _from_here(scene, state, rest)
+        current = _from_here(scene, hoop, state, rest)
 
 
 def _over_bottom(pulse: Pulse) -> bool:
@@ -177,10 +176,9 @@ def _rest_of(run: Run, builder: Builder) -> Run | None:
     return run
 
 
-def _from_here(scene: Scene, state: State, run: Run) -> Scene:
+def _from_here(scene: Scene, hoop: FlexibleHoop, state: State, run: Run) -> Scene:
     """The scene whose rigid hoop takes over from a flexible one."""
-    slip = 0.0 if state.mode == STICK else state.slip_velocity
-    release = Release(float(state.pos[2]), float(state.vel[2]), float(slip))
+    release = Release(float(state.pos[2]), float(state.vel[2]), float(hoop.law.handed_back(state)))
     return dataclasses.replace(scene, release=release, run=run)
 
 
@@ -203,7 +201,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
     """
     reference = rigid.simulate(rigid_limit(scene))
     try:
-        state = hand_over(hoop, reference, 0.0, scene.contact.law)
+        state = hand_over(hoop, reference, 0.0)
     except MarchError as error:
         builder.completed = False
         return str(error) + _too_soft(scene)
@@ -211,7 +209,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
     horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
     watch = progress.watch(0.0, 1.0, lambda s: s.t / horizon)
     while run is not None:
-        here = _from_here(scene, state, Run(until="rest" if run.until == "rest" else "pulse"))
+        here = _from_here(scene, hoop, state, Run(until="rest" if run.until == "rest" else "pulse"))
         swing = rigid.simulate(rigid_limit(here))
         if run.until == "rest" and builder.pieces and _slips_no_more(swing):
             return swing.ended
@@ -227,9 +225,9 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
             first, last = pulses[-1].phi_start, pulses[-1].phi_end
             ends = ends._replace(high=min(ends.high, last)) if last > first else ends._replace(low=max(ends.low, last))
         state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, progress=watch)
-        stretch = builder.add_flexible(records, attempts)
+        segment = builder.add_flexible(records, attempts)
         _add_pulses(
-            builder, stretch, pulses, over=not trouble and scene.run.t_end is not None and ends.t - state.t < 1e-12
+            builder, segment, pulses, over=not trouble and scene.run.t_end is not None and ends.t - state.t < 1e-12
         )
         if not trouble and scene.run.t_end is None and state.t >= limit:
             trouble = f"stopped at t = {state.t:.6g}: the rigid hoop swings that far in a quarter of this time"
@@ -242,17 +240,17 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
     return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
 
 
-def _add_pulses(builder: Builder, stretch: Stretch, pulses: list[Pulse], over: bool) -> None:
+def _add_pulses(builder: Builder, segment: Segment, pulses: list[Pulse], over: bool) -> None:
     """The pulses of a swing, each over its rigid one's angles; where the run is over inside one, the part before."""
     for pulse in pulses:
-        enters = stretch.t_start if pulse.cut else stretch.crossing(pulse.phi_start, stretch.t_start)
+        enters = segment.t_start if pulse.cut else segment.crossing(pulse.phi_start, segment.t_start)
         if enters is None:
             return
-        leaves = stretch.crossing(pulse.phi_end, enters)
+        leaves = segment.crossing(pulse.phi_end, enters)
         cut = pulse.cut or leaves is None
         if leaves is None and over:
-            leaves = stretch.t_end
+            leaves = segment.t_end
         if leaves is None or leaves <= enters:
             return
-        found = stretch.pulse(enters, leaves)
+        found = segment.pulse(enters, leaves)
         builder.pulses.append(_cut(found) if cut else found)

@@ -7,10 +7,13 @@ on what their room holds.
 from __future__ import annotations
 
 import ast
+import re
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
+
+from rigid.elastic import LAWS
 
 ROOT = Path(__file__).parent.parent
 PACKAGES = ("rigid", "meshes", "flexible", "studies")  # an import never points to one further right
@@ -91,3 +94,25 @@ def test_a_room_has_at_most_nine_modules() -> None:
         if path.name != "__init__.py":
             rooms.setdefault(room_of(module), []).append(path.stem)
     assert not {room: modules for room, modules in rooms.items() if len(modules) > MOST}
+
+
+def test_a_friction_law_is_known_by_its_own_file_alone() -> None:
+    """The rest of the program asks :class:`flexible.contact.laws.law.Law`, and gets laws from where they are listed."""
+    laws = "flexible.contact.laws"
+    own = {f"{laws}.{name}" for name in LAWS}
+    known = {module: targets & own for module, targets in IMPORTS.items() if module != f"{laws}.listing"}
+    assert own <= set(SOURCES)
+    assert not {module: targets for module, targets in known.items() if targets}
+    words = re.compile(rf"([\"'])({'|'.join(LAWS)})\1")
+    allowed = own | {"rigid.elastic"}
+    said = {module for module, path in SOURCES.items() if words.search(code_of(path))} - allowed
+    assert said == {"studies.bench.truth.reference", "studies.readme"}  # a scene, and what is said of one
+
+
+def code_of(path: Path) -> str:
+    """Source without docstrings and comments."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            node.value.value = ""
+    return ast.unparse(tree)

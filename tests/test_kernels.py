@@ -18,15 +18,15 @@ import rigid
 from rigid.kernel import announce, store
 
 ROOT = Path(__file__).parent.parent
-CALLEE = "flexible/contact/normal.py"
+CALLEE = "flexible/contact/points/normal.py"
 
-# A kernel of flexible.contact.assembly and the one that it calls in flexible.contact.normal: one point on the floor
-# whose own gap alone moves its force, so that the result is -(way - slip)/elastic times the diagonal: -0.5*3 = -1.5.
+# A kernel of flexible.contact.assembly and the one that it calls in flexible.contact.points.normal: one point on the
+# floor whose own gap alone moves its force, so that the result is -(way - slip)/elastic times the diagonal, -1.5.
 PROGRAM = """
 import numpy as np
 from flexible.contact.assembly import slip_by_gaps
-from flexible.contact.detection import Points
-from flexible.contact.normal import Foundation
+from flexible.contact.points.detection import Points
+from flexible.contact.points.normal import Foundation
 from rigid.kernel.announce import compile_seconds
 whole, real = np.zeros(1, np.int64), np.zeros(1)
 kinds = {"number": whole, "last": np.ones(1, np.bool_), "local": whole, "shape": np.zeros((1, 3))}

@@ -229,7 +229,7 @@ class _Painter:
         self.factor = np.array([self._display_factor(instants)])
 
     def frames(self, instants: list[_Instant]) -> Iterator[Frame]:
-        """Frames of some instants, those of one stretch done at once."""
+        """Frames of some instants, those of one segment done at once."""
         done: dict[int, dict[str, Array]] = {}
         for key in dict.fromkeys(id(i.kept) for i in instants if i.kept is not None):
             own = [i for i in instants if id(i.kept) == key]
@@ -274,9 +274,10 @@ class _Painter:
         ring = replace(ring, field_data={"display_factor": self.factor})
         blocks = {"ring": ring}
         if self.asked & set(RIM_FIELDS):
-            hoop = None if instant.kept is None else instant.kept.hoop
+            kept, state = instant.kept, instant.state
+            contact = None if kept is None or state is None else (kept.hoop, state)
             on_rim: dict[str, Array] = {n: nodal[n] for n in ("displacement", "velocity") if n in nodal}
-            blocks["rim"] = rim_of(mesh, points, on_rim, hoop, instant.state, place, self.asked, self.stress, R)
+            blocks["rim"] = rim_of(mesh, points, on_rim, contact, place, self.asked, self.stress, R)
         inner = 1 - self.scene.wall
         radius = max(self.scene.hoop.k * inner, 0.025)  # a point mass has to be seen too
         centre = R * place.points(np.array([[inner - radius, 0.0]]))[0]

@@ -144,7 +144,7 @@ class ReducedInterior(Interior):
         moved: Array = self.ring.solve(load)
         if self.mass > 0:
             shapes = self.reduced.shapes
-            return moved / self.young - shapes @ ((shapes.T @ load) / self.reduced.modal[:, :1])
+            return moved / self.young - shapes @ ((shapes.T @ load) / self.reduced.frame.modal[:, :1])
         return moved / self.young
 
     def _dynamic_rate(self, states: Sequence[State]) -> Array | float:

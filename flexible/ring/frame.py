@@ -13,28 +13,37 @@ with A the acceleration of C plus gravity: Euler, Coriolis and centrifugal terms
 from __future__ import annotations
 
 from math import cos, sin
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from rigid.kernel.compile import jit
 
-# positions in the array of body constants
-OFFSET, DISK_INERTIA, RING_MASS, RING_INERTIA = range(4)
+
+class Body(NamedTuple):
+    """The rigid parts of a hoop."""
+
+    offset: float  # distance of the disk from C
+    disk_inertia: float  # the disk's moment about its centre
+    ring_mass: float
+    ring_inertia: float  # the undeformed ring's moment about C
+
+
+class Frame(NamedTuple):
+    """The hoop in its frame: rigid parts and modes."""
+
+    body: Body
+    modal: Any  # (n, 5) per mode: squared frequency; participation in translation along y1, y2; rotation; stretching
+    gyro: Any  # (n, n) Phi_i^T M J Phi_j, antisymmetric
 
 
 @jit
-def inertia(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
+def inertia(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     """Inertial, gravitational and elastic forces, and their tangent.
 
     Parameters
     ----------
-    body : (4,) array
-        Distance of the disk from C, its moment of inertia about its centre, mass of the ring and its moment about C.
-    modal : (n, 5) array
-        Per mode: squared frequency; participation in translation along y1, y2; in rotation; in stretching.
-    gyro : (n, n) array
-        Phi_i^T M J Phi_j, antisymmetric.
+    frame : Frame
     pos, vel, acc : (3 + n,) arrays
         (V, h, phi, q) and rates.
     beta : float
@@ -46,8 +55,9 @@ def inertia(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta
     tangent : (3 + n, 3 + n) array
         Derivative of ``force`` by d.
     """
+    body, modal, gyro = frame.body, frame.modal, frame.gyro
     n = modal.shape[0]
-    offset, disk_inertia, ring_mass = body[OFFSET], body[DISK_INERTIA], body[RING_MASS]
+    offset, disk_inertia, ring_mass = body.offset, body.disk_inertia, body.ring_mass
     s, c = sin(pos[2]), cos(pos[2])
     w, alpha = vel[2], acc[2]
     ax, ay = acc[0] + alpha, acc[1] + 1.0
@@ -75,7 +85,7 @@ def inertia(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta
 
     a1, a2 = ax * s + ay * c, ax * c - ay * s
     s1, s2, s1_v, s2_v, s1_a, s2_a = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
-    moment, rate, spin = body[RING_INERTIA], 0.0, 0.0
+    moment, rate, spin = body.ring_inertia, 0.0, 0.0
     turned, turned_v, turned_a = np.zeros(n), np.zeros(n), np.zeros(n)
     for i in range(n):
         q, qv, qa = pos[3 + i], vel[3 + i], acc[3 + i]
@@ -154,21 +164,22 @@ def inertia(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta
 
 
 @jit
-def energies(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any) -> tuple[float, float, float]:
+def energies(frame: Frame, pos: Any, vel: Any) -> tuple[float, float, float]:
     """Kinetic energy, gravity (0 with the hoop's centre at the floor) and strain energy of the modes."""
+    body, modal, gyro = frame.body, frame.modal, frame.gyro
     n = modal.shape[0]
     s, c = sin(pos[2]), cos(pos[2])
     w = vel[2]
     vx, vy = vel[0] + w, vel[1]
-    offset = body[OFFSET]
+    offset = body.offset
     dx, dy = vx + offset * w * c, vy - offset * w * s
-    kinetic = (dx * dx + dy * dy + body[DISK_INERTIA] * w * w) / 2
+    kinetic = (dx * dx + dy * dy + body.disk_inertia * w * w) / 2
     gravity = 1 + pos[1] + offset * c
     strain = 0.0
-    if body[RING_MASS] > 0:
+    if body.ring_mass > 0:
         v1, v2 = vx * s + vy * c, vx * c - vy * s
         s1, s2, s1_v, s2_v = 0.0, 0.0, 0.0, 0.0
-        moment, spin, own = body[RING_INERTIA], 0.0, 0.0
+        moment, spin, own = body.ring_inertia, 0.0, 0.0
         for i in range(n):
             q, qv = pos[3 + i], vel[3 + i]
             s1 += modal[i, 1] * q
@@ -182,8 +193,8 @@ def energies(body: Any, modal: Any, gyro: Any, pos: Any, vel: Any) -> tuple[floa
             spin += qv * (modal[i, 3] + turned)
             own += qv * qv
             strain += modal[i, 0] * q * q / 2
-        kinetic += body[RING_MASS] * (vx * vx + vy * vy) / 2
+        kinetic += body.ring_mass * (vx * vx + vy * vy) / 2
         kinetic += v1 * (s1_v - w * s2) + v2 * (s2_v + w * s1)
         kinetic += (moment * w * w + own) / 2 + w * spin
-        gravity += body[RING_MASS] * (1 + pos[1]) + s1 * c - s2 * s
+        gravity += body.ring_mass * (1 + pos[1]) + s1 * c - s2 * s
     return kinetic, gravity, strain

@@ -10,48 +10,46 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
-from ..contact.forces import BRISTLE_ENERGY, BRUSH, ELASTIC, SLIDE_LEFT, SLIDE_RIGHT, STICK
 from ..models.state import Books, Model, Record, State, record
-from .events import SLIP_ENDS, SLIP_STARTS, TURN, Ends, locate, passed, watches
-from .tr_bdf2 import MarchError, Trial, attempt, restart
+from .events import MODE_ENDS, TURN, Ends, locate, passed, watches
+from .tr_bdf2 import MarchError, Step, attempt, restart
 
 SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
 AFRESH = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
 MOST_STALLS = 50  # events within a shortest step of each other
 
 
-def _free(state: State) -> State:
-    """A patch off the floor comes down sliding, the way it moves: one that stuck would break as it touches."""
-    if state.mode == BRUSH or state.res[ELASTIC] > 0 or state.slip_velocity == 0:
-        return state
-    return replace(state, mode=SLIDE_LEFT if state.slip_velocity > 0 else SLIDE_RIGHT)
+def _free(model: Model, state: State) -> State:
+    """The state in the mode in which a patch that is off the floor comes down."""
+    mode = model.law.free(state)
+    return state if mode == state.mode else replace(state, mode=mode)
 
 
-class Step(NamedTuple):
+class Accepted(NamedTuple):
     """An accepted step, and the event at which it ends."""
 
-    trial: Trial
+    trial: Step
     event: int | None
     attempts: int
 
 
-def _until_event(model: Model, state: State, trial: Trial, ends: Ends) -> Step | None:
+def _until_event(model: Model, state: State, trial: Step, ends: Ends) -> Accepted | None:
     """A step that passes no event: ``trial``, or a shorter one up to its first event; None where none can be solved."""
     event, attempts = None, 0
-    for watch in watches(state, ends):
+    for watch in watches(model.law, state, ends):
 
-        def past(step: Trial, watch: int = watch) -> float:
-            return passed(watch, model.mu_s, ends, state, step.state)
+        def past(step: Step, watch: int = watch) -> float:
+            return passed(watch, model.law, ends, state, step.state)
 
         if past(trial) < 0:
             continue
-        before = passed(watch, model.mu_s, ends, state, state)
+        before = passed(watch, model.law, ends, state, state)
         located = locate(lambda h: attempt(model, state, h), past, trial, before, trial.state.t - state.t)
         attempts += located.attempts
         if located.trial is None:
             return None
         trial, event = located.trial, watch if located.at_event else None
-    return Step(trial, event, attempts)
+    return Accepted(trial, event, attempts)
 
 
 def march(
@@ -88,7 +86,7 @@ def march(
         if keep is not None:
             keep(state)
 
-    state = _free(state)
+    state = _free(model, state)
     note(state)
     attempts, turns, stalls = 0, 0, 0
     if _over(state, ends, turns):
@@ -115,14 +113,14 @@ def march(
         attempts += step.attempts
         books.normal_impulse += trial.impulses[0]
         books.friction_impulse += trial.impulses[1]
-        stored = float(trial.state.res[BRISTLE_ENERGY] - state.res[BRISTLE_ENERGY])
+        stored = trial.state.res.bristle_energy - state.res.bristle_energy
         books.friction_loss -= trial.friction_work + stored
         books.damping_loss += trial.damped
         books.numerical_loss += trial.numerical
         books.off_floor += trial.off_floor
         stalls = stalls + 1 if trial.state.t - state.t < SHORTEST else 0
         turns += event == TURN
-        state = _free(trial.state)
+        state = _free(model, trial.state)
         note(state)
         stopped = progress is not None and progress(state)
         if _over(state, ends, turns):
@@ -131,9 +129,9 @@ def march(
             return state, records, attempts, f"stopped at t = {state.t:.6g}, as asked"
         if stalls > MOST_STALLS:
             return state, records, attempts, _stuck(state, "stick and slip follow each other without end")
-        if event in (SLIP_STARTS, SLIP_ENDS):
-            mode = STICK if event == SLIP_ENDS else SLIDE_RIGHT if state.friction_force > 0 else SLIDE_LEFT
-            if mode == STICK:  # to the last digit, which a step that was cut short may not have
+        if event == MODE_ENDS:
+            mode = model.law.successor(state)
+            if model.law.sticks(mode):  # to the last digit, which a step that was cut short may not have
                 state = replace(state, slip_velocity=0.0)
             try:
                 state = restart(model, state, mode)

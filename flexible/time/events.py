@@ -10,11 +10,11 @@ from collections.abc import Callable
 from math import inf
 from typing import NamedTuple
 
-from ..contact.forces import BRUSH, ELASTIC, ETA, NORMAL, STICK
+from ..contact.laws.law import Law
 from ..models.state import State
-from .tr_bdf2 import Trial
+from .tr_bdf2 import Step
 
-SLIP_STARTS, SLIP_ENDS, TURN, LOW_END, HIGH_END = range(5)
+MODE_ENDS, TURN, LOW_END, HIGH_END = range(4)
 
 
 class Ends(NamedTuple):
@@ -44,13 +44,9 @@ class Tolerances(NamedTuple):
 TOLERANCES = Tolerances()
 
 
-def watches(state: State, ends: Ends) -> list[int]:
+def watches(law: Law, state: State, ends: Ends) -> list[int]:
     """The events that a step from ``state`` may meet."""
-    found = []
-    if state.mode == STICK:
-        found.append(SLIP_STARTS)
-    elif state.mode != BRUSH:
-        found.append(SLIP_ENDS)
+    found = [MODE_ENDS] if law.may_end(state.mode) else []
     if state.vel[2] != 0:
         found.append(TURN)
     if ends.low > -inf:
@@ -60,24 +56,10 @@ def watches(state: State, ends: Ends) -> list[int]:
     return found
 
 
-def passed(watch: int, mu_s: float, ends: Ends, old: State, now: State, tolerances: Tolerances = TOLERANCES) -> float:
-    """How far ``now``, a step from ``old``, is past an event: positive past it, within 1 of it at it.
-
-    A patch sticks up to ``|F| = mu_s N``. It slides as long as it moves against its friction, and beyond that while
-    the feet of its bristles do: where N falls faster than the bristles let go, a patch that stuck would break in the
-    same instant. A damper that adds to N leaves no such doubt.
-    """
-    if watch == SLIP_STARTS:  # a damper may take all of N while the bristles still pull
-        if now.res[ELASTIC] <= 0:
-            return -inf
-        normal = now.normal_force
-        return (abs(now.friction_force) - mu_s * normal) / (tolerances.force * (1 + normal))
-    if watch == SLIP_ENDS:
-        if now.res[NORMAL] == 0 or mu_s == 0:
-            return -inf
-        against = now.mode * now.slip_velocity
-        feet = now.mode * now.feet_velocity if now.res[ETA] <= 1 else inf
-        return min(against, feet) / tolerances.velocity
+def passed(watch: int, law: Law, ends: Ends, old: State, now: State, tolerances: Tolerances = TOLERANCES) -> float:
+    """How far ``now``, a step from ``old``, is past an event: positive past it, within 1 of it at it."""
+    if watch == MODE_ENDS:
+        return law.excess(now, tolerances.force, tolerances.velocity)
     if watch == TURN:
         return float(-now.vel[2] if old.vel[2] > 0 else now.vel[2]) / tolerances.rate
     phi = float(now.pos[2])
@@ -87,15 +69,15 @@ def passed(watch: int, mu_s: float, ends: Ends, old: State, now: State, toleranc
 class Located(NamedTuple):
     """A step cut short."""
 
-    trial: Trial | None  # None where no step could be solved
+    trial: Step | None  # None where no step could be solved
     at_event: bool  # otherwise it ends before the event
     attempts: int
 
 
 def locate(
-    attempt: Callable[[float], Trial | None],
-    past: Callable[[Trial], float],
-    trial: Trial,
+    attempt: Callable[[float], Step | None],
+    past: Callable[[Step], float],
+    trial: Step,
     before: float,
     length: float,
     tolerances: Tolerances = TOLERANCES,

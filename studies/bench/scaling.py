@@ -62,7 +62,7 @@ def _long_run(steps: int) -> Contestant:
 
     def run() -> None:
         hoop = ReducedHoop(scene)
-        state = hand_over(hoop, simulate(scene), 0.0, scene.contact.law)
+        state = hand_over(hoop, simulate(scene), 0.0)
         march(hoop, state, Ends(), scene.solve.rtol, max_steps=steps)
 
     return _sized(STEPS, steps, run)

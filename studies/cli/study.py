@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rigid import load_scene
+from rigid.elastic import LAWS
 
 from ..running.files import folder, to_json, write_text
 
@@ -54,7 +55,7 @@ def study() -> None:
 @click.option("--low", type=float, metavar="S", help="Softest rung; by default 1e-2 of the scene's own stiffness.")
 @click.option("--high", type=float, metavar="S", help="Stiffest rung; by default 1e4 of it.")
 @click.option("--count", type=int, default=9, metavar="N", help="Number of rungs, 9 by default.")
-@click.option("--law", type=click.Choice(["patch", "brush"]), help="Contact law, in place of the scene's.")
+@click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--rate",
     type=float,
@@ -144,7 +145,7 @@ def stiffness(
 @click.argument("scene")
 @as_json
 @click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Write limit.json and figures here.")
-@click.option("--law", type=click.Choice(["patch", "brush"]), help="Contact law, in place of the scene's.")
+@click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--damping",
     type=click.FloatRange(0),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi
 
-from flexible.limit import rigid_limit
+from flexible.contact.laws.listing import rigid_limit
 from flexible.solve import LEAD
 from rigid import Kind, Motion, Pulse, Run, Scene, simulate
 
@@ -73,7 +73,7 @@ def scaled_contact(scene: Scene, damping: float | None = None) -> ScaledContact:
     """The contact of a scene in the scaled problem."""
     contact, friction = scene.contact, scene.friction
     mu_s = friction.mu if contact.law == "regularised" else friction.mu_s
-    scale = getattr(contact, "slip_velocity_scale", 0.0) / epsilon(scene)
+    scale = contact.slip_velocity_scale / epsilon(scene)
     return ScaledContact(
         LAWS[contact.law], contact.tangential_ratio, mu_s, friction.mu, theta_of(scene, damping), scale
     )

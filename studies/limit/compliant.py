@@ -25,6 +25,7 @@ from ..inner.march import (
     OMEGA,
     PATCH,
     PSI,
+    REGULARISED,
     SLIDE_LEFT,
     SLIDE_RIGHT,
     SLIP,
@@ -102,7 +103,7 @@ def _start(way: Passage, eps: float) -> tuple[np.ndarray, int, object]:
     kept = bristles(2 * half / _POINTS)
     mode = STICK
     if first.pull is None:
-        undamped = way.contact._replace(law=PATCH, theta=0.0)
+        undamped = way.contact if way.contact.law == REGULARISED else way.contact._replace(law=PATCH, theta=0.0)
         slip = creep(undamped, normal, friction, first.omega).slip
         curve = np.array([slip * half / abs(first.omega), slip / first.omega, 0.0])
     else:

@@ -133,12 +133,12 @@ def _walk(way: Passage, number: int, shift: Shift, creeps: bool) -> NDArray[np.f
 
 
 def _handed_over(way: Passage) -> Shift:
-    """The flexible hoop takes phidot over, and creeps as an undamped patch would (``flexible.start.hand_over``)."""
+    """The flexible hoop takes phidot over, and creeps as an undamped patch would, or as the regularised law does."""
     first = way.stretches[0]
     if first.pull is not None:
         return NOTHING
     normal, friction, _ = rolling_forces(way.body, first.psi_start, first.omega)
-    undamped = way.contact._replace(law=PATCH, theta=0.0)
+    undamped = way.contact if way.contact.law == REGULARISED else way.contact._replace(law=PATCH, theta=0.0)
     return Shift(0.0, creep(undamped, normal, friction, first.omega).slip, 0.0)
 
 
@@ -185,5 +185,4 @@ def _with_units(scene: Scene, way: Passage, found: dict[float, NDArray[np.float6
         for kept, value in zip(powers, (normal, friction, ratio, *losses), strict=True):
             kept.append((exponent, float(value)))
     terms = {name: Term(float(limit), tuple(kept)) for name, limit, kept in zip(MEASURES, limits, powers, strict=True)}
-    leading = way.contact.law != BRUSH or 2 / 3 not in found
-    return Prediction("v_s" if regularised else "eps", terms, leading)
+    return Prediction("v_s" if regularised else "eps", terms, complete=1.0 in found)

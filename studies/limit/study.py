@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from flexible.limit import effective_mu_s
+from flexible.contact.laws.listing import LAWS
 from rigid import Run, Scene, scene_to_dict, simulate
 
 from ..inner.creep import creep
@@ -115,7 +115,7 @@ class LimitStudy:
         """The prediction's small parameter at a foundation."""
         if self.prediction.parameter == "eps":
             return foundation ** (-1 / 3)
-        return float(getattr(self.scene.contact, "slip_velocity_scale", 0.0))
+        return float(_at(self.scene, foundation).contact.slip_velocity_scale)
 
     def distance(self, name: str, sight: Sight) -> tuple[float, float]:
         """(observed, predicted) distance of a measure from its limit."""
@@ -207,13 +207,11 @@ def limit_study(
 
 def _others(scene: Scene) -> tuple[Other, ...]:
     """The limits of the three laws, and what is seen of a patch without a damper."""
-    mu = scene.friction.mu
-    threshold = {"patch": scene.friction.mu_s, "brush": effective_mu_s(scene.friction.mu_s, mu), "regularised": mu}
     found = []
-    for law, mu_s in threshold.items():
-        pulses = simulate(scene.replace(friction={"mu_s": mu_s})).pulses
+    for name, law in LAWS.items():
+        pulses = simulate(scene.replace(friction={"mu_s": law.static_coefficient(scene.friction)})).pulses
         if pulses:
-            found.append(Other(f"{law}, any damping", (pulses[0].impulse_ratio,) * 2))
+            found.append(Other(f"{name}, any damping", (pulses[0].impulse_ratio,) * 2))
     undamped = scene.replace(contact={"law": "patch", "damping": 0.0})
     seen = [go_through(_at(undamped, foundation)).impulse_ratio for foundation in FOUNDATIONS]
     return (*found, Other("patch, no damping", (min(seen), max(seen))))
@@ -233,8 +231,11 @@ def _separate(scene: Scene, found: Sequence[EventFound]) -> float:
 
 
 def _at(scene: Scene, foundation: float) -> Scene:
-    ratio = scene.ring.bending_stiffness / scene.contact.stiffness
-    return scene.replace(contact={"stiffness": foundation}, ring={"bending_stiffness": foundation * ratio})
+    """The scene at another foundation; its ring, and what its law ties to the foundation, go with it."""
+    factor = foundation / scene.contact.stiffness
+    tied = LAWS[scene.contact.law].stiffened(scene.contact, factor)
+    ring = {"bending_stiffness": scene.ring.bending_stiffness * factor}
+    return scene.replace(contact={"stiffness": foundation, **tied}, ring=ring)
 
 
 def _ring(scene: Scene, foundation: float) -> Sight:

@@ -124,8 +124,8 @@ def verdict(study: LimitStudy) -> str:
     told = f"{words}, {small}."
     if not study.prediction.complete:
         told += (
-            " A slip that starts where a brush carries most comes late by that power; terms of order ε log ε behind it"
-            " are the larger ones up to foundations of 1e13 and more, and are not predicted."
+            " The slip starts where friction has no jump, which gives that power; the terms behind it, of the order of"
+            " the creep, are not predicted, and may be the larger ones at any stiffness within reach."
         )
     return told
 

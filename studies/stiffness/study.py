@@ -91,7 +91,7 @@ class StiffnessStudy:
     rigid: Outcome
     """The rigid hoop of the scene: the paper's law."""
     reference: Outcome
-    """The rigid hoop that the contact law is expected to tend to; another than ``rigid`` for a brush with
+    """The rigid hoop that the contact law is expected to tend to; another than ``rigid`` for some laws where
     mu_s > mu."""
     reference_mu_s: float
     """That hoop's static coefficient."""
@@ -214,7 +214,7 @@ def stiffness_study(
     StudyError
         The rigid hoop has no pulse to study, or too few rungs came through to speak of a limit.
     """
-    from flexible.limit import rigid_limit
+    from flexible.contact.laws.listing import rigid_limit
 
     ladder = ladder or Ladder.around(scene)
     if damping is not None:

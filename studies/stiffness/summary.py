@@ -136,15 +136,15 @@ def verdict(study: StiffnessStudy) -> str:
 
 def law_sentence(study: StiffnessStudy) -> str:
     """Which rigid hoop the limit is compared with, and why."""
-    mu_s, mu = study.scene.friction.mu_s, study.scene.friction.mu
-    if study.scene.contact.law == "patch":
-        return f"The stick threshold acts on the patch's resultants: it keeps mu_s = {mu_s:g} and mu = {mu:g}."
-    if study.reference_mu_s == mu_s:
-        return f"A brush with mu_s = mu = {mu:g} tends to the rigid hoop of the same coefficients."
+    from flexible.contact.laws.listing import LAWS
+
+    friction = study.scene.friction
+    explained = LAWS[study.scene.contact.law].explanation(friction)
+    if study.reference_mu_s == friction.mu_s:
+        return explained
     paper = study.rigid.pulses[0]
     return (
-        "A brush breaks away from its rear, so its limit is the rigid hoop with mu_s replaced by "
-        f"mu_eff = {study.reference_mu_s:.5f}; the paper's law, mu_s = {mu_s:g}, would give "
+        f"{explained} The paper's law, mu_s = {friction.mu_s:g}, would give "
         f"J_F/J_N = {paper['impulse_ratio']:.5f} and a friction loss of {paper['friction_loss']:.5f}."
     )
 

@@ -4,7 +4,7 @@ from math import pi
 
 import numpy as np
 
-from flexible.contact.forces import RESULTANTS, STICK
+from flexible.contact.points.data import NOTHING, no_bristles
 from flexible.models.state import State
 from flexible.time.adaptive import march
 from flexible.time.events import Ends
@@ -26,8 +26,8 @@ def flying(hoop, pos, vel):
     """A hoop off the floor."""
     window = hoop.window(pos[2], 0.0, 0.0, 0.1 * hoop.element)
     u = np.zeros((2 * window[1] + 1, 2))
-    nothing = (u, np.zeros_like(u), np.zeros(RESULTANTS), np.empty((0, 3)), np.empty(0, np.int8))
-    return State(0.0, 0.0, pos, vel, np.zeros_like(pos), STICK, window, *nothing, 0.0)
+    nothing = (u, np.zeros_like(u), NOTHING, no_bristles())
+    return State(0.0, 0.0, pos, vel, np.zeros_like(pos), 0, window, *nothing, 0.0)
 
 
 def steps_of(hoop, state, t_end, step):

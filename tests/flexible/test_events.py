@@ -10,7 +10,7 @@ from scenes import HOOP, flying
 import flexible
 import flexible.time.adaptive
 import rigid
-from flexible.contact.forces import NORMAL, SLIDE_RIGHT, STICK
+from flexible.contact.laws.patch import SLIDE_RIGHT, STICK
 from flexible.handover import Pose, equilibrium, hand_over
 from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
@@ -25,7 +25,7 @@ SLIPPING = HOOP.replace(release={"phi0": 1.5, "omega0": 1.0}, hoop={"mass_ratio"
 
 
 def start_of(scene, model=ReducedHoop):
-    return model(scene), hand_over(model(scene), rigid.simulate(scene), 0.0, "patch")
+    return model(scene), hand_over(model(scene), rigid.simulate(scene), 0.0)
 
 
 def numbered(root, unsolved=(2.0, 3.0)):
@@ -146,15 +146,15 @@ def test_a_restart_moves_nothing(mode):
     """
     scene = opening(1e7, 1e12)
     hoop = ReducedHoop(scene)
-    spacing = hoop.law[0]
+    spacing = hoop.law.parameters.spacing
     lowest = round((pi - 3.0916) / spacing)  # the point at the bottom, which alone is in so thin a patch
     pos, vel = np.array([0.0, -1e-12, pi - lowest * spacing]), np.array([0.0, -1e-3, 6.9])
     state = restart(hoop, flying(hoop, pos, vel), mode)
     again = restart(hoop, state, mode)
     assert abs(state.acc[1]) > 10
-    assert 0 < state.res[NORMAL] < 1e-3
+    assert 0 < state.res.normal < 1e-3
     slack = 1e-9 * 1e-3  # Newton's tolerance, of displacements that are forces over the patch's own stiffness
-    assert again.res[NORMAL] == pytest.approx(state.res[NORMAL], rel=1e-6, abs=slack)
+    assert again.res.normal == pytest.approx(state.res.normal, rel=1e-6, abs=slack)
 
 
 @pytest.mark.parametrize(
@@ -194,7 +194,7 @@ def test_order_across_the_start_of_slip():
         friction={"mu_s": 0.82, "mu": 0.6},  # F/N is .795 at first and grows
     )  # fmt: skip
     hoop = ReducedHoop(scene, modes=2)
-    start = hand_over(hoop, rigid.simulate(scene.replace(friction={"mu_s": 9.0, "mu": 9.0})), 0.0, "patch")
+    start = hand_over(hoop, rigid.simulate(scene.replace(friction={"mu_s": 9.0, "mu": 9.0})), 0.0)
     steps = 0.1 / np.array([50, 100, 200, 1600])
     ends = []
     for step in steps:

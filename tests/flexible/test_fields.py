@@ -138,7 +138,7 @@ def test_the_default_times_are_dense_where_the_force_changes(motion, tmp_path):
     pulse = motion.pulses[0]
     assert len(series) == 40
     assert series.times[0] < pulse.t_start
-    assert series.times[-1] == pytest.approx(pulse.t_end, rel=1e-9)  # the flexible stretch ends there
+    assert series.times[-1] == pytest.approx(pulse.t_end, rel=1e-9)  # the flexible segment ends there
     rising = np.interp(series.times, motion.history.t, motion.history.normal_force)
     steepest = np.argmax(np.abs(np.diff(rising) / np.diff(series.times)))
     assert np.diff(series.times)[steepest] < 0.5 * np.diff(series.times).max()

@@ -6,7 +6,7 @@ from math import radians
 
 import pytest
 
-from flexible.limit import rigid_limit
+from flexible.contact.laws.listing import rigid_limit
 from rigid import Contact, Friction, Hoop, Release, Scene, simulate
 from studies.running.workers import cores, pool
 from studies.stiffness.ladder import Ladder

@@ -8,13 +8,15 @@ import numpy as np
 import pytest
 from third_solver import OFF, RATE
 
-from flexible.limit import effective_mu_s, rigid_limit
+from flexible.contact.laws.brush import effective_mu_s
+from flexible.contact.laws.listing import rigid_limit
 from rigid import Friction as Coefficients
 from rigid import Hoop, Release, Scene, SceneError, load_scene
 from studies.running.case import SHARE
 from studies.running.files import StudyError
 from studies.stiffness.ladder import Ladder
 from studies.stiffness.study import stiffness_study
+from studies.stiffness.summary import law_sentence
 
 THIRD = "third_solver:softened"
 
@@ -102,6 +104,18 @@ def test_each_law_is_compared_with_the_rigid_hoop_it_should_become():
     assert study.limits["impulse_ratio"].rigid == study.reference.pulses[0]["impulse_ratio"]
     assert study.reference.pulses[0]["impulse_ratio"] != study.rigid.pulses[0]["impulse_ratio"]
     assert study.limits["impulse_ratio"].rigid_inside
+
+
+def test_regularised_friction_is_sharpened_along_the_ladder():
+    """v_s falls like the patch's half width, and the limit has no static coefficient."""
+    scene = load_scene("paper-3.3-massless").replace(contact={"law": "regularised", "slip_velocity_scale": 2e-3})
+    assert rigid_limit(scene) == scene.replace(friction={"mu_s": scene.friction.mu})
+    ladder = Ladder("both", 1e7, 1e13, 7)
+    scales = [rung.contact.slip_velocity_scale for rung in ladder.rungs(scene)]
+    assert scales == pytest.approx(2e-3 * (ladder.stiffness / scene.contact.stiffness) ** (-1 / 3), rel=1e-12)
+    study = stiffness_study(scene, ladder, solver=THIRD)
+    assert study.limits["impulse_ratio"].rigid_inside
+    assert "no static coefficient" in law_sentence(study)
 
 
 def test_json_is_the_contract(hoop):

@@ -22,8 +22,8 @@ OFF = 20.0
 def softened(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
     """The rigid motion of the scene that the contact law tends to, its pulses missed by the law above."""
     tended = scene
-    if scene.contact.law == "brush":  # only then is there need for the flexible package, which takes time to import
-        from flexible.limit import rigid_limit
+    if scene.contact.law != "patch":  # only then is there need for the flexible package, which takes time to import
+        from flexible.contact.laws.listing import rigid_limit
 
         tended = rigid_limit(scene)
     motion = simulate(tended)

@@ -96,7 +96,7 @@ def run_hoop(scene: Scene, hoop: Any) -> Measured:
     from flexible.time.events import Ends
     from rigid import simulate
 
-    state = hand_over(hoop, simulate(scene), 0.0, scene.contact.law)
+    state = hand_over(hoop, simulate(scene), 0.0)
     end = scene.run.t_end
     assert end is not None
     _, records, _, trouble = march(hoop, state, Ends(t=end), scene.solve.rtol)
