@@ -24,8 +24,7 @@ from rigid.kernel.compile import jit
 from . import body as mechanics
 from .bristles import brush_pull, set_stretch, step_on, total_stretch
 
-PATCH, BRUSH, REGULARISED = range(3)
-LAWS = {"patch": PATCH, "brush": BRUSH, "regularised": REGULARISED}
+PATCH, BRUSH, REGULARISED = range(3)  # the codes of the laws in flexible.contact.laws, each in its scaled form here
 STICK, SLIDE_RIGHT, SLIDE_LEFT = 0, 1, -1  # a spinning hoop is pushed to the right
 # positions in the state of the march
 PSI, OMEGA, SLIP, HEIGHT, RATE, WAY, ROLLED, NORMAL_IMPULSE, FRICTION_IMPULSE, FRICTION_WORK = range(10)

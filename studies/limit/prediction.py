@@ -154,8 +154,8 @@ def _through(way: Passage, event: Event, shift: Shift, creeps: bool) -> Shift:
     body, contact = way.body, way.contact
     where = (body, event.psi, event.omega)
     if event.kind == START:
-        # with mu_s = mu, whatever the law, nothing jumps and it does not matter when it happens
-        if contact.mu_s == contact.mu:
+        # without a jump it does not matter when it happens
+        if contact.mu_s == contact.mu or contact.law == REGULARISED:
             return shift
         later = delay_of_break(body, contact if creeps else None, way.scene.friction.mu_s, *where[1:], shift)
         return passed(*where, shift, later, pulls)

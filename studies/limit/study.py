@@ -19,6 +19,7 @@ from ..inner.creep import creep
 from ..inner.critical import critical_theta
 from ..inner.events import Event, passage
 from ..inner.layers import Layer, layer, outer_forces
+from ..inner.march import PATCH
 from ..inner.scales import damping_of
 from ..running.case import Case
 from ..running.runs import run_cases
@@ -212,9 +213,10 @@ def _others(scene: Scene) -> tuple[Other, ...]:
         pulses = simulate(scene.replace(friction={"mu_s": law.static_coefficient(scene.friction)})).pulses
         if pulses:
             found.append(Other(f"{name}, any damping", (pulses[0].impulse_ratio,) * 2))
-    undamped = scene.replace(contact={"law": "patch", "damping": 0.0})
+    ideal = next(name for name, law in LAWS.items() if law.code == PATCH)
+    undamped = scene.replace(contact={"law": ideal, "damping": 0.0})
     seen = [go_through(_at(undamped, foundation)).impulse_ratio for foundation in FOUNDATIONS]
-    return (*found, Other("patch, no damping", (min(seen), max(seen))))
+    return (*found, Other(f"{ideal}, no damping", (min(seen), max(seen))))
 
 
 def _separate(scene: Scene, found: Sequence[EventFound]) -> float:

@@ -120,7 +120,11 @@ def verdict(study: LimitStudy) -> str:
         + ("the paper's pulse" if same else f"another pulse than the paper's {paper:.6f}")
         + f", like {term.coefficient:+.4g} {_symbol(study)}^{term.exponent:.3g}"
     )
-    small = "ε the foundation ε_n R²/(m g) to the power −1/3" if study.prediction.parameter == "eps" else "v_s"
+    small = (
+        "ε the foundation ε_n R²/(m g) to the power −1/3"
+        if study.prediction.parameter == "eps"
+        else "v_s its slip velocity scale over sqrt(gR), which falls with the foundation as the patch's width does"
+    )
     told = f"{words}, {small}."
     if not study.prediction.complete:
         told += (

@@ -271,3 +271,12 @@ def test_the_flexible_solver_has_the_same_history(end_of_spin):
         assert (np.abs(seen - expected(eps)).max(axis=1) < (0.01 + 150 * eps) * size).all()
     assert away[1] < 0.05
     assert away[0] == pytest.approx(10 * away[1], rel=0.2)
+
+
+def test_the_laws_of_the_scaled_problem_are_those_of_the_flexible_solver():
+    from flexible.contact.laws.listing import LAWS
+
+    codes = {"patch": PATCH, "brush": BRUSH, "regularised": REGULARISED}
+    assert {name: law.code for name, law in LAWS.items()} == codes
+    for name, code in codes.items():
+        assert passage(scene_of(0.1, law=name)).contact.law == code
