@@ -10,7 +10,8 @@ that turns toward the other line has reversed its slip. The slope from the origi
 ratio.""",
     "distance": """\
 How far the flexible hoop's measures are from the rigid ones. Triangles are the numerical error, known
-from a second run at half the tolerance; the line has the fitted rate and spans the cases it was fitted to.""",
+from a second run at half the tolerance; the dashed line has the fitted rate and
+spans the cases it was fitted to; the black one is predicted from the rigid motion, without any of them.""",
     "energy": """\
 Where the energy is and where it goes; below, the small terms on a logarithmic axis.""",
 }
@@ -54,7 +55,7 @@ footer { color: #666; font-size: .85rem; margin-top: 3rem; border-top: 1px solid
 <p>The limit is L in L + c s<sup>−p</sup>, s the {{ along }}, fitted to the stiffest cases without knowing the
 rigid value. Its uncertainty ± covers the scatter about that fit, the choice of the fitted cases and their
 numerical error. The rate is that of the distance to the rigid value, the last distance that of the stiffest case.
-{{ law }} {{ damping }}</p>
+{{ prediction }} {{ law }} {{ damping }}</p>
 
 {% for name, caption, image in figures %}
 <figure id="{{ name }}"><img alt="{{ caption }}" src="data:image/png;base64,{{ image }}"><figcaption>{{

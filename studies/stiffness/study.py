@@ -4,7 +4,8 @@ Method. (1) The rigid hoop gives the pulse, and the measures that the limit shou
 goes through the same pulse on every rung of a ladder of stiffness, each at a tolerance that keeps its
 numerical error below a tenth of its distance from those measures, shown by a second run at half the
 tolerance. (3) The rate of the distance and the limit for infinite stiffness are fitted, the limit without
-knowing the rigid value; then the two are compared.
+knowing the rigid value; then the two are compared. (4) Beside the cases stands what :mod:`studies.limit` predicts
+of them from the rigid motion and the contact law alone.
 
 The solvers are known here only by what every motion has: its pulses and their measures.
 """
@@ -15,7 +16,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import nan
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rigid import Run, Scene, scene_to_dict
 
@@ -25,6 +26,9 @@ from ..running.runs import run_cases
 from ..running.workers import Here, Pool
 from .ladder import Ladder
 from .limits import Limit, limit_of
+
+if TYPE_CHECKING:
+    from ..limit.prediction import Prediction
 
 LIMITS = ("impulse_ratio", "friction_loss", "normal_impulse")
 """Measures whose limit is sought."""
@@ -95,6 +99,9 @@ class StiffnessStudy:
     """The flexible hoop, softest first."""
     limits: dict[str, Limit]
     """Limit of each measure in ``LIMITS``, first pulse."""
+    prediction: Prediction | None = None
+    """The approach to the limit as the rigid motion alone foresees it; None where the foundation is not raised, and
+    where the pulse has more in it than that covers."""
 
     @property
     def failures(self) -> list[Rung]:
@@ -105,6 +112,17 @@ class StiffnessStudy:
     def rungs_through(self) -> list[Rung]:
         """The rungs that have one."""
         return [rung for rung in self.rungs if not rung.outcome.failure]
+
+    def coefficients(self, name: str) -> tuple[float, float, float] | None:
+        """(observed, predicted, numerical error) of a distance over its leading power; the stiffest rung resolved."""
+        resolved = [rung for rung in self.rungs_through if rung.outcome.resolved]
+        if self.prediction is None or not resolved:
+            return None
+        term, rung = self.prediction.terms[name], resolved[-1]
+        small = rung.contact_stiffness ** (-1 / 3)
+        scale = small**term.exponent
+        off, foreseen = rung.measure(name) - term.limit, float(term.at(small)) - term.limit
+        return off / scale, foreseen / scale, rung.error(name) / scale
 
     def to_dict(self) -> dict[str, Any]:
         """The study as JSON prints it."""
@@ -125,7 +143,19 @@ class StiffnessStudy:
             },
             "cases": [rung.to_dict() for rung in self.rungs],
             "limit": {name: _limit_to_dict(limit) for name, limit in self.limits.items()},
+            "prediction": self._foreseen(),
         }
+
+    def _foreseen(self) -> dict[str, Any] | None:
+        if self.prediction is None:
+            return None
+        told = {}
+        for name in LIMITS:
+            seen = self.coefficients(name)
+            told[name] = self.prediction.terms[name].to_dict() | (
+                {} if seen is None else dict(zip(("observed", "predicted", "numerical_error"), seen, strict=True))
+            )
+        return {"complete": self.prediction.complete, **told}
 
 
 def _limit_to_dict(limit: Limit) -> dict[str, Any]:
@@ -212,4 +242,18 @@ def stiffness_study(
     for name in LIMITS:
         values, errors = [r.measure(name) for r in through], [r.error(name) for r in through]
         limits[name] = limit_of([r.stiffness for r in through], values, reference.pulses[0][name], errors, exponent)
-    return StiffnessStudy(scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits)
+    foreseen = _prediction(scene, ladder)
+    return StiffnessStudy(scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits, foreseen)
+
+
+def _prediction(scene: Scene, ladder: Ladder) -> Prediction | None:
+    """Of a rigid ring, or one that is stiffened with its foundation."""
+    from ..limit.prediction import predict
+
+    if ladder.along == "bending":
+        return None
+    try:
+        found = predict(scene)
+    except StudyError:
+        return None
+    return found if found.parameter == "eps" else None

@@ -5,17 +5,11 @@ from __future__ import annotations
 from math import isfinite
 from typing import TYPE_CHECKING
 
+from ..plots.sheet import number
 from ..running.measures import MEASURES
 
 if TYPE_CHECKING:
     from .study import Rung, StiffnessStudy
-
-
-def number(value: float | None, digits: int = 6) -> str:
-    """A number for a table; a dash for none."""
-    if value is None or not isfinite(value):
-        return "-"
-    return f"{value:.{digits}g}"
 
 
 REST = ("normal_impulse", "peak_normal_force", "time_off_floor")
@@ -167,6 +161,25 @@ def damping_sentence(study: StiffnessStudy) -> str:
         "The contact is undamped: where slip ends or begins the normal force jumps, and the patch then rings "
         "with an amplitude that no stiffness makes smaller, so the limit need not be the rigid hoop."
     )
+
+
+def prediction_sentence(study: StiffnessStudy) -> str:
+    """What is predicted without any of the cases, and how far the stiffest of them that are resolved are from that."""
+    if study.prediction is None:
+        return ""
+    told = []
+    for name in ("impulse_ratio", "friction_loss"):
+        term = study.prediction.terms[name]
+        powers = " ".join(f"{c:+.4g} ε^{p:.3g}" for p, c in term.powers) or "+ 0"
+        seen = study.coefficients(name)
+        words = f"{MEASURES[name].symbol} = {number(term.limit)} {powers}"
+        if seen is not None:
+            observed, predicted, error = seen
+            beside = f"{observed:.4g} ± {error:.2g} for {predicted:.4g} of ε^{term.exponent:.3g}"
+            words += f" (the stiffest case resolved: {beside})"
+        told.append(words)
+    lacking = "" if study.prediction.complete else ", the leading power alone"
+    return f"Predicted without a fit, ε the foundation to the power −1/3{lacking}: {'; '.join(told)}."
 
 
 def shortened(phases: list[str], most: int = 6) -> str:
