@@ -264,7 +264,7 @@ def test_losses_of_a_wide_patch(law, damping):
     """On a foundation so soft that the patch is a quarter of the radius, its points slip by different amounts.
 
     The integrals of the losses still leave little of the energy unexplained, and no loss is negative. The regularised
-    law smoothed over a slip velocity of 0.03, some hundredth of the hoop's: at the default 0.001 its friction turns
+    law is smoothed over a slip velocity of 0.03, a fiftieth of phidot R or so: at the default 0.001 its friction turns
     within steps ten times as short, which proves no more.
     """
     scene = PULSE.replace(
