@@ -263,10 +263,12 @@ def test_a_skidding_hoop_is_handed_over_skidding():
 def test_losses_of_a_wide_patch(law, damping):
     """On a foundation so soft that the patch is a quarter of the radius, its points slip by different amounts.
 
-    The integrals of the losses still leave little of the energy unexplained, and no loss is negative.
+    The integrals of the losses still leave little of the energy unexplained, and no loss is negative. The regularised
+    law is smoothed over a slip velocity of 0.03, a fiftieth of phidot R or so: at the default 0.001 its friction turns
+    within steps ten times as short, which proves no more.
     """
     scene = PULSE.replace(
-        contact={"law": law, "stiffness": 700.0, "damping": damping},
+        contact={"law": law, "stiffness": 700.0, "damping": damping, "slip_velocity_scale": 0.03},
         ring={"bending_stiffness": 1e5},
         solve={"rtol": 1e-4},
     )
