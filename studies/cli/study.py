@@ -60,7 +60,7 @@ def study() -> None:
     "--rate",
     type=float,
     metavar="P",
-    help="Rate of the extrapolation where it is known (1/3 is 0.3333); by default it is fitted.",
+    help="Rate of the extrapolation (1/3 is 0.3333), in place of the contact law's own or a fitted one.",
 )
 @click.option(
     "--damping",

@@ -26,6 +26,14 @@ from ..inner.scales import epsilon
 from . import onset
 from .outer import Shift, delay_of_break, delay_of_stop, grown, passed, roll_along, slide_along
 
+CREEP, NEXT, NEXT_OF_A_RING_WITH_MASS = 1.0, 2.0, 3 / 2
+"""Powers of eps by which rolling's creep changes a pulse, and of what comes behind it: the frequencies of an elastic
+ring with a mass are greater than the patch's by eps^(-1/2)."""
+
+BRUSH_DELAY, BRUSH_LAG, REGULARISED_GAIN = 2 / 3, 6 / 5, 4 / 5
+"""Those that the start of a slip adds where friction has no jump there, of eps (or v_s): see
+:mod:`studies.limit.onset`."""
+
 MEASURES = ("normal_impulse", "friction_impulse", "impulse_ratio", "friction_loss", "damping_loss")
 NOTHING = Shift(0.0, 0.0, 0.0)
 
@@ -74,6 +82,15 @@ class Prediction:
     complete: bool
     """Whether all terms down to the order of the creep are there; otherwise those left out, smaller in the end, may be
     the larger ones at stiffnesses that can be reached."""
+    exponents: tuple[float, ...]
+    """The leading powers of what is small, whether their coefficients are known or not; twice where it comes with a
+    logarithm too. What is small falls with the foundation to the power -1/3, a slip velocity scale because
+    :meth:`flexible.contact.laws.law.Law.stiffened` has it so."""
+
+    @property
+    def rates(self) -> tuple[float, ...]:
+        """The same as rates: powers of 1/foundation."""
+        return tuple(power / 3 for power in self.exponents)
 
 
 def predict(scene: Scene) -> Prediction:
@@ -98,14 +115,15 @@ def powers(way: Passage) -> dict[float, NDArray[np.float64]]:
         way = replace(way, contact=way.contact._replace(slip_scale=1.0))
     for number, event in starts:
         if law == REGULARISED:
-            _add(found, 4 / 5, _walk(way, number + 1, onset.regularised_gain(way.body, way.contact, event), False))
+            shift = onset.regularised_gain(way.body, way.contact, event)
+            _add(found, REGULARISED_GAIN, _walk(way, number + 1, shift, False))
         elif breaks:
             shift = onset.brush_delay(way.body, way.contact, event, way.scene.friction.mu_s)
-            _add(found, 2 / 3, _walk(way, number + 1, shift, False))
+            _add(found, BRUSH_DELAY, _walk(way, number + 1, shift, False))
         elif law == BRUSH:
-            _add(found, 6 / 5, _walk(way, number + 1, onset.brush_lag(way.body, way.contact, event), False))
+            _add(found, BRUSH_LAG, _walk(way, number + 1, onset.brush_lag(way.body, way.contact, event), False))
     if not (starts and (breaks or law == REGULARISED)):
-        _add(found, 1.0, _walk(way, 0, _handed_over(way), True))
+        _add(found, CREEP, _walk(way, 0, _handed_over(way), True))
     return found
 
 
@@ -185,4 +203,9 @@ def _with_units(scene: Scene, way: Passage, found: dict[float, NDArray[np.float6
         for kept, value in zip(powers, (normal, friction, ratio, *losses), strict=True):
             kept.append((exponent, float(value)))
     terms = {name: Term(float(limit), tuple(kept)) for name, limit, kept in zip(MEASURES, limits, powers, strict=True)}
-    return Prediction("v_s" if regularised else "eps", terms, complete=1.0 in found)
+    # CREEP follows where an onset leads; where it leads itself, the onset's lag or the next order
+    behind = NEXT_OF_A_RING_WITH_MASS if scene.hoop.mass_ratio > 0 else NEXT
+    leading = sorted({*found, CREEP, behind})[:2]
+    if BRUSH_DELAY in found:  # the runaway takes its time from the creep, as a logarithm
+        leading.append(CREEP)
+    return Prediction("v_s" if regularised else "eps", terms, CREEP in found, tuple(leading))

@@ -52,9 +52,7 @@ footer { color: #666; font-size: .85rem; margin-top: 3rem; border-top: 1px solid
 %}</tr></thead><tbody>
 {% for row in limits %}<tr>{% for cell in row %}<td>{{ cell }}</td>{% endfor %}</tr>
 {% endfor %}</tbody></table></div>
-<p>The limit is L in L + c s<sup>−p</sup>, s the {{ along }}, fitted to the stiffest cases without knowing the
-rigid value. Its uncertainty ± covers the scatter about that fit, the choice of the fitted cases and their
-numerical error. The rate is that of the distance to the rigid value, the last distance that of the stiffest case.
+<p>{{ extrapolation }} The rate is that of the distance to the rigid value, the last distance that of the stiffest case.
 {{ prediction }} {{ law }} {{ damping }}</p>
 
 {% for name, caption, image in figures %}

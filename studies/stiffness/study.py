@@ -1,11 +1,11 @@
 """Does the compliant hoop become the paper's hoop as its stiffness grows, and how fast?
 
 Method. (1) The rigid hoop gives the pulse, and the measures that the limit should have. (2) The flexible hoop
-goes through the same pulse on every rung of a ladder of stiffness, each at a tolerance that keeps its
-numerical error below a tenth of its distance from those measures, shown by a second run at half the
-tolerance. (3) The rate of the distance and the limit for infinite stiffness are fitted, the limit without
-knowing the rigid value; then the two are compared. (4) Beside the cases stands what :mod:`studies.limit` predicts
-of them from the rigid motion and the contact law alone.
+goes through the same pulse on every rung of a ladder of stiffness, each at a tolerance that keeps its numerical
+error below a tenth of its distance from those measures, shown by a second run at half the tolerance. (3) The
+rate of the distance is fitted, and the cases are extrapolated to infinite stiffness without knowing the rigid
+value, by the law's own exponents where theory has them; then the two are compared. (4) Beside the cases stands
+what :mod:`studies.limit` predicts of them from the rigid motion and the contact law alone.
 
 The solvers are known here only by what every motion has: its pulses and their measures.
 """
@@ -164,7 +164,8 @@ def _limit_to_dict(limit: Limit) -> dict[str, Any]:
         "uncertainty": limit.uncertainty,
         "rate": limit.rate,
         "rate_interval": list(limit.rate_interval),
-        "exponent": limit.exponent,
+        "exponents": list(limit.exponents),
+        "exponents_known": limit.known,
         "rigid": limit.rigid,
         "error": limit.error,
         "rigid_inside": limit.rigid_inside,
@@ -198,7 +199,9 @@ def stiffness_study(
     all_pulses : bool
         Go through all pulses of the scene's run instead of the first alone; the limit is that of the first.
     exponent : float, optional
-        Rate of the extrapolation where theory knows it; by default it is fitted.
+        Rate of the extrapolation, in place of the contact law's own, or of the fitted one where it has none: with
+        another solver than "flexible" or along "bending" or "contact" alone, or with a pulse that rolling and sliding
+        do not cover.
     pool : Pool, optional
         Where the rungs run; by default here.
     out : path, optional
@@ -238,11 +241,16 @@ def stiffness_study(
     through = [rung for rung in rungs if not rung.outcome.failure]
     if not through:
         raise StudyError(f"No rung of the ladder came through; the stiffest says: {rungs[-1].outcome.failure}.")
+    foreseen = _prediction(scene, ladder)
+    rates: tuple[float, ...] | None = None if exponent is None else (exponent,)
+    if rates is None and foreseen is not None and ladder.along == "both" and solver == "flexible":
+        rates = foreseen.rates
     limits = {}
     for name in LIMITS:
         values, errors = [r.measure(name) for r in through], [r.error(name) for r in through]
-        limits[name] = limit_of([r.stiffness for r in through], values, reference.pulses[0][name], errors, exponent)
-    foreseen = _prediction(scene, ladder)
+        limits[name] = limit_of([r.stiffness for r in through], values, reference.pulses[0][name], errors, rates)
+    if foreseen is not None and foreseen.parameter != "eps":
+        foreseen = None  # it is told by the foundation alone
     return StiffnessStudy(scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits, foreseen)
 
 
@@ -253,7 +261,6 @@ def _prediction(scene: Scene, ladder: Ladder) -> Prediction | None:
     if ladder.along == "bending":
         return None
     try:
-        found = predict(scene)
+        return predict(scene)
     except StudyError:
         return None
-    return found if found.parameter == "eps" else None

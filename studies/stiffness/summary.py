@@ -134,6 +134,26 @@ def verdict(study: StiffnessStudy) -> str:
     return " ".join(said)
 
 
+def extrapolation_sentence(study: StiffnessStudy) -> str:
+    """How the limits were found."""
+    limit = next(iter(study.limits.values()))
+    s = f"s the {study.ladder.label}"
+    if limit.known:
+        powers = " + ".join(
+            f"c{i + 1} s^-{p:.3g}" + (" log s" if p in limit.exponents[:i] else "")
+            for i, p in enumerate(limit.exponents)
+        )
+        return (
+            f"The limit is L in L + {powers} + ..., {s}, its exponents known and L and all c inferred without knowing "
+            "the rigid value. Its uncertainty ± holds what the terms not seen and the cases' numerical error may do."
+        )
+    return (
+        f"The limit is L in L + c s^-p, {s}, fitted to the stiffest cases without knowing the rigid value, p for each "
+        "measure. Its uncertainty ± covers the scatter about that fit, the choice of the fitted cases and their "
+        "numerical error."
+    )
+
+
 def law_sentence(study: StiffnessStudy) -> str:
     """Which rigid hoop the limit is compared with, and why."""
     from flexible.contact.laws.listing import LAWS

@@ -12,6 +12,8 @@ from rigid import Contact, Friction, Hoop, Release, Scene, scene_from_dict, simu
 from studies import Ladder, pool, stiffness_study
 from studies.running.case import SHARE
 from studies.running.workers import cores
+from studies.stiffness.limits import CONFIDENCE, limit_of
+from studies.stiffness.series import extrapolated
 
 LAWS = [("patch", 0.35), ("brush", 0.35), ("brush", 0.3)]
 ENOUGH = 1e-3  # of the impulse ratio, and of m g R
@@ -48,6 +50,21 @@ def test_the_limit_of_a_light_hoop(study):
     assert study.limits["impulse_ratio"].uncertainty < 2e-4
     if study.scene.friction.mu_s == 0.3:
         assert study.limits["friction_loss"].rate == pytest.approx(1 / 3, abs=0.03)
+
+
+def test_softer_rungs_foresee_the_stiffest(study):
+    """Within the interval that they state of it, and of the limit."""
+    soft, last = study.rungs[:-1], study.rungs[-1]
+    s = [rung.stiffness for rung in soft]
+    for name in ("impulse_ratio", "friction_loss"):
+        limit = study.limits[name]
+        assert limit.known
+        y, error = [rung.measure(name) for rung in soft], [rung.error(name) for rung in soft]
+        foreseen = extrapolated(s, y, error, limit.exponents, CONFIDENCE, last.stiffness)
+        assert abs(foreseen.value - last.measure(name)) <= foreseen.uncertainty + last.error(name)
+        further = limit_of(s, y, limit.rigid, error, limit.exponents)
+        assert limit.uncertainty < further.uncertainty
+        assert further.rigid_inside
 
 
 def test_what_is_called_resolved_is(study):
