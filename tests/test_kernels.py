@@ -125,6 +125,22 @@ def test_another_folder_than_expected_is_told(tmp_path, monkeypatch):
     assert "cannot be written" in trouble
 
 
+def test_two_processes_may_begin_at_once(tmp_path, monkeypatch):
+    """The other makes the folder after this one has seen that there is none."""
+    monkeypatch.setattr(store, "user_cache", lambda: (tmp_path, ""))
+    monkeypatch.setattr(store, "_homes", [])
+    place = tmp_path / store.machine() / "kernels-0123"
+    place.mkdir(parents=True)
+    is_dir, too_early = Path.is_dir, [False]
+
+    def seen(path, **options):
+        return too_early.pop() if path == place and too_early else is_dir(path, **options)
+
+    monkeypatch.setattr(Path, "is_dir", seen)
+    assert store.home("kernels", "0123") == place
+    assert not too_early
+
+
 def test_the_fingerprint_covers_every_source_and_nothing_else(tmp_path):
     stage = ROOT / "flexible" / "models" / "stage.py"
     covered = store.sources([stage])

@@ -5,4 +5,5 @@
 ``pulse``             the inside of a pulse, flexible beside rigid
 ``stiffness_study``   the limit of stiffness from Python
 ``fields_in_pyvista`` the ring's fields as a mesh series, opened with pyvista
+``own_friction_law``  a law of friction in a file of its own, ``tanh_law``
 """

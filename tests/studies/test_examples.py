@@ -10,7 +10,7 @@ import matplotlib.image
 import pytest
 
 from meshes.draw.display import renderer_problem
-from studies.examples import batch_map, fields_in_pyvista, pulse, rigid_motion, stiffness_study
+from studies.examples import batch_map, fields_in_pyvista, own_friction_law, pulse, rigid_motion, stiffness_study
 
 matplotlib.use("Agg")
 
@@ -49,3 +49,13 @@ def test_stiffness_study(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
 @pytest.mark.skipif(renderer_problem() is not None, reason="nothing to draw with")
 def test_fields_in_pyvista(tmp_path: Path) -> None:
     assert drawn(fields_in_pyvista.main(tmp_path, frames=4))
+
+
+@pytest.mark.slow
+def test_own_friction_law(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert drawn(own_friction_law.main(tmp_path))
+    printed = capfd.readouterr().out
+    ratio, limit = map(float, re.findall(r"^tanh .*?([\d.]+);.*?([\d.]+)$", printed, re.MULTILINE)[0])
+    paper = float(re.findall(r"^patch .*?([\d.]+)$", printed, re.MULTILINE)[0])
+    # a smooth law has no static coefficient: it comes to the hoop with mu_s = mu, and not to the paper's
+    assert abs(ratio - limit) < abs(ratio - paper)

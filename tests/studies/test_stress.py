@@ -35,7 +35,7 @@ def test_flexible_scenes_are_within_the_range_of_the_model():
     assert all(s.ring.bending_stiffness * s.hoop.k >= 13 * (1 - 1e-12) for s in scenes)
     # line contact of a foundation, N = m g: the deepest point (3 N / (4 sqrt(2) eps))^(2/3) of a rigid rim
     assert all((3 / (4 * 2**0.5 * s.contact.stiffness)) ** (2 / 3) < 1e-3 for s in scenes)
-    assert {s.contact.law for s in scenes} == {"patch", "brush"}
+    assert {s.contact.law for s in scenes} == {"patch", "brush", "regularised"}
     assert {s.solve.resolve for s in scenes} == {"pulses", "all"}
 
 
