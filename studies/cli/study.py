@@ -143,7 +143,9 @@ def stiffness(
 @study.command()
 @click.argument("scene")
 @as_json
-@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Write limit.json and figures here.")
+@click.option(
+    "--out", type=click.Path(path_type=Path), metavar="DIR", help="Write limit.json, figures and report.html here."
+)
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--damping",
@@ -162,7 +164,9 @@ def stiffness(
 @click.option("--map", "mapped", is_flag=True, help="J_F/J_N over damping ratio and foundation too; a minute or two.")
 @workers
 @scheduler
+@click.pass_obj
 def limit(
+    line: str,
     scene: str,
     as_json: bool,
     out: Path | None,
@@ -190,12 +194,13 @@ def limit(
     told = found.to_dict() | ({"map": [spot.to_dict() for spot in spots]} if mapped else {})
     if target is not None:
         from ..limit.figures import damping_figure, of_limit
+        from ..limit.report import limit_report
         from ..plots.style import save
 
         write_text(target / "limit.json", to_json(told))
         drawn = of_limit(found) | ({"damping": damping_figure(spots)} if mapped else {})
-        for name, figure in drawn.items():
-            save(figure, target / f"{name}.png")
+        images = {name: save(figure, target / f"{name}.png") for name, figure in drawn.items()}
+        limit_report(found, (map_sheet(spots),) if mapped else (), images, line, target / "report.html")
     if as_json:
         click.echo(to_json(told))
         return
@@ -203,7 +208,7 @@ def limit(
 
     show(*limit_sheets(found), *([map_sheet(spots)] if mapped else []))
     if target is not None:
-        click.echo(f"Figures and limit.json are in {target}.")
+        click.echo(f"Figures and limit.json are in {target}; open {target / 'report.html'}.")
 
 
 def _write_study(found: StiffnessStudy, target: Path, line: str, progress: Callable[[float], None]) -> None:

@@ -5,4 +5,5 @@
 ``prediction``  y = L + c eps                      ``compliant``  a rigid ring on a compliant floor, to hold it to
 ``damping``     how much damping that needs
 ``study``       the study                          ``summary``    what is told of it     ``figures``  the same drawn
+``report``      the same as a page
 """

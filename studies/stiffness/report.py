@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from rigid import scene_to_dict
 
+from ..plots.page import PAGE_STYLE
 from ..running.files import write_text
 from ..running.solvers import versions
 from .page import CAPTIONS, PAGE
@@ -46,6 +47,7 @@ def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command:
         The page; written whole or not at all.
     """
     from jinja2 import Environment
+    from markupsafe import Markup
 
     scene = study.scene
     hoop = f"k = {scene.hoop.k:g}, r = {scene.hoop.r:g}, m_h/m = {scene.hoop.mass_ratio:g}"
@@ -54,6 +56,7 @@ def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command:
         Environment(autoescape=True, trim_blocks=True)
         .from_string(PAGE)
         .render(
+            style=Markup(PAGE_STYLE),
             title=f"The flexible hoop as stiffness grows: {hoop}",
             verdict=verdict(study),
             limits=limit_rows(study),
@@ -62,7 +65,7 @@ def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command:
             law=law_sentence(study),
             damping=damping_sentence(study),
             prediction=prediction_sentence(study),
-            figures=[(name, CAPTIONS.get(name, name), _embedded(file)) for name, file in images.items()],
+            figures=[(name, CAPTIONS.get(name, name), embedded(file)) for name, file in images.items()],
             heading=case_heading(study),
             limit_heading=LIMIT_HEADING,
             cases=[{"cells": case_cells(rung), "failure": rung.outcome.failure} for rung in study.rungs],
@@ -70,7 +73,7 @@ def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command:
             unresolved=f" Not reached at {len(slow)} of the cases, marked *." if slow else "",
             side_heading=side_heading(study),
             side=side_rows(study),
-            scene=_toml(scene_to_dict(scene)),
+            scene=toml(scene_to_dict(scene)),
             command=command,
             versions=", ".join(f"{package} {number}" for package, number in versions().items()),
         )
@@ -78,11 +81,12 @@ def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command:
     return write_text(path, page)
 
 
-def _embedded(file: Path) -> str:
+def embedded(file: Path) -> str:
+    """A picture as text inside a page."""
     return base64.b64encode(file.read_bytes()).decode("ascii")
 
 
-def _toml(data: Mapping[str, Mapping[str, Any]]) -> str:
+def toml(data: Mapping[str, Mapping[str, Any]]) -> str:
     """A scene as it would stand in a file."""
     lines = []
     for part, table in data.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from math import pi, radians
 
@@ -182,7 +183,14 @@ def test_the_command_prints_events_prediction_and_what_was_observed(hoop, tmp_pa
     assert found["prediction"]["impulse_ratio"]["limit"] == pytest.approx(0.170005, abs=1e-6)
     rows = found["observed"]["impulse_ratio"]
     assert rows[-1]["coefficient"] == pytest.approx(found["prediction"]["impulse_ratio"]["coefficient"], rel=0.05)
-    assert {path.name for path in tmp_path.iterdir()} >= {"limit.json", "approach.png", "layers.png"}
+    assert {path.name for path in tmp_path.iterdir()} >= {"limit.json", "approach.png", "layers.png", "report.html"}
+    page = (tmp_path / "report.html").read_text()
+    lead = page[: page.index("<h2>")]  # the answer comes first: the patch, the others, and none without damping
+    assert "J_F/J_N = 0.170005, the paper&#39;s pulse" in lead
+    for compliance in ("brush", "regularised", "no damping"):
+        assert compliance in lead
+    assert "<script" not in page
+    assert not re.search(r"(src|href)=\"(?!data:)", page)
     assert json.loads((tmp_path / "limit.json").read_text()) == found
 
 
