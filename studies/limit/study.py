@@ -22,6 +22,7 @@ from ..inner.layers import Layer, layer, outer_forces
 from ..inner.march import PATCH
 from ..inner.scales import damping_of
 from ..running.case import Case
+from ..running.files import StudyError
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
 from .compliant import go_through
@@ -92,6 +93,8 @@ class Other:
     """Law and damping."""
     impulse_ratio: tuple[float, float]
     """J_F/J_N in the limit; without damping, where there is none, the least and the largest of those observed."""
+    prediction: Prediction | None = None
+    """How it comes there, at this scene's damping; None where that is not predicted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,11 +215,18 @@ def _others(scene: Scene) -> tuple[Other, ...]:
     for name, law in LAWS.items():
         pulses = simulate(scene.replace(friction={"mu_s": law.static_coefficient(scene.friction)})).pulses
         if pulses:
-            found.append(Other(f"{name}, any damping", (pulses[0].impulse_ratio,) * 2))
+            found.append(Other(f"{name}, any damping", (pulses[0].impulse_ratio,) * 2, _foreseen(scene, name)))
     ideal = next(name for name, law in LAWS.items() if law.code == PATCH)
     undamped = scene.replace(contact={"law": ideal, "damping": 0.0})
     seen = [go_through(_at(undamped, foundation)).impulse_ratio for foundation in FOUNDATIONS]
     return (*found, Other(f"{ideal}, no damping", (min(seen), max(seen))))
+
+
+def _foreseen(scene: Scene, law: str) -> Prediction | None:
+    try:
+        return predict(scene.replace(contact={"law": law}))
+    except StudyError:  # its pulse has more in it than this scene's
+        return None
 
 
 def _separate(scene: Scene, found: Sequence[EventFound]) -> float:

@@ -32,8 +32,11 @@ def event_sheet(study: LimitStudy) -> Sheet:
     )
 
 
+_SYMBOLS = {"eps": "ε", "v_s": "v_s"}
+
+
 def _symbol(study: LimitStudy) -> str:
-    return "ε" if study.prediction.parameter == "eps" else "v_s"
+    return _SYMBOLS[study.prediction.parameter]
 
 
 def term_sheet(study: LimitStudy) -> Sheet:
@@ -165,7 +168,13 @@ def other_sentences(study: LimitStudy) -> list[str]:
     said = []
     for other in study.others:
         low, high = other.impulse_ratio
-        said.append(
-            f"{other.name}: {low:.5f}" if low == high else f"{other.name}: {low:.4f} to {high:.4f}, no limit seen"
-        )
+        if low != high:
+            said.append(f"{other.name}: {low:.4f} to {high:.4f}, no limit seen")
+            continue
+        words = f"{other.name}: {low:.5f}"
+        if other.prediction is not None:
+            term = other.prediction.terms["impulse_ratio"]
+            symbol = _SYMBOLS[other.prediction.parameter]
+            words += f", like {term.coefficient:+.3g} {symbol}^{term.exponent:.3g}"
+        said.append(words)
     return said
