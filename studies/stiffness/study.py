@@ -200,7 +200,7 @@ def stiffness_study(
         Go through all pulses of the scene's run instead of the first alone; the limit is that of the first.
     exponent : float, optional
         Rate of the extrapolation, in place of the contact law's own, or of the fitted one where it has none: with
-        another solver than "flexible" or along "bending" or "contact" alone, or with a pulse that rolling and sliding
+        another solver than "flexible", along "bending" or "contact" alone, undamped, or with a pulse that rolling and sliding
         do not cover.
     pool : Pool, optional
         Where the rungs run; by default here.
@@ -243,7 +243,8 @@ def stiffness_study(
         raise StudyError(f"No rung of the ladder came through; the stiffest says: {rungs[-1].outcome.failure}.")
     foreseen = _prediction(scene, ladder)
     rates: tuple[float, ...] | None = None if exponent is None else (exponent,)
-    if rates is None and foreseen is not None and ladder.along == "both" and solver == "flexible":
+    known = foreseen is not None and ladder.along == "both" and solver == "flexible" and scene.contact.damping > 0
+    if rates is None and foreseen is not None and known:
         rates = foreseen.rates
     limits = {}
     for name in LIMITS:
