@@ -200,8 +200,8 @@ def stiffness_study(
         Go through all pulses of the scene's run instead of the first alone; the limit is that of the first.
     exponent : float, optional
         Rate of the extrapolation, in place of the contact law's own, or of the fitted one where it has none: with
-        another solver than "flexible", along "bending" or "contact" alone, undamped, or with a pulse that rolling and sliding
-        do not cover.
+        another solver than "flexible", along "bending" or "contact" alone, undamped, or with a pulse that rolling and
+        sliding do not cover.
     pool : Pool, optional
         Where the rungs run; by default here.
     out : path, optional
