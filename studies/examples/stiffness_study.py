@@ -11,7 +11,7 @@ from studies import Ladder, stiffness_study
 def main(out: Path = Path(), count: int = 5) -> Path:
     scene = rigid.load_scene("paper-3.2-k0.25")
     ladder = Ladder(along="both", low=1e7, high=1e11, count=count)
-    study = stiffness_study(scene, ladder, exponent=1 / 3)
+    study = stiffness_study(scene, ladder)
     target, found = study.rigid.pulses[0]["impulse_ratio"], study.limits["impulse_ratio"]
     print(f"J_F/J_N tends to {found.value:.5f} +- {found.uncertainty:.5f}; the rigid hoop has {target:.5f}")
     figure, axes = plt.subplots(layout="constrained")

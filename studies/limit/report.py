@@ -7,11 +7,10 @@ from pathlib import Path
 
 from rigid import scene_to_dict
 
-from ..plots.page import PAGE_STYLE
+from ..plots.page import PAGE_STYLE, embedded, toml
 from ..plots.sheet import Sheet
 from ..running.files import write_text
 from ..running.solvers import versions
-from ..stiffness.report import embedded, toml
 from .study import LimitStudy
 from .summary import damping_sentences, limit_sheets, other_sentences, verdict
 

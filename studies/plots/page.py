@@ -1,5 +1,12 @@
 """What the pages of all studies share."""
 
+from __future__ import annotations
+
+import base64
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
 PAGE_STYLE = """\
 :root { color-scheme: light; }
 body { font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 66rem; margin: 2rem
@@ -19,3 +26,21 @@ overflow-x: auto; } code { padding: .1rem .3rem; }
 footer { color: #666; font-size: .85rem; margin-top: 3rem; border-top: 1px solid #ddd; padding-top: .8rem; }
 """
 """Their looks, as CSS."""
+
+
+def embedded(file: Path) -> str:
+    """A picture as text inside a page."""
+    return base64.b64encode(file.read_bytes()).decode("ascii")
+
+
+def toml(data: Mapping[str, Mapping[str, Any]]) -> str:
+    """A scene as it would stand in a file."""
+    lines = []
+    for part, table in data.items():
+        if table:
+            lines += [
+                f"[{part}]",
+                *(f'{k} = "{v}"' if isinstance(v, str) else f"{k} = {v!r}" for k, v in table.items()),
+                "",
+            ]
+    return "\n".join(lines).rstrip()

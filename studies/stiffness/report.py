@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rigid import scene_to_dict
 
-from ..plots.page import PAGE_STYLE
+from ..plots.page import PAGE_STYLE, embedded, toml
 from ..running.files import write_text
 from ..running.solvers import versions
 from .page import CAPTIONS, PAGE
@@ -79,21 +78,3 @@ def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command:
         )
     )
     return write_text(path, page)
-
-
-def embedded(file: Path) -> str:
-    """A picture as text inside a page."""
-    return base64.b64encode(file.read_bytes()).decode("ascii")
-
-
-def toml(data: Mapping[str, Mapping[str, Any]]) -> str:
-    """A scene as it would stand in a file."""
-    lines = []
-    for part, table in data.items():
-        if table:
-            lines += [
-                f"[{part}]",
-                *(f'{k} = "{v}"' if isinstance(v, str) else f"{k} = {v!r}" for k, v in table.items()),
-                "",
-            ]
-    return "\n".join(lines).rstrip()

@@ -9,10 +9,10 @@ import pytest
 import flexible
 from flexible import rigid_limit
 from rigid import Contact, Friction, Hoop, Release, Scene, scene_from_dict, simulate
-from studies import Ladder, pool, stiffness_study
+from studies import Ladder, limit_of, pool, stiffness_study
 from studies.running.case import SHARE
 from studies.running.workers import cores
-from studies.stiffness.limits import CONFIDENCE, limit_of
+from studies.stiffness.limits import CONFIDENCE
 from studies.stiffness.series import extrapolated
 
 LAWS = [("patch", 0.35), ("brush", 0.35), ("brush", 0.3)]
