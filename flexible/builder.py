@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,8 @@ from .models.select import Range
 from .models.state import Record, State
 from .motion import FlexibleMotion, FlexiblePulse, History, Kept, Ledger
 from .segment import Segment
-from .time.adaptive import march
+from .time.adaptive import LIMITS, Limits, march
+from .time.events import Ends
 from .units import with_units
 
 Array = NDArray[np.float64]
@@ -84,6 +85,7 @@ class Builder:
         self.turns: list[Turn] = []
         self.pulses: list[FlexiblePulse] = []
         self.steps = 0
+        self.most_steps: int | None = None
         self.range: Range
         self.kept: list[Kept] | None = None
         self.completed = True
@@ -155,20 +157,18 @@ class Builder:
         return segment
 
     def march(
-        self, hoop: FlexibleHoop, state: State, *arguments: Any, **options: Any
+        self, hoop: FlexibleHoop, state: State, ends: Ends, rtol: float, progress: Callable[[State], None] | None
     ) -> tuple[State, list[Record], int, str]:
-        """:func:`march.march`, watching the ring's range, and the states if they are to be kept."""
-        progress = options.pop("progress", None)
+        """A march, watching the ring's range, and the states if they are to be kept."""
 
-        def watch(now: State) -> object:
+        def watch(now: State) -> None:
             self.range(now)
-            return progress is not None and progress(now)
+            if progress is not None:
+                progress(now)
 
         states: list[State] = []
-        if self.kept is not None:
-            options["keep"] = states.append
-        options["progress"] = watch
-        result = march(hoop, state, *arguments, **options)
+        limits = LIMITS if self.most_steps is None else Limits(most=max(self.most_steps - self.steps, 1))
+        result = march(hoop, state, ends, rtol, limits, watch, None if self.kept is None else states.append)
         if self.kept is not None:
             self.kept.append(Kept(hoop, tuple(states)))
         return result

@@ -46,14 +46,20 @@ class _Progress:
     def __init__(self, report: Progress | None) -> None:
         self.report = report
 
-    def watch(self, low: float, high: float, fraction: Callable[[State], float]) -> Callable[[State], object] | None:
+    def watch(self, low: float, high: float, fraction: Callable[[State], float]) -> Callable[[State], None] | None:
         if self.report is None:
             return None
         report = self.report
-        return lambda state: report(low + (high - low) * min(max(fraction(state), 0.0), 1.0))
+
+        def tell(state: State) -> None:
+            report(low + (high - low) * min(max(fraction(state), 0.0), 1.0))
+
+        return tell
 
 
-def simulate(scene: Scene, *, history: bool = False, progress: Progress | None = None) -> FlexibleMotion:
+def simulate(
+    scene: Scene, *, history: bool = False, progress: Progress | None = None, most_steps: int | None = None
+) -> FlexibleMotion:
     """Move the flexible hoop through a scene.
 
     Parameters
@@ -62,7 +68,9 @@ def simulate(scene: Scene, *, history: bool = False, progress: Progress | None =
     history : bool
         Keep every step, as ``motion.history``, and the ring's states, of which fields are made.
     progress : callable, optional
-        Called with the fraction done, 0 to 1; the motion ends where it answers with something true.
+        Called with the fraction done, 0 to 1.
+    most_steps : int, optional
+        Of all flexible segments together, after which the motion ends incomplete; by default 50 000 in each.
 
     Returns
     -------
@@ -83,6 +91,7 @@ def simulate(scene: Scene, *, history: bool = False, progress: Progress | None =
     builder = Builder(inner)
     builder.range = Range(hoop)
     builder.kept = [] if history else None
+    builder.most_steps = most_steps
     run = _through_pulses if scene.solve.resolve == "pulses" else _throughout
     ended = run(inner, hoop, builder, _Progress(progress))
     complaint = builder.range.complaint()
@@ -120,7 +129,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         span = (float(state.pos[2]), pulse.phi_end)
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, _swept(span))
-        state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, progress=watch)
+        state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
         segment = builder.add_flexible(records, attempts)
         if not (trouble or cut) and sign * (float(state.pos[2]) - pulse.phi_end) < 0:
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get through the pulse"
@@ -224,7 +233,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
         if run.until == "pulse" and pulses:  # before the first whole pulse there may be the rest of one
             first, last = pulses[-1].phi_start, pulses[-1].phi_end
             ends = ends._replace(high=min(ends.high, last)) if last > first else ends._replace(low=max(ends.low, last))
-        state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, progress=watch)
+        state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
         segment = builder.add_flexible(records, attempts)
         _add_pulses(
             builder, segment, pulses, over=not trouble and scene.run.t_end is not None and ends.t - state.t < 1e-12

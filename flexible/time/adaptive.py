@@ -69,13 +69,12 @@ def march(
     ends: Ends,
     rtol: float,
     limits: Limits = LIMITS,
-    progress: Callable[[State], object] | None = None,
+    progress: Callable[[State], None] | None = None,
     keep: Callable[[State], None] | None = None,
 ) -> tuple[State, list[Record], int, str]:
     """March to the first of the ends, which is located.
 
-    ``progress`` is told every state that was reached, and stops the march by a true answer; ``keep`` is given the state
-    behind every record.
+    ``progress`` is told every state that was reached; ``keep`` is given the state behind every record.
 
     Returns
     -------
@@ -132,11 +131,10 @@ def march(
         turns += event == TURN
         state = _free(model, trial.state)
         note(state)
-        stopped = progress is not None and progress(state)
+        if progress is not None:
+            progress(state)
         if _over(state, ends, turns):
             return state, records, attempts, ""
-        if stopped:
-            return state, records, attempts, f"stopped at t = {state.t:.6g}, as asked"
         if stalls > MOST_STALLS:
             return state, records, attempts, _stuck(state, "stick and slip follow each other without end")
         if event == MODE_ENDS:

@@ -73,8 +73,8 @@ def _again(motion: FlexibleMotion, work: Work) -> Margins:
     margins = {}
     for name, (other, units) in others.items():
         work.renew()
-        again = simulate(other, progress=work)
-        if not work.spent:
+        again = simulate(other, progress=work, most_steps=work.steps)
+        if not work.cuts(again):
             margins[name] = apart(impulses(motion)[:1], impulses(again)[:1] * units) / _allowed(scene)
     return margins
 
@@ -94,10 +94,10 @@ def _from_the_middle(motion: FlexibleMotion) -> Scene | None:
 def flexible_margins(scene: Scene, thorough: bool, work: Work) -> Checked:
     """All checks of a flexible scene, and how it ended.
 
-    ``work`` is asked in every step; a run that it stops is checked as far as it went.
+    A run that has used up its ``work`` is checked as far as it went.
     """
-    motion = simulate(scene, history=True, progress=work)
-    cut = work.spent
+    motion = simulate(scene, history=True, progress=work, most_steps=work.steps)
+    cut = work.cuts(motion)
     margins = listed(motion)
     if not any(margins.values()):
         margins |= _history(motion) | _ledger(motion)
@@ -112,7 +112,8 @@ def against_all_nodes(scene: Scene, work: Work) -> Margins:
     found = []
     for level in ("reduced", "full"):
         work.renew()
-        found.append(impulses(simulate(scene.replace(solve={"level": level}), progress=work))[:1])
-        if work.spent:
+        motion = simulate(scene.replace(solve={"level": level}), progress=work, most_steps=work.steps)
+        if work.cuts(motion):
             return {}
+        found.append(impulses(motion)[:1])
     return {"all nodes": apart(*found) / (_allowed(scene) + 3e-3)}

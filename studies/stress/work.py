@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import time
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from flexible import FlexibleMotion
 
 
 class Bound(Exception):
@@ -10,16 +14,16 @@ class Bound(Exception):
 
 
 class Work:
-    """Asked in every step, it stops a run that has used up its steps where it is.
+    """What a run may take.
 
     Steps, so that a scene comes out the same on a busy machine; seconds only end what takes no steps.
 
     Parameters
     ----------
     steps : int
-        Of one run.
+        Of one run, which ends with them.
     seconds : float
-        Of processor time in one run, after which :class:`Bound` is raised from within it.
+        Of processor time in one run; told of every step, it raises :class:`Bound` after that.
     """
 
     def __init__(self, steps: int, seconds: float) -> None:
@@ -30,21 +34,17 @@ class Work:
 
     def renew(self) -> None:
         """For the next run."""
-        self.taken = 0
         self.start = time.process_time()
 
-    @property
-    def spent(self) -> bool:
-        """Whether the run has had all its steps."""
-        return self.taken > self.steps
+    def cuts(self, motion: FlexibleMotion) -> bool:
+        """Whether a run has had all its steps and is not over."""
+        return not motion.completed and motion.steps >= self.steps
 
     @property
     def used(self) -> float:
         """Seconds of all runs."""
         return time.process_time() - self.first
 
-    def __call__(self, _: float = 0.0) -> bool:
-        self.taken += 1
+    def __call__(self, _: float = 0.0) -> None:
         if time.process_time() - self.start > self.seconds:
             raise Bound
-        return self.spent

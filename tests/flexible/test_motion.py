@@ -215,19 +215,21 @@ def test_ends_at_the_instant_asked_for(t_end):
     assert motion.history.t[-1] == pytest.approx(t_end, abs=1e-8)
 
 
-def test_a_motion_ends_where_progress_asks_it_to():
-    """What was reached by then is whole: what its books leave unexplained is a tenth of the tolerance at most."""
+def test_a_motion_ends_with_the_steps_it_may_take():
+    """What was reached by then is whole: what its books leave unexplained is a tenth of the tolerance at most.
+    Progress only tells: whatever it answers, the motion goes on."""
     told = []
 
-    def halfway(fraction):
+    def tell(fraction):
         told.append(fraction)
-        return fraction > 0.3
+        return True
 
     scene = rigid.load_scene("paper-3.1").replace(run={"until": "pulse"}, solve={"rtol": 1e-2})
-    motion = flexible.simulate(scene, progress=halfway)
+    assert flexible.simulate(scene, progress=tell).completed
+    motion = flexible.simulate(scene, most_steps=len(told) // 2)
     assert not motion.completed
-    assert "as asked" in motion.ended
-    assert told[-2] <= 0.3 < told[-1]
+    assert "steps" in motion.ended
+    assert motion.steps == len(told) // 2
     books = motion.ledger
     assert abs(books.residual) < 1e-3 * books.initial
     assert abs(books.numerical_loss) < 1e-2 * books.initial  # rtol
