@@ -1,0 +1,268 @@
+"""The hoop whose ring is a chain of parts, see :mod:`flexible.chain`: geometrically exact, stages in compiled code."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Scene
+
+from ..chain.bordered import empty_blocks, solve
+from ..chain.corotated import elastic
+from ..chain.inertia import energies, inertia, momenta
+from ..chain.ring import ChainRing, dense_stiffness
+from ..chain.stage import follow, rise, solve_stage, turned
+from ..contact.forces import HIGH, LOW, NORMAL
+from ..ring.fem import ring_of
+from .rim_contact import POINTS, RimContact
+from .state import State
+
+Array = NDArray[np.float64]
+Window = tuple[int, int]
+
+PER_PART = 2  # rim elements to a part
+THROUGH = 2  # elements through the wall of the mesh that the chain is condensed from
+SLOW = 24  # modes of the ring by whose error steps are chosen, as many as the reduced ring has
+
+
+class ChainHoop(RimContact):
+    """Frame and chain of a scene's hoop; see :class:`flexible.models.state.Model`.
+
+    ``State.pos`` is (V, h, phi, then u1, u2 and the rotation of each section in turn).
+
+    Parameters
+    ----------
+    parts : int, optional
+        Of the chain; one to ``PER_PART`` rim elements by default.
+    points, tolerance :
+        See :class:`flexible.models.rim_contact.RimContact`.
+    through : int
+        Elements through the wall of the mesh.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        parts: int | None = None,
+        points: int = POINTS,
+        tolerance: float = 1e-9,
+        through: int = THROUGH,
+    ) -> None:
+        parts = scene.solve.elements // PER_PART if parts is None else parts
+        self.ring = ChainRing(scene, ring_of(scene, through), parts)
+        super().__init__(scene, self.ring.vertex, points, tolerance)
+        self._missing: dict[Window, Array] = {}
+        self._passed: tuple[Array, tuple[Array, Array]] | None = None
+        rod = self.ring.rod
+        mass = np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1].ravel()
+        #: momenta of the slow vibrations, by which steps are chosen, of a rate of the sections
+        self._slow = np.zeros((0, len(mass)))
+        if scene.hoop.mass_ratio > 0:
+            self._slow = (mass[:, None] * self.ring.shape.modes(SLOW)).T / np.sqrt(scene.hoop.mass_ratio)
+
+    @property
+    def coordinates(self) -> int:
+        """Number of coordinates of the ring in ``State.pos``."""
+        return 3 * self.ring.sections
+
+    def sections(self, vector: Array) -> Array:
+        """Rows of a vector like ``State.pos`` that belong to the sections, those of the weld included."""
+        padded = np.zeros((self.ring.sections + 2, 3))
+        padded[1:-1] = vector[3:].reshape(-1, 3)
+        return padded
+
+    def _lacking(self, window: Window) -> Array:
+        """Compliance of the rim nodes of a window that the chain lacks."""
+        key = (window[0] % len(self.vertex), window[1])
+        if key not in self._missing:
+            nodes = self.ring.nodes(*key)
+            block = self.ring.missing(nodes, nodes)
+            self._missing[key] = (block + block.T) / 2
+        return self._missing[key]
+
+    def displacement(self, state: State, window: Window) -> Array:
+        """Displacement of the rim nodes of a window."""
+        return state.u if window == state.window else self._beyond(state, window)[0]
+
+    def _beyond(self, state: State, window: Window) -> tuple[Array, Array]:
+        """Displacement of the rim nodes of a window, and what of it the sections do not account for."""
+        ring, q = self.ring, self.sections(state.pos)
+        here = ring.nodes(*window)
+        moved, _, turn = follow(ring.rod, q, ring.part[here], ring.xi[here])
+        if window == state.window:
+            return state.u, state.u - moved
+        if state.res[NORMAL] == 0:
+            return moved, np.zeros_like(moved)
+        there = ring.nodes(*state.window)
+        _, _, turn_there = follow(ring.rod, q, ring.part[there], ring.xi[there])
+        gives = (turned(ring.missing(here, there), turn, turn_there) @ state.nodal.ravel()).reshape(-1, 2)
+        return moved + gives, gives
+
+    def _reach(self, pos: Array) -> tuple[float, float]:
+        """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is."""
+        ring = self.ring
+        gap, psi = rise(ring.rod, self.sections(pos), ring.part, ring.xi, self._rim_theta, pos[2], pos[1])
+        below = psi[gap <= max(0.0, gap.min())]
+        return float(below.min()), float(below.max())
+
+    def stage(
+        self,
+        old: State,
+        mode: int,
+        damper: Array,
+        pos_pred: Array,
+        vel_pred: Array,
+        beta: float,
+        guess: Array,
+        near: tuple[Window, Array] | None = None,
+    ) -> Any:
+        """See :class:`flexible.models.state.Model`."""
+        ring = self.ring
+        if ring.body.ring_mass == 0:  # no inertia to go by: from where the ring was
+            guess = guess.copy()
+            guess[3:] = old.pos[3:] - pos_pred[3:]
+        low, high = self._reach(pos_pred + guess)
+        if old.res[NORMAL] > 0:
+            low, high = min(low, old.res[LOW]), max(high, old.res[HIGH])
+        margin = 0.3 * (high - low) + 0.1 * self.element
+        for _ in range(4):
+            window = self.window(pos_pred[2] + guess[2], low, high, margin)
+            nodes = ring.nodes(*window)
+            u_old, beyond = self._beyond(old, window)
+            contact = (
+                window[0], ring.vertex, self.law, mode, old.pos[:3], u_old, old.bristles, old.flags, damper,
+            )  # fmt: skip
+            iterations, d, u, factors, nodal, res, bristles, flags = solve_stage(
+                ring.body, ring.rod, ring.part[nodes], ring.xi[nodes], self._lacking(window), contact, pos_pred,
+                vel_pred, beta, guess, beyond, self.tolerance,
+            )  # fmt: skip
+            if iterations != -2:
+                break
+            margin = 2 * margin + self.element
+        acc = d / beta**2
+        if ring.body.ring_mass == 0:
+            acc[3:] = 0.0
+        return iterations >= 0, d, acc, factors, window, u, nodal, res, bristles, flags
+
+    def energies(self, state: State) -> tuple[float, float, float]:
+        """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
+        ring, q, rate = self.ring, self.sections(state.pos), self.sections(state.vel)
+        kinetic, gravity = energies(ring.body, ring.rod, state.pos[:3], q, state.vel[:3], rate)
+        strain = self._forces(state)[2]
+        if state.res[NORMAL] > 0:
+            strain += float((state.nodal * self._beyond(state, state.window)[1]).sum()) / 2
+        return kinetic, gravity, strain
+
+    def _forces(self, state: State) -> tuple[Array, Array, float]:
+        """Inertial, gravitational and elastic forces on frame and sections, and the strain energy of the chain."""
+        ring = self.ring
+        blocks = empty_blocks(ring.sections + 2)
+        frame, force = np.zeros(3), np.zeros((ring.sections + 2, 3))
+        q, rate, change = (self.sections(x) for x in (state.pos, state.vel, state.acc))
+        strain = elastic(ring.rod, q, force, blocks.diagonal, blocks.up, blocks.down)
+        inertia(
+            ring.body, ring.rod, state.pos[:3], q, state.vel[:3], rate, state.acc[:3], change, 1.0, blocks, frame, force
+        )
+        return frame, force, float(strain)
+
+    def _passed_on(self, state: State, beta: float, matrix: Any, error: Array) -> tuple[Array, Array]:
+        """An error of velocities or positions as the step passes it on: (M + beta C + beta^2 K)^-1 M times it."""
+        if self._passed is not None and self._passed[0] is error:
+            return self._passed[1]
+        ring = self.ring
+        frame, force = np.empty(3), np.empty((ring.sections + 2, 3))
+        momenta(
+            ring.body, ring.rod, state.pos[:3], self.sections(state.pos), error[:3], self.sections(error), frame, force
+        )
+        rest = np.zeros(matrix.core.shape[0] - 3 - 3 * len(matrix.kept))
+        passed = solve(matrix, frame / beta**2, force / beta**2, rest)[:2]
+        self._passed = (error, passed)
+        return passed
+
+    def momentum_error(self, state: State, beta: float, matrix: Any, error: Array) -> float:
+        """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
+        frame, sections = self._passed_on(state, beta, matrix, error)
+        mass = self.ring.body.ring_mass
+        slow = np.abs(self._slow @ sections[1:-1].ravel()).max(initial=0.0) / (1 + mass) ** 0.5
+        return float(max(abs(frame[0] + frame[2]), abs(frame[1]), abs(frame[2]), slow))
+
+    def energy_error(self, state: State, beta: float, matrix: Any, error: Array, moved: Array) -> float:
+        """See :class:`flexible.models.state.Model`."""
+        passed = [self._passed_on(state, beta, matrix, change) for change in (error, moved)]
+        rate, way = (np.concatenate([frame, sections[1:-1].ravel()]) / 2 for frame, sections in passed)
+        held = [
+            self._held(replace(state, pos=state.pos + sign * way, vel=state.vel + sign * rate)) for sign in (1.0, -1.0)
+        ]
+        frame, force, _ = self._forces(state)
+        work = frame @ way[:3] + force[1:-1].ravel() @ way[3:]
+        return float(held[0] - held[1] - 2 * work)
+
+    def _held(self, state: State) -> float:
+        """Energy of frame and chain."""
+        ring, q, rate = self.ring, self.sections(state.pos), self.sections(state.vel)
+        kinetic, gravity = energies(ring.body, ring.rod, state.pos[:3], q, state.vel[:3], rate)
+        return float(kinetic + gravity + self._forces(state)[2])
+
+    def resting(self, omega: float, alpha: float, a1: float, a2: float) -> RestingChain:
+        """The ring at rest in a frame with these rates and this acceleration of C, gravity included."""
+        return RestingChain(self.ring, omega, alpha, np.array([a1, a2]))
+
+
+class RestingChain:
+    """See :class:`flexible.models.equilibrium.RestingRing`."""
+
+    def __init__(self, ring: ChainRing, omega: float, alpha: float, acceleration: Array) -> None:
+        self.ring = ring
+        rod = ring.rod
+        self.coordinates = np.zeros(3 * ring.sections)
+        turn = alpha * np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]]) - omega**2 * np.diag([1.0, 1, 0])
+        y = np.column_stack([rod.place, np.ones(len(rod.mass))])[1:-1]
+        weights = np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1]
+        load = y @ turn.T + np.array([*acceleration, alpha])
+        self.load = (weights * load).ravel()
+        self.inertia = np.kron(np.diag(rod.mass[1:-1]), turn)
+        self.lever: dict[int, Array] = {}
+
+    def _padded(self) -> Array:
+        return np.concatenate([np.zeros(3), self.coordinates, np.zeros(3)]).reshape(-1, 3)
+
+    def linearise(self, share: float) -> None:
+        """See :class:`flexible.models.equilibrium.RestingRing`."""
+        q = self._padded()
+        matrix = dense_stiffness(self.ring.rod, q)[3:-3, 3:-3] + share * self.inertia
+        blocks, force = empty_blocks(len(q)), np.zeros_like(q)
+        elastic(self.ring.rod, q, force, blocks.diagonal, blocks.up, blocks.down)
+        self.inverse = np.linalg.inv(matrix)
+        pull = force[1:-1].ravel() + share * (self.inertia @ self.coordinates + self.load)
+        self.base = self.coordinates - self.inverse @ pull
+        self._known: dict[Window, tuple[Array, Array, Array]] = {}
+
+    def _window(self, window: Window) -> tuple[Array, Array, Array]:
+        """Displacement of the nodes, its derivatives by the sections, and the compliance that the chain lacks."""
+        if window not in self._known:
+            ring, q = self.ring, self._padded()
+            nodes = ring.nodes(*window)
+            moved, by, turn = follow(ring.rod, q, ring.part[nodes], ring.xi[nodes])
+            matrix = np.zeros((len(nodes), 2, len(q) + 2, 3))
+            for k, part in enumerate(ring.part[nodes]):
+                if part >= 0:
+                    matrix[k, :, part : part + 4] = by[k].reshape(2, 4, 3)
+            rows = matrix[:, :, 2:-2].reshape(2 * len(nodes), -1)
+            yields = turned(ring.missing(nodes, nodes), turn, turn)
+            self._known[window] = moved.ravel(), rows, (yields + yields.T) / 2
+        return self._known[window]
+
+    def response(self, window: Window) -> tuple[Array, Array]:
+        """See :class:`flexible.models.equilibrium.RestingRing`."""
+        moved, rows, yields = self._window(window)
+        return moved + rows @ (self.base - self.coordinates), yields + rows @ self.inverse @ rows.T
+
+    def move(self, window: Window, force: Array) -> float:
+        """See :class:`flexible.models.equilibrium.RestingRing`."""
+        moved = self.base + self.inverse @ (self._window(window)[1].T @ force)
+        change = float(np.abs(moved - self.coordinates).max() / max(np.abs(moved).max(), 1e-300))
+        self.coordinates = moved
+        return change
