@@ -60,6 +60,21 @@ class Rod(NamedTuple):
     pinch: float
 
 
+class RimNodes(NamedTuple):
+    """Nodes of the rim, and what they follow; see :func:`rim_point`.
+
+    Attributes
+    ----------
+    part : (m,) int array
+    xi : (m,) array
+    root : (m, 2, 6) array
+    """
+
+    part: NDArray[np.int64]
+    xi: Array
+    root: Array
+
+
 @jit
 def _chord(rod: Any, q: Any, p: int) -> Any:
     """Direction and length of a part's chord, and the three strains of the part."""
@@ -176,23 +191,63 @@ def _add_across(rod: Any, q: Any, up: Any, down: Any) -> None:
 
 
 @jit
-def rim_point(rod: Any, q: Any, at: int, xi: float, moved: Any, by: Any) -> float:
+def rim_point(rod: Any, q: Any, at: int, xi: float, root: Any, moved: Any, by: Any) -> float:
     """Displacement of a point of the rim, its derivatives, and the rotation of the ring there.
 
     Parameters
     ----------
     at : int
-        Part of the point; -1 over the weld, where it does not move.
+        Part of the point; -1 over the weld, where no part moves it.
     xi : float
         Where in the part, 0..1.
+    root : (2, 6) array
+        What it moves besides by the strains of the first and the last part; of points near the weld.
     moved : (2,) array
-    by : (2, 12) array
-        By the coordinates of the sections at - 1 to at + 2. Both are filled in.
+    by : (2, 18) array
+        By the coordinates of the sections at - 1 to at + 2, then of the first and the last free one. Both are filled in.
     """
     moved[:] = 0.0
     by[:] = 0.0
-    if at < 0:
-        return 0.0
+    turn = 0.0
+    if at >= 0:
+        _follow_part(rod, q, at, xi, moved, by)
+        turn = (1 - xi) * q[at, 2] + xi * q[at + 1, 2]
+    last = rod.local.shape[0] - 1
+    if at <= 0 or at == last:
+        _follow_root(rod, q, at, xi, turn, root, moved, by)
+    return turn
+
+
+@jit
+def _follow_root(rod: Any, q: Any, at: int, xi: float, turn: float, root: Any, moved: Any, by: Any) -> None:
+    """Add what a point near the weld moves besides, turned with the ring."""
+    c, s = cos(turn), sin(turn)
+    ways = np.empty((3, 6))
+    add1, add2 = 0.0, 0.0
+    for end in range(2):
+        t1, t2, now, strain = _chord(rod, q, 0 if end == 0 else rod.local.shape[0] - 1)
+        _directions(t1, t2, now, ways)
+        for i in range(3):
+            r1, r2 = root[0, 3 * end + i], root[1, 3 * end + i]
+            g1, g2 = c * r1 - s * r2, s * r1 + c * r2
+            add1 += g1 * strain[i]
+            add2 += g2 * strain[i]
+            for k in range(3):
+                way = ways[i, 3 + k] if end == 0 else ways[i, k]
+                by[0, 12 + 3 * end + k] += g1 * way
+                by[1, 12 + 3 * end + k] += g2 * way
+    moved[0] += add1
+    moved[1] += add2
+    if at >= 0:
+        by[0, 5] -= (1 - xi) * add2
+        by[1, 5] += (1 - xi) * add1
+        by[0, 8] -= xi * add2
+        by[1, 8] += xi * add1
+
+
+@jit
+def _follow_part(rod: Any, q: Any, at: int, xi: float, moved: Any, by: Any) -> None:
+    """Add what a point moves with the sections around it."""
     width = rod.theta[at + 1] - rod.theta[at]
     for side in range(2):
         i = at + side
@@ -222,7 +277,6 @@ def rim_point(rod: Any, q: Any, at: int, xi: float, moved: Any, by: Any) -> floa
             weight = rod.curve[i, near]
             by[0, k - 1 + 3 * near] -= weight * (sideward * out2 + inward * out1)
             by[1, k - 1 + 3 * near] += weight * (sideward * out1 - inward * out2)
-    return (1 - xi) * q[at, 2] + xi * q[at + 1, 2]
 
 
 @jit
@@ -235,7 +289,7 @@ def bending(rod: Any, q: Any, i: int) -> float:
 
 @jit
 def rim_curvature(rod: Any, q: Any, at: int, xi: float, f1: float, f2: float, second: Any) -> None:
-    """Add the second derivatives, (12, 12), of a point's displacement times a force on it; see :func:`rim_point`."""
+    """Add second derivatives, (12, 12), of a point's displacement times a force on it, ``root`` left out."""
     if at < 0:
         return
     width = rod.theta[at + 1] - rod.theta[at]
@@ -252,3 +306,13 @@ def rim_curvature(rod: Any, q: Any, at: int, xi: float, f1: float, f2: float, se
         for near in range(3):
             second[k, k - 3 + 3 * near] -= across * rod.curve[i, near]
             second[k - 3 + 3 * near, k] -= across * rod.curve[i, near]
+
+
+@jit
+def follow(rod: Any, q: Any, nodes: Any) -> Any:
+    """Displacement of rim nodes by the sections, (m, 2), derivatives (m, 2, 18), rotation of the ring there (m,)."""
+    m = nodes.part.shape[0]
+    moved, by, turn = np.empty((m, 2)), np.empty((m, 2, 18)), np.empty(m)
+    for k in range(m):
+        turn[k] = rim_point(rod, q, nodes.part[k], nodes.xi[k], nodes.root[k], moved[k], by[k])
+    return moved, by, turn

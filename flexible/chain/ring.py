@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from .bordered import empty_blocks
-from .corotated import Rod, elastic, rim_point
+from .corotated import RimNodes, Rod, elastic, follow
 from ..ring.fem import Ring, membrane_stiffness
 from ..ring.reduction import body_constants
 from .section import LOADED, RodCompliance, mass_radius, radial, rod_compliance
@@ -106,15 +106,16 @@ def dense_stiffness(rod: Rod, q: Array) -> Array:
     return matrix.reshape(3 * sections, 3 * sections)
 
 
-def rim_matrix(rod: Rod, q: Array, part: NDArray[np.int64], xi: Array) -> tuple[Array, Array]:
-    """Displacement of points of the rim, (m, 2), and its derivatives by the sections, (2 m, 3 (n + 2))."""
-    moved, matrix = np.zeros((len(part), 2)), np.zeros((len(part), 2, len(rod.theta) + 2, 3))
-    by = np.empty((2, 12))
-    for k in range(len(part)):
-        rim_point(rod, q, part[k], xi[k], moved[k], by)
-        if part[k] >= 0:
-            matrix[k, :, part[k] : part[k] + 4] = by.reshape(2, 4, 3)
-    return moved, matrix[:, :, 1:-1].reshape(2 * len(part), -1)
+def rim_matrix(rod: Rod, q: Array, nodes: RimNodes) -> tuple[Array, Array]:
+    """Displacement of nodes of the rim, (m, 2), and its derivatives by the free sections, (2 m, 3 n)."""
+    moved, by, _ = follow(rod, q, nodes)
+    matrix = np.zeros((len(moved), 2, len(rod.theta) + 2, 3))
+    for k, part in enumerate(nodes.part):
+        if part >= 0:
+            matrix[k, :, part : part + 4] = by[k, :, :12].reshape(2, 4, 3)
+        matrix[k, :, 2] += by[k, :, 12:15]
+        matrix[k, :, -3] += by[k, :, 15:]
+    return moved, matrix[:, :, 2:-2].reshape(2 * len(moved), -1)
 
 
 class _Shape:
@@ -128,40 +129,49 @@ class _Shape:
         theta = mesh.rim_theta % (2 * pi)
         inside = np.abs(mesh.rim_theta) > mesh.weld_half_angle
         part = np.clip(np.searchsorted(self.rod.theta, theta, side="right") - 1, 0, parts - 1)
-        self.part = np.where(inside, part, -1)
-        self.xi = np.where(inside, (theta - self.rod.theta[part]) / np.diff(self.rod.theta)[part], 0.0)
-
+        xi = (theta - self.rod.theta[part]) / np.diff(self.rod.theta)[part]
         self.still = np.zeros((parts + 1, 3))
-        self.rod = self.rod._replace(pinch=self._pinch())
+        self.nodes = RimNodes(np.where(inside, part, -1), np.where(inside, xi, 0.0), np.zeros((len(theta), 2, 6)))
+        self._complete()
 
     @cached_property
     def inverse(self) -> Array:
         """Compliance of the sections that are free."""
         return np.linalg.inv(dense_stiffness(self.rod, self.still)[3:-3, 3:-3])
 
+    def _complete(self) -> None:
+        """How the mesh's rim moves more than the chain's under loads far away; by least squares.
+
+        It sinks with the bending, which is ``pinch``, and near the weld it follows the first and the last part, which
+        is ``root``.
+        """
+        theta = self.ring.mesh.rim_theta
+        loaded = np.array([int(np.argmin(np.abs(theta - angle))) for angle in LOADED])
+        columns = (2 * loaded[:, None] + np.arange(2)).ravel()
+        moved = self.ring.rim_block(np.arange(2 * len(theta)), columns)
+        turned = self.inverse @ rim_matrix(self.rod, self.still, self.nodes)[1][columns].T
+        misfit = (moved - rim_matrix(self.rod, self.still, self.nodes)[1] @ turned).reshape(len(theta), 2, 6)
+        clear = np.flatnonzero((np.abs(theta) > LOADED[0] / 4) & (np.abs(theta) < LOADED[0] * 0.8))
+        outward = np.stack([np.cos(theta[clear]), np.sin(theta[clear])], axis=1)
+        sunk = -np.einsum("ni,nim->nm", outward, misfit[clear])
+        bend = np.gradient(turned.reshape(-1, 3, 6)[:, 2], self.rod.theta[1:-1], axis=0)
+        at = theta[clear] % (2 * pi)
+        there = np.stack([np.interp(at, self.rod.theta[1:-1], column) for column in bend.T], axis=1)
+        self.rod = self.rod._replace(pinch=float((sunk * there).sum() / (there * there).sum()))
+
+        turned = self.inverse @ rim_matrix(self.rod, self.still, self.nodes)[1][columns].T
+        misfit = (moved - rim_matrix(self.rod, self.still, self.nodes)[1] @ turned).reshape(len(theta), 2, 6)
+        first, last = turned[:3], turned[-3:]
+        place = self.rod.place
+        strains = [chord_strains(place[0], place[1], 2) @ first, chord_strains(place[-2], place[-1], 1) @ last]
+        root = misfit @ np.linalg.inv(np.concatenate(strains))
+        root[np.abs(theta) > self.compliance.weld] = 0.0
+        self.nodes = self.nodes._replace(root=np.ascontiguousarray(root))
+
     @cached_property
     def rim(self) -> Array:
         """Displacement of the rim's nodes by the sections that are free, (2 n_rim, 3 n)."""
-        return self._rim(np.arange(len(self.part)))
-
-    def _rim(self, nodes: NDArray[np.int64]) -> Array:
-        return rim_matrix(self.rod, self.still, self.part[nodes], self.xi[nodes])[1][:, 3:-3]
-
-    def _pinch(self) -> float:
-        """What the mesh's rim sinks more than the chain's, far from the load, per bending there; by least squares."""
-        theta = self.ring.mesh.rim_theta
-        loaded = np.array([int(np.argmin(np.abs(theta - angle))) for angle in LOADED])
-        clear = np.flatnonzero((np.abs(theta) > LOADED[0] / 4) & (np.abs(theta) < LOADED[0] * 0.8))
-        turned = self.inverse @ self._rim(loaded).T
-        columns = (2 * loaded[:, None] + np.arange(2)).ravel()
-        rows = (2 * clear[:, None] + np.arange(2)).ravel()
-        misfit = (self.ring.rim_block(rows, columns) - self._rim(clear) @ turned).reshape(len(clear), 2, -1)
-        outward = np.stack([np.cos(theta[clear]), np.sin(theta[clear])], axis=1)
-        sunk = -np.einsum("ni,nim->nm", outward, misfit)
-        bend = np.gradient(turned.reshape(-1, 3, turned.shape[1])[:, 2], self.rod.theta[1:-1], axis=0)
-        at = theta[clear] % (2 * pi)
-        there = np.stack([np.interp(at, self.rod.theta[1:-1], column) for column in bend.T], axis=1)
-        return float((sunk * there).sum() / (there * there).sum())
+        return rim_matrix(self.rod, self.still, self.nodes)[1]
 
     def modes(self, count: int) -> Array:
         """The slowest vibrations of the undeformed chain, (3 n, count), orthonormal in the mass."""
@@ -169,10 +179,17 @@ class _Shape:
         matrix = weight[:, None] * dense_stiffness(self.rod, self.still)[3:-3, 3:-3] * weight
         return weight[:, None] * np.linalg.eigh(matrix)[1][:, :count]
 
-    def compliance_of(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> Array:
-        """Static displacement of some rim dofs under unit forces on others that the chain lacks."""
-        chain = self.rim[rows] @ self.inverse @ self.rim[columns].T
-        return self.ring.rim_block(rows, columns) - chain
+    @cached_property
+    def missing(self) -> Array:
+        """Static displacement of the rim under unit forces on it that the chain lacks, (2 n_rim, 2 n_rim).
+
+        Right over a section the chain gives way a little more than the mesh, for a load on the rim spreads over half a
+        wall before it bends the ring. A wall does not push back: of the difference the positive part is kept.
+        """
+        lacks = self.ring.rim_compliance - self.rim @ self.inverse @ self.rim.T
+        values, vectors = np.linalg.eigh(lacks)
+        positive = values > 0
+        return (vectors[:, positive] * values[positive]) @ vectors[:, positive].T
 
 
 @lru_cache(maxsize=8)
@@ -193,8 +210,8 @@ class ChainRing:
     ----------
     rod : Rod
     body : Body
-    part, xi : (n_rim,) arrays
-        Part of each rim node (-1 over the weld), and where in it.
+    nodes : RimNodes
+        Of the whole rim.
     vertex : (n_elements,) array
         Angles at which rim elements begin.
     """
@@ -211,7 +228,7 @@ class ChainRing:
             turning=unit.turning * mass,
         )
         self.body = make_body(scene, self.rod)
-        self.part, self.xi = self.shape.part, self.shape.xi
+        self.nodes = self.shape.nodes
         self.vertex = np.ascontiguousarray(ring.mesh.rim_theta[::2])
 
     @property
@@ -219,14 +236,15 @@ class ChainRing:
         """Number of sections that are free."""
         return len(self.rod.theta) - 2
 
-    def nodes(self, first: int, count: int) -> NDArray[np.int64]:
-        """Rim nodes of ``count`` elements from ``first`` on."""
-        return np.arange(2 * first, 2 * (first + count) + 1) % (2 * len(self.vertex))
+    def window(self, first: int, count: int) -> tuple[NDArray[np.int64], RimNodes]:
+        """Rim nodes of ``count`` elements from ``first`` on: their numbers, and what they follow."""
+        number = np.arange(2 * first, 2 * (first + count) + 1) % (2 * len(self.vertex))
+        return number, RimNodes(*(column[number] for column in self.nodes))
 
     def missing(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> Array:
         """Compliance between rim nodes that the chain lacks, (2 rows, 2 columns)."""
         rows, columns = (np.column_stack([2 * nodes, 2 * nodes + 1]).ravel() for nodes in (rows, columns))
-        return self.shape.compliance_of(rows, columns) / self.stiffness
+        return self.shape.missing[np.ix_(rows, columns)] / self.stiffness
 
 
 __all__ = ["ChainRing", "dense_stiffness", "make_rod", "mass_radius", "rim_matrix"]

@@ -20,7 +20,7 @@ from rigid.kernel.compile import jit
 
 from ..contact.forces import ELASTIC, EPS_N, EPS_T, LENGTH, NORMAL, OUTSIDE, SLIP, contact_forces
 from .bordered import FRAME, _empty, factor, solve
-from .corotated import elastic, rim_curvature, rim_point
+from .corotated import elastic, follow, rim_curvature, rim_point
 from .inertia import inertia
 
 
@@ -29,16 +29,6 @@ def floor(contact: Any, pose: Any, u: Any) -> Any:
     """The floor's forces, see :func:`flexible.contact.forces.contact_forces`; ``contact`` holds all else it asks for."""
     first, vertex, law, mode, old_pose, u_old, bristles, flags, damper = contact
     return contact_forces(pose, u, first, vertex, law, mode, old_pose, u_old, bristles, flags, damper)
-
-
-@jit
-def follow(rod: Any, q: Any, part: Any, xi: Any) -> Any:
-    """Displacement of rim nodes by the sections, (m, 2), derivatives (m, 2, 12), rotation of the ring there (m,)."""
-    m = part.shape[0]
-    moved, by, turn = np.empty((m, 2)), np.empty((m, 2, 12)), np.empty(m)
-    for k in range(m):
-        turn[k] = rim_point(rod, q, part[k], xi[k], moved[k], by[k])
-    return moved, by, turn
 
 
 @jit
@@ -58,13 +48,14 @@ def turned(missing: Any, rows: Any, columns: Any) -> Any:
 
 
 @jit
-def rise(rod: Any, q: Any, part: Any, xi: Any, theta: Any, phi: float, height: float) -> Any:
+def rise(rod: Any, q: Any, nodes: Any, theta: Any, phi: float, height: float) -> Any:
     """Gap of rim nodes that follow the sections, and their angles from the bottom in (-pi, pi]."""
     s, c = sin(phi), cos(phi)
-    gap, psi = np.empty(part.shape[0]), np.empty(part.shape[0])
-    moved, by = np.empty(2), np.empty((2, 12))
-    for k in range(part.shape[0]):
-        rim_point(rod, q, part[k], xi[k], moved, by)
+    m = theta.shape[0]
+    gap, psi = np.empty(m), np.empty(m)
+    moved, by = np.empty(2), np.empty((2, 18))
+    for k in range(m):
+        rim_point(rod, q, nodes.part[k], nodes.xi[k], nodes.root[k], moved, by)
         angle = phi - np.pi + theta[k]
         psi[k] = angle - 2 * np.pi * np.round(angle / (2 * np.pi))
         gap[k] = height + 2 * sin(angle / 2) ** 2 + moved[0] * c - moved[1] * s
@@ -73,13 +64,18 @@ def rise(rod: Any, q: Any, part: Any, xi: Any, theta: Any, phi: float, height: f
 
 @jit
 def _kept(sections: int, part: Any) -> tuple[Any, Any]:
-    """Flags of the sections that nodes follow and of the first one, and where each stands in the core."""
+    """Flags of the sections that nodes follow and of the first one, and where each stands in the core.
+
+    Nodes near the weld follow the first and the last section.
+    """
     keeps, place = np.zeros(sections, np.bool_), np.full(sections, -1)
     keeps[1] = True
     for k in range(part.shape[0]):
         if part[k] >= 0:
             for i in range(max(part[k] - 1, 1), min(part[k] + 3, sections - 1)):
                 keeps[i] = True
+        if part[k] <= 0 or part[k] == sections - 2:
+            keeps[sections - 2] = True
     at = FRAME
     for i in range(sections):
         if keeps[i]:
@@ -94,15 +90,19 @@ def _condense(by: Any, part: Any, xi: Any, place: Any, size: int) -> tuple[Any, 
     m = part.shape[0]
     follow, turning = np.zeros((2 * m, size)), np.zeros((m, size))
     for k in range(m):
-        if part[k] < 0:
-            continue
-        for slot in range(4):
+        for slot in range(6):
             i = part[k] - 1 + slot
+            if slot == 4:
+                i = 1
+            elif slot == 5:
+                i = place.shape[0] - 2
+            elif part[k] < 0:
+                continue
             if i < 1 or i >= place.shape[0] or place[i] < 0:
                 continue
             for a in range(3):
-                follow[2 * k, place[i] + a] = by[k, 0, 3 * slot + a]
-                follow[2 * k + 1, place[i] + a] = by[k, 1, 3 * slot + a]
+                follow[2 * k, place[i] + a] += by[k, 0, 3 * slot + a]
+                follow[2 * k + 1, place[i] + a] += by[k, 1, 3 * slot + a]
             if slot == 1:
                 turning[k, place[i] + 2] = 1 - xi[k]
             elif slot == 2:
@@ -176,15 +176,15 @@ def _add_floor(core: Any, q: Any, rod: Any, part: Any, xi: Any, place: Any, foll
 
 
 @jit
-def solve_stage(body: Any, rod: Any, part: Any, xi: Any, missing: Any, contact: Any, pos_pred: Any, vel_pred: Any,
+def solve_stage(body: Any, rod: Any, nodes: Any, missing: Any, contact: Any, pos_pred: Any, vel_pred: Any,
                 beta: float, guess: Any, u_guess: Any, tolerance: float) -> Any:  # fmt: skip
     """Solve one stage.
 
     Parameters
     ----------
     body, rod : Body, Rod
-    part, xi : (m,) arrays
-        Of the window's rim nodes.
+    nodes : RimNodes
+        Of the window, m of them.
     missing : (2 m, 2 m) array
         Their compliance that the chain lacks.
     contact : tuple
@@ -207,6 +207,7 @@ def solve_stage(body: Any, rod: Any, part: Any, xi: Any, missing: Any, contact: 
         As the floor returns them.
     """
     n = (pos_pred.shape[0] - FRAME) // 3
+    part, xi = nodes.part, nodes.xi
     m = part.shape[0]
     law, damper = contact[2], contact[8]
     keeps, place = _kept(n + 2, part)
@@ -214,7 +215,7 @@ def solve_stage(body: Any, rod: Any, part: Any, xi: Any, missing: Any, contact: 
     d = guess.copy()
     q, qv, qa = np.zeros((n + 2, 3)), np.zeros((n + 2, 3)), np.zeros((n + 2, 3))
     q[1:-1] = (pos_pred[FRAME:] + d[FRAME:]).reshape(n, 3)
-    u = follow(rod, q, part, xi)[0] + u_guess
+    u = follow(rod, q, nodes)[0] + u_guess
     rest, flat = np.empty(2 * m), np.empty(2 * m)
     iterations, last = -1, np.inf
     softest = np.abs(missing).max()
@@ -226,7 +227,7 @@ def solve_stage(body: Any, rod: Any, part: Any, xi: Any, missing: Any, contact: 
         frame, force = np.zeros(FRAME), np.zeros((n + 2, 3))
         elastic(rod, q, force, blocks.diagonal, blocks.up, blocks.down)
         inertia(body, rod, pos[:3], q, vel[:3], qv, acc[:3], qa, beta, blocks, frame, force)
-        moved, by, turn = follow(rod, q, part, xi)
+        moved, by, turn = follow(rod, q, nodes)
         pushed, nodal, tangent, res, new_bristles, new_flags = floor(contact, pos[:3], u)
         yields = turned(missing, turn, turn)
         for k in range(m):

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from ..chain.bordered import empty_blocks, solve
-from ..chain.corotated import elastic
+from ..chain.corotated import elastic, follow
 from ..chain.inertia import energies, inertia, momenta
-from ..chain.ring import ChainRing, dense_stiffness
-from ..chain.stage import follow, rise, solve_stage, turned
+from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
+from ..chain.stage import rise, solve_stage, turned
 from ..contact.forces import HIGH, LOW, NORMAL
 from ..ring.fem import ring_of
 from .rim_contact import POINTS, RimContact
@@ -78,8 +78,8 @@ class ChainHoop(RimContact):
         """Compliance of the rim nodes of a window that the chain lacks."""
         key = (window[0] % len(self.vertex), window[1])
         if key not in self._missing:
-            nodes = self.ring.nodes(*key)
-            block = self.ring.missing(nodes, nodes)
+            number = self.ring.window(*key)[0]
+            block = self.ring.missing(number, number)
             self._missing[key] = (block + block.T) / 2
         return self._missing[key]
 
@@ -90,21 +90,21 @@ class ChainHoop(RimContact):
     def _beyond(self, state: State, window: Window) -> tuple[Array, Array]:
         """Displacement of the rim nodes of a window, and what of it the sections do not account for."""
         ring, q = self.ring, self.sections(state.pos)
-        here = ring.nodes(*window)
-        moved, _, turn = follow(ring.rod, q, ring.part[here], ring.xi[here])
+        here, nodes = ring.window(*window)
+        moved, _, turn = follow(ring.rod, q, nodes)
         if window == state.window:
             return state.u, state.u - moved
         if state.res[NORMAL] == 0:
             return moved, np.zeros_like(moved)
-        there = ring.nodes(*state.window)
-        _, _, turn_there = follow(ring.rod, q, ring.part[there], ring.xi[there])
+        there, nodes = ring.window(*state.window)
+        _, _, turn_there = follow(ring.rod, q, nodes)
         gives = (turned(ring.missing(here, there), turn, turn_there) @ state.nodal.ravel()).reshape(-1, 2)
         return moved + gives, gives
 
     def _reach(self, pos: Array) -> tuple[float, float]:
         """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is."""
         ring = self.ring
-        gap, psi = rise(ring.rod, self.sections(pos), ring.part, ring.xi, self._rim_theta, pos[2], pos[1])
+        gap, psi = rise(ring.rod, self.sections(pos), ring.nodes, self._rim_theta, pos[2], pos[1])
         below = psi[gap <= max(0.0, gap.min())]
         return float(below.min()), float(below.max())
 
@@ -130,14 +130,14 @@ class ChainHoop(RimContact):
         margin = 0.3 * (high - low) + 0.1 * self.element
         for _ in range(4):
             window = self.window(pos_pred[2] + guess[2], low, high, margin)
-            nodes = ring.nodes(*window)
+            nodes = ring.window(*window)[1]
             u_old, beyond = self._beyond(old, window)
             contact = (
                 window[0], ring.vertex, self.law, mode, old.pos[:3], u_old, old.bristles, old.flags, damper,
             )  # fmt: skip
             iterations, d, u, factors, nodal, res, bristles, flags = solve_stage(
-                ring.body, ring.rod, ring.part[nodes], ring.xi[nodes], self._lacking(window), contact, pos_pred,
-                vel_pred, beta, guess, beyond, self.tolerance,
+                ring.body, ring.rod, nodes, self._lacking(window), contact, pos_pred, vel_pred,
+                beta, guess, beyond, self.tolerance,
             )  # fmt: skip
             if iterations != -2:
                 break
@@ -244,14 +244,10 @@ class RestingChain:
         """Displacement of the nodes, its derivatives by the sections, and the compliance that the chain lacks."""
         if window not in self._known:
             ring, q = self.ring, self._padded()
-            nodes = ring.nodes(*window)
-            moved, by, turn = follow(ring.rod, q, ring.part[nodes], ring.xi[nodes])
-            matrix = np.zeros((len(nodes), 2, len(q) + 2, 3))
-            for k, part in enumerate(ring.part[nodes]):
-                if part >= 0:
-                    matrix[k, :, part : part + 4] = by[k].reshape(2, 4, 3)
-            rows = matrix[:, :, 2:-2].reshape(2 * len(nodes), -1)
-            yields = turned(ring.missing(nodes, nodes), turn, turn)
+            number, nodes = ring.window(*window)
+            moved, rows = rim_matrix(ring.rod, q, nodes)
+            turn = follow(ring.rod, q, nodes)[2]
+            yields = turned(ring.missing(number, number), turn, turn)
             self._known[window] = moved.ravel(), rows, (yields + yields.T) / 2
         return self._known[window]
 
