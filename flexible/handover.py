@@ -29,6 +29,7 @@ from .contact.forces import (
     SPACING,
     STICK,
 )
+from .models.chain import ChainHoop
 from .models.equilibrium import Patch, settle
 from .models.full import FullHoop
 from .models.reduced import ReducedHoop
@@ -37,7 +38,7 @@ from .ring.frame import OFFSET
 from .time.tr_bdf2 import MarchError, restart
 
 Array = NDArray[np.float64]
-Hoop = ReducedHoop | FullHoop
+Hoop = ReducedHoop | FullHoop | ChainHoop
 
 # Time between the equilibria of which rates are made, in the time in which the forces change. Its square is the error
 # of the rates; a shorter one sees how the patch's height ripples as point after point comes to bear (measured at a

@@ -180,9 +180,9 @@ def factor(blocks: Any, keeps: Any, rest: int) -> Any:
             place = k
     f = slice(FRAME + 3 * place, FRAME + 3 * place + 3)
     for k in range(kept.shape[0]):
-        at = slice(FRAME + 3 * k, FRAME + 3 * k + 3)
-        core[at, f] += blocks.columns[kept[k], :, FRAME:]
-        core[f, at] += blocks.rows[kept[k], FRAME:, :]
+        here = slice(FRAME + 3 * k, FRAME + 3 * k + 3)
+        core[here, f] += blocks.columns[kept[k], :, FRAME:]
+        core[f, here] += blocks.rows[kept[k], FRAME:, :]
     core[f, f] += blocks.corner[FRAME:, FRAME:]
     core[:FRAME, f] += blocks.corner[:FRAME, FRAME:]
     core[f, :FRAME] += blocks.corner[FRAME:, :FRAME]

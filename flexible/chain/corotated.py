@@ -204,7 +204,7 @@ def rim_point(rod: Any, q: Any, at: int, xi: float, root: Any, moved: Any, by: A
         What it moves besides by the strains of the first and the last part; of points near the weld.
     moved : (2,) array
     by : (2, 18) array
-        By the coordinates of the sections at - 1 to at + 2, then of the first and the last free one. Both are filled in.
+        By the coordinates of the sections at - 1 to at + 2, then of the first and the last free one; both filled in.
     """
     moved[:] = 0.0
     by[:] = 0.0

@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 
 from rigid import Scene
 
-from .bordered import empty_blocks
-from .corotated import RimNodes, Rod, elastic, follow
 from ..ring.fem import Ring, membrane_stiffness
 from ..ring.reduction import body_constants
-from .section import LOADED, RodCompliance, mass_radius, radial, rod_compliance
+from .bordered import empty_blocks
+from .corotated import RimNodes, Rod, elastic, follow
 from .inertia import Body
+from .section import LOADED, RodCompliance, mass_radius, radial, rod_compliance
 
 Array = NDArray[np.float64]
 
@@ -137,7 +137,8 @@ class _Shape:
     @cached_property
     def inverse(self) -> Array:
         """Compliance of the sections that are free."""
-        return np.linalg.inv(dense_stiffness(self.rod, self.still)[3:-3, 3:-3])
+        inverse: Array = np.linalg.inv(dense_stiffness(self.rod, self.still)[3:-3, 3:-3])
+        return inverse
 
     def _complete(self) -> None:
         """How the mesh's rim moves more than the chain's under loads far away; by least squares.
@@ -177,7 +178,8 @@ class _Shape:
         """The slowest vibrations of the undeformed chain, (3 n, count), orthonormal in the mass."""
         weight = np.column_stack([self.rod.mass, self.rod.mass, self.rod.turning])[1:-1].ravel() ** -0.5
         matrix = weight[:, None] * dense_stiffness(self.rod, self.still)[3:-3, 3:-3] * weight
-        return weight[:, None] * np.linalg.eigh(matrix)[1][:, :count]
+        shapes: Array = weight[:, None] * np.linalg.eigh(matrix)[1][:, :count]
+        return shapes
 
     @cached_property
     def missing(self) -> Array:
@@ -239,7 +241,8 @@ class ChainRing:
     def window(self, first: int, count: int) -> tuple[NDArray[np.int64], RimNodes]:
         """Rim nodes of ``count`` elements from ``first`` on: their numbers, and what they follow."""
         number = np.arange(2 * first, 2 * (first + count) + 1) % (2 * len(self.vertex))
-        return number, RimNodes(*(column[number] for column in self.nodes))
+        every = self.nodes
+        return number, RimNodes(every.part[number], every.xi[number], every.root[number])
 
     def missing(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> Array:
         """Compliance between rim nodes that the chain lacks, (2 rows, 2 columns)."""

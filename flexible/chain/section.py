@@ -53,8 +53,8 @@ class RodCompliance:
     weld : float
         Angle from the middle of the weld at which the piece ends to which ``ends`` belongs.
     ends : (6, 6) array
-        Displacement (y1, y2) and rotation of the sections there, theta > 0 first, under unit forces and moments on them;
-        the two feel each other through the wall over the weld.
+        Displacement (y1, y2) and rotation of the sections there, theta > 0 first, under unit forces and moments on
+        them; the two feel each other through the wall over the weld.
     misfit : float
         Largest error of the form ``section`` on the pieces it was fitted to, relative to the largest energy.
     """

@@ -4,9 +4,9 @@ See :mod:`flexible.models.stage` for the stages. The rim follows the sections an
 
     u = U(q) + Q S Q^T f,
 
-f the floor's forces on its nodes, S the compliance that the chain lacks and Q the rotation of the ring at each node. The
-forces act where the rim then is, so that they turn the ring by their lever Q S Q^T f as well: what the floor does to the
-rim arrives at the ring.
+f the floor's forces on its nodes, S the compliance that the chain lacks and Q the rotation of the ring at each node.
+The forces act where the rim then is, so that they turn the ring by their lever Q S Q^T f as well: what the floor does
+to the rim arrives at the ring.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from .inertia import inertia
 
 @jit
 def floor(contact: Any, pose: Any, u: Any) -> Any:
-    """The floor's forces, see :func:`flexible.contact.forces.contact_forces`; ``contact`` holds all else it asks for."""
+    """The floor's forces (:func:`flexible.contact.forces.contact_forces`); ``contact`` holds all else it asks for."""
     first, vertex, law, mode, old_pose, u_old, bristles, flags, damper = contact
     return contact_forces(pose, u, first, vertex, law, mode, old_pose, u_old, bristles, flags, damper)
 
