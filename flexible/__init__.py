@@ -11,8 +11,9 @@ A :class:`rigid.Scene` goes in, a :class:`FlexibleMotion` comes out::
 In the order in which they build on each other:
 
 ``ring``      its elasticity and inertia, from the mesh to modes and static compliance
+``chain``     the same as parts between rigid sections that turn and move far
 ``contact``   points of the rim near the floor, the foundation under them, friction along it
-``models``    a hoop that can be moved in time: reduced, all nodes, geometrically exact
+``models``    a hoop that can be moved in time: reduced, all nodes, geometrically exact, chain
 ``time``      one implicit step; adaptive steps with located events
 ``handover``  where a flexible segment begins: in the equilibrium of a rigid motion
 ``solve``     simulate(scene); ``limit`` the rigid hoop that a contact law tends to, ``builder`` what a motion is put

@@ -88,29 +88,61 @@ def _empty(sections: int) -> Any:
 
 
 @jit
-def _inverted(a: Any, out: Any) -> None:
-    """Inverse of a 3 x 3 matrix."""
-    c00 = a[1, 1] * a[2, 2] - a[1, 2] * a[2, 1]
-    c01 = a[1, 2] * a[2, 0] - a[1, 0] * a[2, 2]
-    c02 = a[1, 0] * a[2, 1] - a[1, 1] * a[2, 0]
-    scale = 1 / (a[0, 0] * c00 + a[0, 1] * c01 + a[0, 2] * c02)
-    out[0, 0], out[1, 0], out[2, 0] = c00 * scale, c01 * scale, c02 * scale
-    out[0, 1] = (a[0, 2] * a[2, 1] - a[0, 1] * a[2, 2]) * scale
-    out[1, 1] = (a[0, 0] * a[2, 2] - a[0, 2] * a[2, 0]) * scale
-    out[2, 1] = (a[0, 1] * a[2, 0] - a[0, 0] * a[2, 1]) * scale
-    out[0, 2] = (a[0, 1] * a[1, 2] - a[0, 2] * a[1, 1]) * scale
-    out[1, 2] = (a[0, 2] * a[1, 0] - a[0, 0] * a[1, 2]) * scale
-    out[2, 2] = (a[0, 0] * a[1, 1] - a[0, 1] * a[1, 0]) * scale
+def _invert(matrix: Any, at: int, inverse: Any, to: int) -> None:
+    """Inverse of a 3 x 3 block."""
+    a, b, c = matrix[at, 0, 0], matrix[at, 0, 1], matrix[at, 0, 2]
+    d, e, f = matrix[at, 1, 0], matrix[at, 1, 1], matrix[at, 1, 2]
+    g, h, k = matrix[at, 2, 0], matrix[at, 2, 1], matrix[at, 2, 2]
+    first, second, third = e * k - f * h, f * g - d * k, d * h - e * g
+    scale = 1 / (a * first + b * second + c * third)
+    inverse[to, 0, 0], inverse[to, 1, 0], inverse[to, 2, 0] = first * scale, second * scale, third * scale
+    inverse[to, 0, 1], inverse[to, 1, 1], inverse[to, 2, 1] = (
+        (c * h - b * k) * scale,
+        (a * k - c * g) * scale,
+        (b * g - a * h) * scale,
+    )
+    inverse[to, 0, 2], inverse[to, 1, 2], inverse[to, 2, 2] = (
+        (b * f - c * e) * scale,
+        (c * d - a * f) * scale,
+        (a * e - b * d) * scale,
+    )
 
 
 @jit
-def _multiply(a: Any, b: Any, out: Any, sign: float) -> None:
-    """out += sign a b, for small matrices."""
-    for i in range(a.shape[0]):
-        for k in range(a.shape[1]):
-            value = sign * a[i, k]
-            for j in range(b.shape[1]):
-                out[i, j] += value * b[k, j]
+def _eliminate(blocks: Any, i: int, here: int, there: int, factors: Any) -> None:
+    """Eliminate one section: what it leaves for later, and what it adds to the next one and to the border."""
+    diagonal, columns, rows, corner = blocks.diagonal, blocks.columns, blocks.rows, blocks.corner
+    inverse, ahead, beside, back, below = factors
+    forth, at = (blocks.up, here) if there > here else (blocks.down, there)
+    return_way = blocks.down if there > here else blocks.up
+    _invert(diagonal, here, inverse, i)
+    for a in range(3):
+        for b in range(3):
+            back[i, a, b] = return_way[at, a, b]
+            ahead[i, a, b] = 0.0
+        for b in range(6):
+            below[i, b, a] = rows[here, b, a]
+            beside[i, a, b] = 0.0
+        for c in range(3):
+            value = inverse[i, a, c]
+            for b in range(3):
+                ahead[i, a, b] += value * forth[at, c, b]
+            for b in range(6):
+                beside[i, a, b] += value * columns[here, c, b]
+    for a in range(3):
+        for c in range(3):
+            value = back[i, a, c]
+            for b in range(3):
+                diagonal[there, a, b] -= value * ahead[i, c, b]
+            for b in range(6):
+                columns[there, a, b] -= value * beside[i, c, b]
+    for a in range(6):
+        for c in range(3):
+            value = below[i, a, c]
+            for b in range(3):
+                rows[there, a, b] -= value * ahead[i, c, b]
+            for b in range(6):
+                corner[a, b] -= value * beside[i, c, b]
 
 
 @jit
@@ -141,26 +173,17 @@ def factor(blocks: Any, keeps: Any, rest: int) -> Any:
     n = keeps.shape[0] - 2
     order, far = _turns(keeps)
     m = order.shape[0]
-    inverse, ahead, back = np.zeros((m, 3, 3)), np.zeros((m, 3, 3)), np.empty((m, 3, 3))
-    beside, below = np.zeros((m, 3, 6)), np.empty((m, 6, 3))
+    inverse, ahead, back = np.empty((m, 3, 3)), np.empty((m, 3, 3)), np.empty((m, 3, 3))
+    beside, below = np.empty((m, 3, 6)), np.empty((m, 6, 3))
     for i in range(m):
-        here, there = order[i]
+        here, there = order[i, 0], order[i, 1]
         if there > here and here == far + 1:
             blocks.columns[here, :, FRAME:] = blocks.down[far]
             blocks.rows[here, FRAME:, :] = blocks.up[far]
         elif here == n:
             blocks.columns[here, :, FRAME:] = blocks.up[n]
             blocks.rows[here, FRAME:, :] = blocks.down[n]
-        forth = blocks.up[here] if there > here else blocks.down[there]
-        back[i] = blocks.down[here] if there > here else blocks.up[there]
-        below[i] = blocks.rows[here]
-        _inverted(blocks.diagonal[here], inverse[i])
-        _multiply(inverse[i], forth, ahead[i], 1.0)
-        _multiply(inverse[i], blocks.columns[here], beside[i], 1.0)
-        _multiply(back[i], ahead[i], blocks.diagonal[there], -1.0)
-        _multiply(back[i], beside[i], blocks.columns[there], -1.0)
-        _multiply(below[i], ahead[i], blocks.rows[there], -1.0)
-        _multiply(below[i], beside[i], blocks.corner, -1.0)
+        _eliminate(blocks, i, here, there, (inverse, ahead, beside, back, below))
     kept = np.flatnonzero(keeps)
     core = np.zeros((FRAME + 3 * kept.shape[0] + rest, FRAME + 3 * kept.shape[0] + rest))
     core[:FRAME, :FRAME] = blocks.corner[:FRAME, :FRAME]
@@ -199,19 +222,21 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any,
         The core is singular.
     """
     order, kept, far = factors.order, factors.kept, factors.far
+    inverse, ahead, beside, back, below = (
+        factors.inverse, factors.ahead, factors.beside, factors.back, factors.rows,
+    )  # fmt: skip
     size, m = factors.core.shape[0], order.shape[0]
     border = np.zeros(6)
     right = sections.copy()
     for i in range(m):
-        here, there = order[i]
+        here, there = order[i, 0], order[i, 1]
         for a in range(3):
-            pivot = 0.0
+            pivot = inverse[i, a, 0] * right[here, 0] + inverse[i, a, 1] * right[here, 1]
+            pivot += inverse[i, a, 2] * right[here, 2]
             for b in range(3):
-                pivot += factors.inverse[i, a, b] * right[here, b]
-            for b in range(3):
-                right[there, b] -= factors.back[i, b, a] * pivot
+                right[there, b] -= back[i, b, a] * pivot
             for b in range(6):
-                border[b] -= factors.rows[i, b, a] * pivot
+                border[b] -= below[i, b, a] * pivot
     known = np.zeros(size)
     for a in range(FRAME):
         known[a] = frame[a] + border[a]
@@ -232,12 +257,12 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any,
     border[FRAME:] = x[kept[far]]
     for j in range(m):
         i = m - 1 - j
-        here, there = order[i]
+        here, there = order[i, 0], order[i, 1]
         for a in range(3):
             value = 0.0
             for b in range(3):
-                value += factors.inverse[i, a, b] * right[here, b] - factors.ahead[i, a, b] * x[there, b]
+                value += inverse[i, a, b] * right[here, b] - ahead[i, a, b] * x[there, b]
             for b in range(6):
-                value -= factors.beside[i, a, b] * border[b]
+                value -= beside[i, a, b] * border[b]
             x[here, a] = value
     return found[:FRAME].copy(), x, found[after:].copy()

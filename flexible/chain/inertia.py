@@ -91,9 +91,11 @@ def inertia(body: Any, rod: Any, pos: Any, q: Any, vel: Any, qv: Any, acc: Any, 
     moment_phi = body.weld_moment * a2_phi + body.weld_inertia * r2
     sum1, sum2 = body.weld_moment, 0.0
     own, across = r2 - w * w, alpha + 2 * w * r1
-    for i in range(1, rod.mass.shape[0] - 1):
-        m, j = rod.mass[i], rod.turning[i]
-        y1, y2 = rod.place[i, 0] + q[i, 0], rod.place[i, 1] + q[i, 1]
+    diagonal, columns, rows = blocks.diagonal, blocks.columns, blocks.rows
+    mass, turning, place = rod.mass, rod.turning, rod.place
+    for i in range(1, mass.shape[0] - 1):
+        m, j = mass[i], turning[i]
+        y1, y2 = place[i, 0] + q[i, 0], place[i, 1] + q[i, 1]
         v1, v2 = qv[i, 0], qv[i, 1]
         p1 = m * (a1 - alpha * y2 - 2 * w * v2 - w * w * y1 + qa[i, 0])
         p2 = m * (a2 + alpha * y1 + 2 * w * v1 - w * w * y2 + qa[i, 1])
@@ -111,27 +113,28 @@ def inertia(body: Any, rod: Any, pos: Any, q: Any, vel: Any, qv: Any, acc: Any, 
         moment_phi += y1 * p2_phi - y2 * p1_phi + j * r2
         sum1 += m * y1
         sum2 += m * y2
-        block, column, row = blocks.diagonal[i], blocks.columns[i], blocks.rows[i]
-        block[0, 0] += m * own
-        block[1, 1] += m * own
-        block[0, 1] -= m * across
-        block[1, 0] += m * across
-        block[2, 2] += j * r2
-        column[0, 0] += m * s * r2
-        column[1, 0] += m * c * r2
-        column[0, 1] += m * c * r2
-        column[1, 1] -= m * s * r2
-        column[0, 2] += p1_phi
-        column[1, 2] += p2_phi
-        column[2, 2] += j * r2
+        diagonal[i, 0, 0] += m * own
+        diagonal[i, 1, 1] += m * own
+        diagonal[i, 0, 1] -= m * across
+        diagonal[i, 1, 0] += m * across
+        diagonal[i, 2, 2] += j * r2
+        columns[i, 0, 0] += m * s * r2
+        columns[i, 1, 0] += m * c * r2
+        columns[i, 0, 1] += m * c * r2
+        columns[i, 1, 1] -= m * s * r2
+        columns[i, 0, 2] += p1_phi
+        columns[i, 1, 2] += p2_phi
+        columns[i, 2, 2] += j * r2
         # by u1: (p1, p2) change by m (own, across), by u2: by m (-across, own)
-        for k in range(2):
-            g1, g2 = (m * own, m * across) if k == 0 else (-m * across, m * own)
-            gx = g1 * s + g2 * c
-            row[0, k] += gx
-            row[1, k] += g1 * c - g2 * s
-            row[2, k] += gx + y1 * g2 - y2 * g1 + (p2 if k == 0 else -p1)
-        row[2, 2] += j * r2
+        gx = m * (own * s + across * c)
+        rows[i, 0, 0] += gx
+        rows[i, 1, 0] += m * (own * c - across * s)
+        rows[i, 2, 0] += gx + m * (y1 * across - y2 * own) + p2
+        gx = m * (own * c - across * s)
+        rows[i, 0, 1] += gx
+        rows[i, 1, 1] -= m * (across * c + own * s)
+        rows[i, 2, 1] += gx + m * (y1 * own + y2 * across) - p1
+        rows[i, 2, 2] += j * r2
     fx, fy = f1 * s + f2 * c, f1 * c - f2 * s
     frame[0] += fx
     frame[1] += fy

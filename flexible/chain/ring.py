@@ -21,8 +21,9 @@ from rigid import Scene
 from ..ring.fem import Ring, membrane_stiffness
 from ..ring.reduction import body_constants
 from .bordered import empty_blocks
-from .corotated import RimNodes, Rod, elastic, follow
+from .corotated import Rod, elastic
 from .inertia import Body
+from .rim import RimNodes, follow
 from .section import LOADED, RodCompliance, mass_radius, radial, rod_compliance
 
 Array = NDArray[np.float64]
@@ -137,8 +138,8 @@ class _Shape:
     @cached_property
     def inverse(self) -> Array:
         """Compliance of the sections that are free."""
-        inverse: Array = np.linalg.inv(dense_stiffness(self.rod, self.still)[3:-3, 3:-3])
-        return inverse
+        inverse = np.linalg.inv(dense_stiffness(self.rod, self.still)[3:-3, 3:-3])
+        return np.asarray(inverse, dtype=float)
 
     def _complete(self) -> None:
         """How the mesh's rim moves more than the chain's under loads far away; by least squares.

@@ -20,8 +20,9 @@ from rigid.kernel.compile import jit
 
 from ..contact.forces import ELASTIC, EPS_N, EPS_T, LENGTH, NORMAL, OUTSIDE, SLIP, contact_forces
 from .bordered import FRAME, _empty, factor, solve
-from .corotated import elastic, follow, rim_curvature, rim_point
+from .corotated import elastic
 from .inertia import inertia
+from .rim import follow, rim_curvature, rim_point
 
 
 @jit

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,11 +9,12 @@ from numpy.typing import NDArray
 
 from rigid import Scene
 
-from ..chain.bordered import empty_blocks, solve
-from ..chain.corotated import elastic, follow
-from ..chain.inertia import energies, inertia, momenta
+from ..chain.bordered import empty_blocks
+from ..chain.corotated import elastic
+from ..chain.rim import follow
 from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
 from ..chain.stage import rise, solve_stage, turned
+from ..chain.whole import forces, held, passed_on, sections
 from ..contact.forces import HIGH, LOW, NORMAL
 from ..ring.fem import ring_of
 from .rim_contact import POINTS, RimContact
@@ -23,7 +23,7 @@ from .state import State
 Array = NDArray[np.float64]
 Window = tuple[int, int]
 
-PER_PART = 2  # rim elements to a part
+PER_PART = 1  # rim elements to a part: with two the wall's own compliance is half as large again right over a section
 THROUGH = 2  # elements through the wall of the mesh that the chain is condensed from
 SLOW = 24  # modes of the ring by whose error steps are chosen, as many as the reduced ring has
 
@@ -55,7 +55,8 @@ class ChainHoop(RimContact):
         self.ring = ChainRing(scene, ring_of(scene, through), parts)
         super().__init__(scene, self.ring.vertex, points, tolerance)
         self._missing: dict[Window, Array] = {}
-        self._passed: tuple[Array, tuple[Array, Array]] | None = None
+        self._last = (0.0, 0.0)
+        self._passed: tuple[Array, Array] | None = None
         rod = self.ring.rod
         mass = np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1].ravel()
         #: momenta of the slow vibrations, by which steps are chosen, of a rate of the sections
@@ -67,12 +68,6 @@ class ChainHoop(RimContact):
     def coordinates(self) -> int:
         """Number of coordinates of the ring in ``State.pos``."""
         return 3 * self.ring.sections
-
-    def sections(self, vector: Array) -> Array:
-        """Rows of a vector like ``State.pos`` that belong to the sections, those of the weld included."""
-        padded = np.zeros((self.ring.sections + 2, 3))
-        padded[1:-1] = vector[3:].reshape(-1, 3)
-        return padded
 
     def _lacking(self, window: Window) -> Array:
         """Compliance of the rim nodes of a window that the chain lacks."""
@@ -89,7 +84,7 @@ class ChainHoop(RimContact):
 
     def _beyond(self, state: State, window: Window) -> tuple[Array, Array]:
         """Displacement of the rim nodes of a window, and what of it the sections do not account for."""
-        ring, q = self.ring, self.sections(state.pos)
+        ring, q = self.ring, sections(state.pos)
         here, nodes = ring.window(*window)
         moved, _, turn = follow(ring.rod, q, nodes)
         if window == state.window:
@@ -104,7 +99,7 @@ class ChainHoop(RimContact):
     def _reach(self, pos: Array) -> tuple[float, float]:
         """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is."""
         ring = self.ring
-        gap, psi = rise(ring.rod, self.sections(pos), ring.nodes, self._rim_theta, pos[2], pos[1])
+        gap, psi = rise(ring.rod, sections(pos), ring.nodes, self._rim_theta, pos[2], pos[1])
         below = psi[gap <= max(0.0, gap.min())]
         return float(below.min()), float(below.max())
 
@@ -124,9 +119,12 @@ class ChainHoop(RimContact):
         if ring.body.ring_mass == 0:  # no inertia to go by: from where the ring was
             guess = guess.copy()
             guess[3:] = old.pos[3:] - pos_pred[3:]
-        low, high = self._reach(pos_pred + guess)
-        if old.res[NORMAL] > 0:
-            low, high = min(low, old.res[LOW]), max(high, old.res[HIGH])
+        if near is None:
+            low, high = self._reach(pos_pred + guess)
+            if old.res[NORMAL] > 0:
+                low, high = min(low, old.res[LOW]), max(high, old.res[HIGH])
+            self._last = low, high
+        low, high = self._last  # both stages of a step look where the first one does
         margin = 0.3 * (high - low) + 0.1 * self.element
         for _ in range(4):
             window = self.window(pos_pred[2] + guess[2], low, high, margin)
@@ -149,62 +147,31 @@ class ChainHoop(RimContact):
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
-        ring, q, rate = self.ring, self.sections(state.pos), self.sections(state.vel)
-        kinetic, gravity = energies(ring.body, ring.rod, state.pos[:3], q, state.vel[:3], rate)
-        strain = self._forces(state)[2]
+        kinetic, gravity, strain = held(self.ring.body, self.ring.rod, state.pos, state.vel)
         if state.res[NORMAL] > 0:
             strain += float((state.nodal * self._beyond(state, state.window)[1]).sum()) / 2
         return kinetic, gravity, strain
 
-    def _forces(self, state: State) -> tuple[Array, Array, float]:
-        """Inertial, gravitational and elastic forces on frame and sections, and the strain energy of the chain."""
-        ring = self.ring
-        blocks = empty_blocks(ring.sections + 2)
-        frame, force = np.zeros(3), np.zeros((ring.sections + 2, 3))
-        q, rate, change = (self.sections(x) for x in (state.pos, state.vel, state.acc))
-        strain = elastic(ring.rod, q, force, blocks.diagonal, blocks.up, blocks.down)
-        inertia(
-            ring.body, ring.rod, state.pos[:3], q, state.vel[:3], rate, state.acc[:3], change, 1.0, blocks, frame, force
-        )
-        return frame, force, float(strain)
-
-    def _passed_on(self, state: State, beta: float, matrix: Any, error: Array) -> tuple[Array, Array]:
-        """An error of velocities or positions as the step passes it on: (M + beta C + beta^2 K)^-1 M times it."""
-        if self._passed is not None and self._passed[0] is error:
-            return self._passed[1]
-        ring = self.ring
-        frame, force = np.empty(3), np.empty((ring.sections + 2, 3))
-        momenta(
-            ring.body, ring.rod, state.pos[:3], self.sections(state.pos), error[:3], self.sections(error), frame, force
-        )
-        rest = np.zeros(matrix.core.shape[0] - 3 - 3 * len(matrix.kept))
-        passed = solve(matrix, frame / beta**2, force / beta**2, rest)[:2]
-        self._passed = (error, passed)
-        return passed
+    def _passed_on(self, state: State, beta: float, matrix: Any, error: Array) -> Array:
+        """An error as the step passes it on; that of the velocities is asked for twice."""
+        if self._passed is None or self._passed[0] is not error:
+            self._passed = (error, passed_on(matrix, self.ring.body, self.ring.rod, state.pos, error, beta))
+        return self._passed[1]
 
     def momentum_error(self, state: State, beta: float, matrix: Any, error: Array) -> float:
         """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
-        frame, sections = self._passed_on(state, beta, matrix, error)
-        mass = self.ring.body.ring_mass
-        slow = np.abs(self._slow @ sections[1:-1].ravel()).max(initial=0.0) / (1 + mass) ** 0.5
-        return float(max(abs(frame[0] + frame[2]), abs(frame[1]), abs(frame[2]), slow))
+        passed = self._passed_on(state, beta, matrix, error)
+        slow = np.abs(self._slow @ passed[3:]).max(initial=0.0) / (1 + self.ring.body.ring_mass) ** 0.5
+        return float(max(abs(passed[0] + passed[2]), abs(passed[1]), abs(passed[2]), slow))
 
     def energy_error(self, state: State, beta: float, matrix: Any, error: Array, moved: Array) -> float:
         """See :class:`flexible.models.state.Model`."""
-        passed = [self._passed_on(state, beta, matrix, change) for change in (error, moved)]
-        rate, way = (np.concatenate([frame, sections[1:-1].ravel()]) / 2 for frame, sections in passed)
-        held = [
-            self._held(replace(state, pos=state.pos + sign * way, vel=state.vel + sign * rate)) for sign in (1.0, -1.0)
-        ]
-        frame, force, _ = self._forces(state)
-        work = frame @ way[:3] + force[1:-1].ravel() @ way[3:]
-        return float(held[0] - held[1] - 2 * work)
-
-    def _held(self, state: State) -> float:
-        """Energy of frame and chain."""
-        ring, q, rate = self.ring, self.sections(state.pos), self.sections(state.vel)
-        kinetic, gravity = energies(ring.body, ring.rod, state.pos[:3], q, state.vel[:3], rate)
-        return float(kinetic + gravity + self._forces(state)[2])
+        body, rod = self.ring.body, self.ring.rod
+        rate, way = (self._passed_on(state, beta, matrix, change) / 2 for change in (error, moved))
+        after = held(body, rod, state.pos + way, state.vel + rate)
+        before = held(body, rod, state.pos - way, state.vel - rate)
+        work = forces(body, rod, state.pos, state.vel, state.acc) @ way
+        return float(sum(after) - sum(before) - 2 * work)
 
     def resting(self, omega: float, alpha: float, a1: float, a2: float) -> RestingChain:
         """The ring at rest in a frame with these rates and this acceleration of C, gravity included."""

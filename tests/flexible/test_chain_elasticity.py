@@ -7,7 +7,8 @@ import pytest
 from scipy.integrate import solve_bvp
 
 from flexible.chain.bordered import FRAME, Blocks, empty_blocks, factor, solve
-from flexible.chain.corotated import RimNodes, Rod, elastic, follow, rim_curvature
+from flexible.chain.corotated import Rod, elastic
+from flexible.chain.rim import RimNodes, follow, rim_curvature
 from flexible.chain.ring import _Shape, chord_strains, curve_weights, dense_stiffness, in_strains, rim_matrix
 from flexible.chain.section import RodCompliance, radial, rod_compliance
 from flexible.ring.fem import Ring
