@@ -12,16 +12,41 @@ In the order in which they build on each other:
 
 ``ring``      its elasticity and inertia, from the mesh to modes and static compliance
 ``chain``     the same as parts between rigid sections that turn and move far
-``contact``   points of the rim near the floor, the foundation under them, friction along it
+``contact``   points of the rim near the floor, the foundation under them, friction along it: a law is one file of
+              ``contact.laws``, which also says which rigid hoop the flexible one becomes as its stiffness grows
 ``models``    a hoop that can be moved in time: reduced, all nodes, geometrically exact, chain
 ``time``      one implicit step; adaptive steps with located events
 ``handover``  where a flexible segment begins: in the equilibrium of a rigid motion
-``solve``     simulate(scene); ``limit`` the rigid hoop that a contact law tends to, ``builder`` what a motion is put
-              together from, ``segment`` records read as phases and pulses, ``units``, ``motion`` what comes back
+``solve``     simulate(scene); ``builder`` what a motion is put together from, ``segment`` records read as phases and
+              pulses, ``units``, ``motion`` what comes back
 ``output``    displacement and stress, and all fields as a series on disk (not loaded here)
 """
+
+from typing import TYPE_CHECKING
 
 from .motion import FlexibleMotion, FlexiblePulse, History, Ledger
 from .solve import simulate
 
-__all__ = ["FlexibleMotion", "FlexiblePulse", "History", "Ledger", "simulate"]
+if TYPE_CHECKING:
+    from .contact.laws.listing import rigid_limit
+    from .output.fields import write_fields
+
+
+def __getattr__(name: str) -> object:
+    """Fields and the limit on demand: a motion needs neither."""
+    if name == "write_fields":
+        from .output.fields import write_fields
+
+        return write_fields
+    if name == "rigid_limit":
+        from .contact.laws.listing import rigid_limit
+
+        return rigid_limit
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
+__all__ = ["FlexibleMotion", "FlexiblePulse", "History", "Ledger", "rigid_limit", "simulate", "write_fields"]

@@ -16,7 +16,7 @@ from .models.select import Hoop as FlexibleHoop
 from .models.select import Range
 from .models.state import Record, State
 from .motion import FlexibleMotion, FlexiblePulse, History, Kept, Ledger
-from .segment import Stretch
+from .segment import Segment
 from .time.adaptive import march
 from .units import with_units
 
@@ -29,14 +29,14 @@ class Piece:
 
     t_start: float
     t_end: float
-    stretch: Stretch | None = None
+    segment: Segment | None = None
     motion: Motion | None = None  # its clock starts at ``origin``
     origin: float = 0.0
     x_C: float = 0.0  # where the hoop's centre stands at the start of ``motion``
 
     def states(self, t: Array, side: Side) -> States:
-        if self.stretch is not None:
-            return self.stretch.states(t, side)
+        if self.segment is not None:
+            return self.segment.states(t, side)
         assert self.motion is not None
         states = self.motion.at(np.clip(t - self.origin, 0.0, self.motion.t_end), side)
         return replace(states, t=t, x_C=states.x_C + self.x_C)
@@ -134,10 +134,10 @@ class Builder:
         self.x_C += float(ends.x_C[1])
         self.t += until
 
-    def add_flexible(self, records: list[Record], attempts: int) -> Stretch:
-        """A flexible stretch that begins now."""
-        stretch = Stretch(records, self.hoop)
-        held = stretch.held()
+    def add_flexible(self, records: list[Record], attempts: int) -> Segment:
+        """A flexible segment that begins now."""
+        segment = Segment(records, self.hoop)
+        held = segment.held()
         self._meet(float(held[0]))
         last = records[-1]
         self.friction_loss += last.friction_loss
@@ -146,13 +146,13 @@ class Builder:
         lost = last.friction_loss + last.damping_loss + last.numerical_loss
         self.residual += float(held[0] - held[-1]) - lost
         self.held = (last.kinetic, last.gravity, last.ring_strain, last.contact_spring)
-        for phase in stretch.phases():
+        for phase in segment.phases():
             self._add_phase(phase)
-        self.turns += stretch.turns()
-        self.pieces.append(Piece(stretch.t_start, stretch.t_end, stretch=stretch))
+        self.turns += segment.turns()
+        self.pieces.append(Piece(segment.t_start, segment.t_end, segment=segment))
         self.t, self.x_C = last.t, last.x_C
         self.steps += attempts
-        return stretch
+        return segment
 
     def march(
         self, hoop: FlexibleHoop, state: State, *arguments: Any, **options: Any
@@ -194,10 +194,10 @@ class Builder:
         )
 
     def _history(self) -> History:
-        stretches = [piece.stretch for piece in self.pieces if piece.stretch is not None]
+        segments = [piece.segment for piece in self.pieces if piece.segment is not None]
         return History(
             **{
-                field.name: np.concatenate([stretch[field.name] for stretch in stretches] or [np.empty(0)])
+                field.name: np.concatenate([segment[field.name] for segment in segments] or [np.empty(0)])
                 for field in dataclasses.fields(History)
             }
         )

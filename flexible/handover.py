@@ -1,4 +1,4 @@
-"""Where a flexible stretch begins: in the quasi-static elastic equilibrium of the rigid motion at that instant.
+"""Where a flexible segment begins: in the quasi-static elastic equilibrium of the rigid motion at that instant.
 
 A hoop handed over undeformed would ring. Under the rigid hoop's N, F and accelerations the ring and the patch are
 brought to rest in the disk's frame, and their rates are those of the equilibria along the rigid motion.
@@ -14,27 +14,14 @@ from numpy.typing import NDArray
 
 from rigid import Kind, Motion, Side
 
-from .contact.forces import (
-    BRUSH,
-    EPS_N,
-    EPS_T,
-    FRICTION,
-    HIGH,
-    LENGTH,
-    LOW,
-    NORMAL,
-    RESULTANTS,
-    SLIDE_LEFT,
-    SLIDE_RIGHT,
-    SPACING,
-    STICK,
-)
+from .contact.laws.law import Rolling
+from .contact.points.data import NOTHING, no_bristles
+from .contact.points.rim import lift, sideways, upward
 from .models.chain import ChainHoop
 from .models.equilibrium import Patch, settle
 from .models.full import FullHoop
 from .models.reduced import ReducedHoop
 from .models.state import State
-from .ring.frame import OFFSET
 from .time.tr_bdf2 import MarchError, restart
 
 Array = NDArray[np.float64]
@@ -56,15 +43,6 @@ class Pose:
     normal_force: float
     friction_force: float
     kind: Kind
-
-    @property
-    def rolls(self) -> bool:
-        return self.kind == Kind.ROLL
-
-    @property
-    def mode(self) -> int:
-        """What the patch does: friction pushes a skidding hoop to the left."""
-        return {Kind.SKID: SLIDE_LEFT, Kind.SPIN: SLIDE_RIGHT}.get(self.kind, STICK)
 
     def accelerations(self, hoop: Hoop) -> tuple[float, float]:
         """Horizontal acceleration of C and angular acceleration, from the balance of the rigid hoop."""
@@ -99,7 +77,7 @@ def instants_around(motion: Motion, t: float) -> tuple[tuple[float, Side, float]
     phase, now = motion.phase_at(t), motion.at(t)
     unit = motion.scene.time_unit
     omega, alpha = float(now.omega) * unit, float(now.alpha) * unit**2
-    width = sqrt(motion.scene.hoop.zeta + 4 * cos(float(now.phi) / 2) ** 2)
+    width = sqrt(motion.scene.hoop.constants.zeta + 4 * cos(float(now.phi) / 2) ** 2)
     fastest = max(1.0, abs(omega) / width, 2 * abs(omega * alpha) / (1 + omega**2))
     step = min(SPAN * unit / fastest, (phase.t_end - phase.t_start) / 2)
     if not 0 < step < inf:
@@ -124,31 +102,37 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> Sta
     """
     s, c = sin(pose.phi), cos(pose.phi)
     a_x, angular = pose.accelerations(hoop)
-    ring = hoop.resting(pose.omega, angular, a_x * s + c, a_x * c - s)
+    lost = MarchError(
+        f"no start at phi = {pose.phi:.6g}: no equilibrium of the ring under N = {pose.normal_force:.4g} was found"
+    )
     zero = np.zeros(3 + hoop.coordinates)
+    mode = hoop.law.start(pose.kind)
+    try:
+        ring = hoop.resting(pose.omega, angular, a_x * s + c, a_x * c - s)
+        if pose.normal_force <= 0:
+            ring.linearise(1.0)
+    except np.linalg.LinAlgError:
+        raise lost from None
     if pose.normal_force <= 0:
         window = hoop.window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
-        ring.linearise(1.0)
         ring.move(window, np.zeros(2 * (2 * window[1] + 1)))
         u = ring.response(window)[0].reshape(-1, 2)
         # just clear of the floor
-        height = -min(0.0, float((u[:, 0] * c - u[:, 1] * s).min()))
+        height = -min(0.0, float(upward(u[:, 0], u[:, 1], s, c).min()))
         pos = np.concatenate([[0.0, height, pose.phi], ring.coordinates])
-        nothing = (np.zeros_like(u), np.zeros(RESULTANTS), np.empty((0, 3)), np.empty(0, np.int8))
-        return State(t, x_C, pos, zero, zero, STICK, window, u, *nothing, pose.slip_velocity)
+        nothing = (np.zeros_like(u), NOTHING, no_bristles())
+        return State(t, x_C, pos, zero, zero, mode, window, u, *nothing, pose.slip_velocity)
     patch = Patch(hoop, pose.phi, pose.normal_force, pose.friction_force)
     if not settle(ring, patch):
-        raise MarchError(
-            f"no start at phi = {pose.phi:.6g}: no equilibrium of the ring under N = {pose.normal_force:.4g} was found"
-        )
+        raise lost
     pos = np.concatenate([[0.0, patch.height, pose.phi], ring.coordinates])
     return State(
-        t, x_C, pos, zero, zero, STICK, patch.window, patch.u, patch.nodal, patch.res, patch.bristles, patch.flags,
+        t, x_C, pos, zero, zero, mode, patch.window, patch.u, patch.nodal, patch.res, patch.bristles,
         pose.slip_velocity,
     )  # fmt: skip
 
 
-def undeformed(hoop: Hoop, pose: Pose, mode: int) -> State:
+def undeformed(hoop: Hoop, pose: Pose) -> State:
     """The unstrained ring touching the floor with one point, moving as the rigid hoop does."""
     n = hoop.coordinates
     window = hoop.window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
@@ -156,24 +140,23 @@ def undeformed(hoop: Hoop, pose: Pose, mode: int) -> State:
     pos, vel = np.zeros(3 + n), np.zeros(3 + n)
     pos[2] = pose.phi
     vel[0], vel[2] = pose.slip_velocity, pose.omega
-    empty, flags = np.empty((0, 3)), np.empty(0, np.int8)
+    # whether it will roll is for the friction to say: no phase is known yet
+    kind = Kind.FLIGHT if pose.slip_velocity == 0 else Kind.SKID if pose.slip_velocity > 0 else Kind.SPIN
+    mode = hoop.law.start(kind)
     state = State(
-        0.0, 0.0, pos, vel, np.zeros(3 + n), mode, window, u, np.zeros_like(u), np.zeros(RESULTANTS), empty, flags,
+        0.0, 0.0, pos, vel, np.zeros(3 + n), mode, window, u, np.zeros_like(u), NOTHING, no_bristles(),
         pose.slip_velocity,
     )  # fmt: skip
     return restart(hoop, state, mode)
 
 
-def hand_over(hoop: Hoop, motion: Motion, t: float, law: str) -> State:
+def hand_over(hoop: Hoop, motion: Motion, t: float) -> State:
     """The flexible hoop at time ``t`` of a rigid motion, with the rates of the equilibria around it."""
     scene = motion.scene
     pose = pose_at(motion, t)
     now = motion.at(t)
     if scene.solve.start == "undeformed" and t == 0:
-        slides = BRUSH if law == "brush" else STICK if pose.slip_velocity == 0 else -int(np.sign(pose.slip_velocity))
-        if law == "patch" and hoop.mu_s == 0:
-            slides = SLIDE_RIGHT
-        return undeformed(hoop, pose, slides)
+        return undeformed(hoop, pose)
     state = equilibrium(hoop, pose, t / scene.time_unit, float(now.x_C) / scene.hoop.R)
     vel = np.zeros_like(state.pos)
     vel[2] = pose.omega
@@ -184,59 +167,41 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, law: str) -> State:
         vel[1] += weight * there.pos[1]
         vel[3:] += weight * there.pos[3:]
         u_rate += weight * _abscissa(hoop, there, state)
-    rolls = pose.rolls
-    res = state.res
-    friction = res[FRICTION]
-    bristles = state.bristles
-    creep = 0.0
-    # a smooth floor never holds
-    slides = SLIDE_RIGHT if pose.mode == STICK and hoop.mu_s == 0 else pose.mode
-    mode = BRUSH if law == "brush" else STICK if rolls else slides
-    if rolls and len(bristles):
-        length = res[HIGH] - res[LOW] + hoop.law[SPACING]
-        eps_t = hoop.law[EPS_T]
-        if pose.omega == 0:
-            bristles = bristles.copy()
-            bristles[:, 1] = -friction / (eps_t * length)
-        else:  # steady rolling: stretched in proportion to the way from the leading edge, to just past the trailing one
-            past = [[bristles[-1, 0] + 1, 0.0, 0.0]] if pose.omega > 0 else [[bristles[0, 0] - 1, 0.0, 0.0]]
-            bristles = np.concatenate([bristles, past] if pose.omega > 0 else [past, bristles])
-            psi = pose.phi - pi + bristles[:, 0] * hoop.law[SPACING]
-            way = psi - res[LOW] if pose.omega > 0 else res[HIGH] - psi
-            bristles[:, 1] = -friction * way / (eps_t * length**2 / 2)
-            creep = -friction * abs(pose.omega) / (eps_t * length**2 / 2)
+    law, res, bristles, creep = hoop.law, state.res, state.bristles, 0.0
+    if len(bristles.number) and pose.kind == Kind.ROLL:
+        bristles, creep = law.rolled_in(bristles, res, Rolling(pose.phi, pose.omega))
+    elif len(bristles.number):
+        bristles = law.slid_in(bristles, res)
     vel[0] = pose.slip_velocity + creep - u_rate - pose.omega * _lift(hoop, state)
-    flags = np.zeros(len(bristles), np.int8)
-    if law == "brush" and not rolls:
-        flags[:] = 1 if friction > 0 else -1
-    state = State(
-        state.t, state.x_C, state.pos, vel, np.zeros_like(vel), mode, state.window, state.u, state.nodal, res,
-        bristles, flags, pose.slip_velocity + creep,
+    state = replace(
+        state, vel=vel, acc=np.zeros_like(vel), bristles=bristles, slip_velocity=pose.slip_velocity + creep
     )  # fmt: skip
-    return _balanced(hoop, state, mode, pose) if mode == STICK and len(bristles) else restart(hoop, state, mode)
+    sticks = law.sticks(state.mode) and len(bristles.number) > 0
+    return _balanced(hoop, state, pose) if sticks else restart(hoop, state, state.mode)
 
 
-def _balanced(hoop: Hoop, state: State, mode: int, pose: Pose) -> State:
+def _balanced(hoop: Hoop, state: State, pose: Pose) -> State:
     """``state`` under its own law of friction, with the height and the stretch at which it carries N and F of the pose.
 
     The ring gives way to a friction that is not shared like the pressure, so both come out a little different at first;
     a hoop of small inertia would start with the acceleration that the difference makes. Broyden's method.
     """
     wanted = np.array([pose.normal_force, pose.friction_force])
-    best, least = restart(hoop, state, mode), np.inf
-    pull = best.res[FRICTION] or np.inf
-    inverse = np.diag([-1 / (hoop.law[EPS_N] * best.res[LENGTH] + 1e-300), 1 / pull])  # of the forces' derivatives
+    best, least = restart(hoop, state, state.mode), np.inf
+    pull = best.res.friction or np.inf
+    inverse = np.diag(
+        [-1 / (hoop.law.parameters.eps_n * best.res.length + 1e-300), 1 / pull]
+    )  # of the forces' derivatives
     change, step, off = np.zeros(2), np.zeros(2), np.zeros(2)  # of height and share of the stretch
     for _ in range(12):
         raised = state.pos.copy()
         raised[1] += change[0]
-        bristles = state.bristles.copy()
-        bristles[:, 1] *= 1 + change[1]
+        bristles = state.bristles._replace(stretch=state.bristles.stretch * (1 + change[1]))
         try:
-            found = restart(hoop, replace(state, pos=raised, bristles=bristles), mode)
+            found = restart(hoop, replace(state, pos=raised, bristles=bristles), state.mode)
         except MarchError:
             break
-        before, off = off, found.res[[NORMAL, FRICTION]] - wanted
+        before, off = off, np.array([found.res.normal, found.res.friction]) - wanted
         if np.abs(off).max() < least:
             best, least = found, float(np.abs(off).max())
         if least < 1e-11 * (1 + pose.normal_force):
@@ -254,9 +219,9 @@ def _lift(hoop: Hoop, state: State) -> float:
     """Mean height of the undeformed rim over its lowest point, weighted by the load: the rolling slip over phidot."""
     first, count = state.window
     psi = state.pos[2] + hoop.rim_angle(np.arange(2 * first, 2 * (first + count) + 1)) - pi
-    load = state.nodal[:, 0] * cos(state.pos[2]) - state.nodal[:, 1] * sin(state.pos[2])
+    load = upward(state.nodal[:, 0], state.nodal[:, 1], sin(state.pos[2]), cos(state.pos[2]))
     total = load.sum()
-    return float(load @ (2 * np.sin(psi / 2) ** 2) / total) if total > 0 else 0.0
+    return float(load @ lift(psi) / total) if total > 0 else 0.0
 
 
 def _abscissa(hoop: Hoop, state: State, reference: State) -> float:
@@ -264,11 +229,8 @@ def _abscissa(hoop: Hoop, state: State, reference: State) -> float:
     u = hoop.displacement(state, reference.window)
     s, c = sin(reference.pos[2]), cos(reference.pos[2])
     s_now, c_now = sin(state.pos[2]), cos(state.pos[2])
-    load = reference.nodal[:, 0] * c - reference.nodal[:, 1] * s
+    load = upward(reference.nodal[:, 0], reference.nodal[:, 1], s, c)
     total = load.sum()
     if total == 0:
         return 0.0
-    return float(load @ (u[:, 0] * s_now + u[:, 1] * c_now) / total)
-
-
-__all__ = ["OFFSET", "Pose", "equilibrium", "hand_over", "pose_at"]
+    return float(load @ sideways(u[:, 0], u[:, 1], s_now, c_now) / total)

@@ -65,7 +65,7 @@ class FlexiblePulse(Pulse):
 
 @dataclass(frozen=True, slots=True)
 class History:
-    """Every accepted step of the flexible stretches, as arrays over time; stored only when asked for.
+    """Every accepted step of the flexible segments, as arrays over time; stored only when asked for.
 
     Losses and impulses are running totals.
     """
@@ -95,7 +95,7 @@ class History:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Kept:
-    """States of the ring at every accepted step of one flexible stretch, in the solver's units (R = m = g = 1)."""
+    """States of the ring at every accepted step of one flexible segment, in the solver's units (R = m = g = 1)."""
 
     hoop: ReducedHoop | FullHoop | ChainHoop
     states: tuple[State, ...]
@@ -108,7 +108,7 @@ class Kept:
 class FlexibleMotion(Motion):
     """The motion of the flexible hoop: the common vocabulary, the energy ledger, the steps if they were asked for.
 
-    With the steps come the states of the ring (``kept``, one per flexible stretch), of which fields are made.
+    With the steps come the states of the ring (``kept``, one per flexible segment), of which fields are made.
     """
 
     ledger: Ledger

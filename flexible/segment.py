@@ -1,4 +1,4 @@
-"""A flexible stretch of a motion: the march's records read as phases, turns, states and pulse measures.
+"""A flexible segment of a motion: the march's records read as phases, turns, states and pulse measures.
 
 Everything is in the solver's units, R = m = g = 1.
 """
@@ -11,9 +11,8 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Hoop, Kind, Phase, Pulse, Side, States, Turn
+from rigid import Hoop, Kind, Phase, Side, States, Turn
 
-from .contact.forces import BRUSH, STICK
 from .models.state import Record
 from .motion import FlexiblePulse
 
@@ -28,7 +27,7 @@ def _hermite(x: Array, x0: Array, x1: Array, y0: Array, y1: Array, s0: Array, s1
     return (1 - z) * y0 + z * y1 + z * (1 - z) * (a * (1 - z) + b * z)
 
 
-class Stretch:
+class Segment:
     """The records of one march as arrays, and what is read off them."""
 
     def __init__(self, records: list[Record], hoop: Hoop) -> None:
@@ -79,12 +78,11 @@ class Stretch:
     def kinds(self) -> list[Kind]:
         """What the patch does from each record to the next."""
         kinds = []
-        for mode, normal, friction, stuck in zip(
-            self["mode"], self["normal_force"], self["friction_force"], self["stick_fraction"], strict=True
-        ):
+        columns = (self["normal_force"], self["friction_force"], self["stick_fraction"])
+        for normal, friction, stuck in zip(*columns, strict=True):
             if normal == 0:
                 kinds.append(Kind.FLIGHT)
-            elif mode == STICK or (mode == BRUSH and stuck > 0):
+            elif stuck > 0:
                 kinds.append(Kind.ROLL)
             else:
                 kinds.append(Kind.SPIN if friction > 0 else Kind.SKID)
@@ -186,8 +184,3 @@ class Stretch:
             numerical_loss=gain("numerical_loss"),
             phases=tuple(self.phases(first, last)),
         )
-
-
-def pulse_windows(pulses: tuple[Pulse, ...]) -> list[tuple[float, float]]:
-    """The phi-intervals over which the pulses of a rigid motion are measured, in the order of the sweep."""
-    return [(pulse.phi_start, pulse.phi_end) for pulse in pulses]

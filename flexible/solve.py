@@ -1,9 +1,13 @@
 """A scene through the flexible hoop: simulate(scene) -> FlexibleMotion.
 
 ``resolve = "pulses"`` runs the rigid closed form between pulses and the flexible hoop only inside them: each
-flexible stretch begins a little before the rigid hoop's pulse, in quasi-static equilibrium, and ends with it. The
-rigid hoop is always the one that the contact law tends to (:mod:`flexible.limit`).
-``resolve = "all"`` is flexible from the release on.
+flexible segment begins a little before the rigid hoop's pulse, in quasi-static equilibrium, and ends with it. The
+rigid hoop is always the one that the contact law tends to (:mod:`flexible.contact.laws`).
+``resolve = "all"`` is flexible from the release on, swing by swing.
+
+A run to rest ends where the rigid hoop, released from the flexible one's state, would slip no more: it rolls for ever
+with |F| < mu_s N, or the floor is smooth; or a hundred slips more would take less than a ten-thousandth of its energy.
+The rigid solver asks the same of itself.
 """
 
 from __future__ import annotations
@@ -11,29 +15,33 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 from dataclasses import replace
-from math import floor, inf, nan, pi
+from math import ceil, floor, inf, nan, pi
+
+import numpy as np
 
 import rigid
-from rigid import Kind, Pulse, Release, Run, Scene
+from rigid import Kind, Motion, Pulse, Release, Run, Scene
+from rigid.phases.choice import LEAST_LOSS, SLIPS
 
 from .builder import Builder
-from .contact.forces import STICK
+from .contact.laws.listing import rigid_limit
 from .handover import hand_over
-from .limit import rigid_limit
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
 from .motion import FlexibleMotion, FlexiblePulse
+from .segment import Segment
+from .time.events import Ends
 from .time.tr_bdf2 import MarchError
 from .units import dimensionless
 
 Progress = Callable[[float], object]
 
-LEAD = 0.5  # a flexible stretch begins this many pulse lengths before the pulse, to let its start settle
+LEAD = 0.5  # a flexible segment begins this many pulse lengths before the pulse, to let its start settle
 
 
 class _Progress:
-    """Fraction done, from the angle swept within the stretch that runs."""
+    """Fraction done, from the angle swept within the segment that runs."""
 
     def __init__(self, report: Progress | None) -> None:
         self.report = report
@@ -88,8 +96,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
     while True:
         motion = rigid.simulate(rigid_limit(current))
         pulse = next((p for p in motion.pulses if p.t_start > 0 or (not builder.pulses and _over_bottom(p))), None)
-        # a run to rest is over when the rigid hoop would slip no more; what it rolls through is no pulse with a loss
-        at_rest = scene.run.until == "rest" and all(phase.kind == Kind.ROLL for phase in motion.phases)
+        at_rest = scene.run.until == "rest" and _slips_no_more(motion)  # what it rolls through is no pulse with a loss
         if pulse is None or at_rest:
             builder.add_rigid(motion, motion.t_end)
             builder.completed = motion.completed
@@ -97,7 +104,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             return _last_turn(scene.run.turns or 0) if over else motion.ended
         start = max(0.0, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
         try:
-            state = hand_over(hoop, motion, start, scene.contact.law)
+            state = hand_over(hoop, motion, start)
         except MarchError as error:
             builder.add_rigid(motion, start)
             builder.completed = False
@@ -107,24 +114,21 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         sign = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
         # a pulse that the end of the run cuts ends at that time, any other at the rigid one's angle
         cut = pulse.cut and scene.run.t_end is not None and pulse.t_end == motion.t_end
-        limit = builder.t + (1 if cut else 4) * (pulse.t_end - start)
-        last_angle = sign * inf if cut else pulse.phi_end
-
-        def finished(s: State, sign: float = sign, end: float = last_angle, limit: float = limit) -> float:
-            return max(sign * (s.pos[2] - end), s.t - limit)
-
+        ends = Ends(t=builder.t + (1 if cut else 4) * (pulse.t_end - start))
+        if not cut:
+            ends = ends._replace(high=pulse.phi_end) if sign > 0 else ends._replace(low=pulse.phi_end)
         span = (float(state.pos[2]), pulse.phi_end)
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, _swept(span))
-        state, records, attempts, trouble = builder.march(hoop, state, finished, scene.solve.rtol, progress=watch)
-        stretch = builder.add_flexible(records, attempts)
+        state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, progress=watch)
+        segment = builder.add_flexible(records, attempts)
         if not (trouble or cut) and sign * (float(state.pos[2]) - pulse.phi_end) < 0:
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get through the pulse"
         if trouble:
             builder.completed = False
             return trouble + _too_soft(scene)
-        first = stretch.crossing(pulse.phi_start, stretch.t_start)
-        measured = stretch.pulse(stretch.t_start if first is None else first, stretch.t_end)
+        first = segment.crossing(pulse.phi_start, segment.t_start)
+        measured = segment.pulse(segment.t_start if first is None else first, segment.t_end)
         builder.pulses.append(_cut(measured) if pulse.cut else measured)
         done += 1
         if scene.run.until == "pulse":
@@ -132,9 +136,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         rest = _rest_of(scene.run, builder)
         if rest is None:
             return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
-        slip = 0.0 if state.mode == STICK else state.slip_velocity
-        release = Release(float(state.pos[2]), float(state.vel[2]), float(slip))
-        current = dataclasses.replace(scene, release=release, run=rest)
+        current = _from_here(scene, hoop, state, rest)
 
 
 def _over_bottom(pulse: Pulse) -> bool:
@@ -174,53 +176,81 @@ def _rest_of(run: Run, builder: Builder) -> Run | None:
     return run
 
 
+def _from_here(scene: Scene, hoop: FlexibleHoop, state: State, run: Run) -> Scene:
+    """The scene whose rigid hoop takes over from a flexible one."""
+    release = Release(float(state.pos[2]), float(state.vel[2]), float(hoop.law.handed_back(state)))
+    return dataclasses.replace(scene, release=release, run=run)
+
+
+def _slips_no_more(motion: Motion) -> bool:
+    """Whether a run to rest is over where this rigid motion begins."""
+    slips = [phase.t_end for phase in motion.phases if phase.kind != Kind.ROLL]
+    if not slips or motion.scene.friction.mu == 0:
+        return True
+    if len(slips) < SLIPS:
+        return False
+    before, after = motion.at(np.array([0.0, slips[int(SLIPS) - 1]])).energy
+    return bool(before - after <= LEAST_LOSS * after)
+
+
 def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _Progress) -> str:
-    """Flexible from the release on; pulses are measured over the rigid hoop's intervals."""
+    """Flexible from the release on, swing by swing; each pulse is measured over the rigid hoop's interval.
+
+    A swing ends where phidot = 0 or the disk passes the top. The rigid hoop that says where its pulse lies, and whether
+    the run is at rest, is released from the flexible one's state at its beginning.
+    """
     reference = rigid.simulate(rigid_limit(scene))
     try:
-        state = hand_over(hoop, reference, 0.0, scene.contact.law)
+        state = hand_over(hoop, reference, 0.0)
     except MarchError as error:
         builder.completed = False
         return str(error) + _too_soft(scene)
-    windows = [(p.phi_start, p.phi_end, p.cut) for p in reference.pulses]
-    run = scene.run
-    horizon = run.t_end if run.t_end is not None else reference.t_end
-    counted = {"turns": 0, "omega": float(state.vel[2])}
+    run: Run | None = scene.run
+    horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
+    watch = progress.watch(0.0, 1.0, lambda s: s.t / horizon)
+    while run is not None:
+        here = _from_here(scene, hoop, state, Run(until="rest" if run.until == "rest" else "pulse"))
+        swing = rigid.simulate(rigid_limit(here))
+        if run.until == "rest" and builder.pieces and _slips_no_more(swing):
+            return swing.ended
+        # a swing that begins at a turn has no rest of a pulse to list
+        pulses = [p for p in swing.pulses if not p.cut or (p.t_start == 0 and not builder.pieces)]
+        phi = float(state.pos[2]) / (2 * pi)
+        limit = builder.t + 4 * swing.t_end + 10
+        ends = Ends(
+            t=limit if scene.run.t_end is None else scene.run.t_end,
+            low=2 * pi * (ceil(phi) - 1), high=2 * pi * (floor(phi) + 1), turns=1,
+        )  # fmt: skip
+        if run.until == "pulse" and pulses:  # before the first whole pulse there may be the rest of one
+            first, last = pulses[-1].phi_start, pulses[-1].phi_end
+            ends = ends._replace(high=min(ends.high, last)) if last > first else ends._replace(low=max(ends.low, last))
+        state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, progress=watch)
+        segment = builder.add_flexible(records, attempts)
+        _add_pulses(
+            builder, segment, pulses, over=not trouble and scene.run.t_end is not None and ends.t - state.t < 1e-12
+        )
+        if not trouble and scene.run.t_end is None and state.t >= limit:
+            trouble = f"stopped at t = {state.t:.6g}: the rigid hoop swings that far in a quarter of this time"
+        if trouble:
+            builder.completed = False
+            return trouble + _too_soft(scene)
+        if run.until == "pulse" and any(not pulse.cut for pulse in builder.pulses):
+            return "the first pulse is over"
+        run = _rest_of(scene.run, builder)
+    return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
 
-    def finished(s: State) -> float:
-        if run.t_end is not None:
-            return s.t - run.t_end
-        if run.until == "pulse" and windows:
-            first_angle, last_angle, _ = windows[-1]  # before the first whole pulse there may be the rest of one
-            return (1.0 if last_angle > first_angle else -1.0) * (s.pos[2] - last_angle)
-        if run.turns is not None and counted["turns"] >= run.turns:
-            return 0.0
-        return s.t - 4 * horizon - 10
 
-    report = progress.watch(0.0, 1.0, lambda s: s.t / horizon)
-
-    def watch(s: State) -> object:
-        if counted["omega"] * s.vel[2] < 0:
-            counted["turns"] += 1
-        if s.vel[2] != 0:
-            counted["omega"] = float(s.vel[2])
-        return report is not None and report(s)
-
-    state, records, attempts, trouble = builder.march(hoop, state, finished, scene.solve.rtol, progress=watch)
-    stretch = builder.add_flexible(records, attempts)
-    after = -inf
-    for first_angle, last_angle, cut in windows:
-        first = stretch.crossing(first_angle, after)
-        if first is None and cut and not builder.pulses:
-            first = stretch.t_start
-        last = None if first is None else stretch.crossing(last_angle, first)
-        if last is None and cut and not trouble:
-            last = stretch.t_end
-        if first is None or last is None or last <= first:
-            break
-        builder.pulses.append(_cut(stretch.pulse(first, last)) if cut else stretch.pulse(first, last))
-        after = last
-    if not trouble and run.turns is not None and counted["turns"] < run.turns == len(reference.turns):
-        trouble = f"stopped at t = {state.t:.6g}: the rigid hoop turned that often in a quarter of this time"
-    builder.completed = reference.completed and not trouble
-    return trouble + _too_soft(scene) if trouble else reference.ended
+def _add_pulses(builder: Builder, segment: Segment, pulses: list[Pulse], over: bool) -> None:
+    """The pulses of a swing, each over its rigid one's angles; where the run is over inside one, the part before."""
+    for pulse in pulses:
+        enters = segment.t_start if pulse.cut else segment.crossing(pulse.phi_start, segment.t_start)
+        if enters is None:
+            return
+        leaves = segment.crossing(pulse.phi_end, enters)
+        cut = pulse.cut or leaves is None
+        if leaves is None and over:
+            leaves = segment.t_end
+        if leaves is None or leaves <= enters:
+            return
+        found = segment.pulse(enters, leaves)
+        builder.pulses.append(_cut(found) if cut else found)

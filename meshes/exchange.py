@@ -9,8 +9,6 @@ import numpy as np
 
 from .ring import MeshError, RingMesh
 
-BOUNDARIES = ("outer", "inner", "weld")  # numbered from 1 in the field "boundary"
-
 
 def save_mesh(ring: RingMesh, path: str | Path) -> None:
     """Write the mesh: nine-node quads, and the three-node lines of its boundaries with their numbers.

@@ -100,12 +100,6 @@ class RingMesh:
         """Number of elements around."""
         return len(self.rim_nodes) // 2
 
-    @property
-    def rim_elements(self) -> Indices:
-        """(around, 3) nodes of each outer facet: vertex, mid, next vertex; the last one closes the circle."""
-        ends = np.roll(self.rim_nodes[::2], -1)
-        return np.column_stack([self.rim_nodes[::2], self.rim_nodes[1::2], ends])
-
     def vector_basis(self, intorder: int = 4) -> Basis:
         """Basis of the displacement whose dofs ``node_dofs`` numbers.
 

@@ -17,8 +17,12 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
 ``record``     what a phase leaves behind; the measures of a pulse
 ``kernel``     what phases are computed with, and why all of this runs both interpreted and compiled
 
-The theory, with the choices that Coulomb's law leaves open, is README.md beside this file.
+What is imported from here is for everyone; the other packages take it from here too, and beyond it only the ``kernel``
+that flexible is compiled with. The theory, with the choices that Coulomb's law leaves open, is README.md
+beside this file.
 """
+
+from typing import TYPE_CHECKING
 
 from .allowed import SceneError
 from .batch import Batch, simulate_batch
@@ -28,6 +32,9 @@ from .scene import Friction, Hoop, Landing, Release, Run, Scene
 from .scenefile import load_scene, scene_from_dict, scene_names, scene_to_dict
 from .solve import simulate
 
+if TYPE_CHECKING:
+    from .thresholds import inception_mu_s, rolling_k, rolling_mu_s
+
 
 def __getattr__(name: str) -> object:
     """Thresholds on demand: they need scipy, which a motion does not."""
@@ -36,6 +43,10 @@ def __getattr__(name: str) -> object:
 
         return getattr(thresholds, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
 
 
 __all__ = [
@@ -57,7 +68,10 @@ __all__ = [
     "Solve",
     "States",
     "Turn",
+    "inception_mu_s",
     "load_scene",
+    "rolling_k",
+    "rolling_mu_s",
     "scene_from_dict",
     "scene_names",
     "scene_to_dict",

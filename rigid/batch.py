@@ -7,130 +7,60 @@ import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
-from math import inf, pi
+from math import inf
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .allowed import SceneError
 from .kernel import layout as at
-from .kernel.angle import PI_LOW, angle_of, chart
 from .kernel.compile import compiled, kernel
-from .kernel.layout import (  # fmt: skip
-    ANGLE,
-    MORE,
-    OMEGA,
-    PULSE,
-    PULSE_CUT,
-    R_COUNT,
-    R_PERIOD,
-    R_PULSES,
-    R_RECORDS,
-    R_TURNS,
-    R_WHOLE,
-    RECORDS,
-    REPEAT,
-    SLIP,
-    STATE,
-    STEPS,
-    TOP,
-    TURN,
-    TURN_ENERGY,
-    WHOLE,
-    WIDTH,
-    WORK_BOUND,
-    T,
-)
+from .kernel.layout import MORE, ORDER, RECORDS, SERIES, STATE, STEPS, WIDTH, WORK_BOUND, T
 from .motion import Array
-from .phases.choice import entry_run
-from .phases.slipping import ORDER, SERIES
+from .phases.choice import entry_run, release_from
 from .record.pulse import cut_pulse
-from .scene import Friction, Hoop, Landing, Release, Run, Scene
-from .solve import LEVEL, NOTHING_AT_ALL, TAPE_RECORDS, UNTIL_CODES, reason
+from .record.rows import (  # fmt: skip
+    CODE,
+    END_VALUES,
+    PHASE_COUNT,
+    PULSE_COUNT,
+    PULSE_VALUES,
+    T_STOP,
+    TURN_COUNT,
+    TURN_VALUES,
+    Rows,
+    gather,
+)
+from .scene import Friction, Hoop, Landing, Release, Run, Scene, hoop_constants, is_point_mass
+from .solve import LOG_RECORDS, UNTIL_CODES, reason
 from .solve import STEPS as WORK
 
-TURN_VALUES = 4  # t, phi, slip velocity, energy
-PULSE_VALUES = 12  # t, phi at both ends; J_N, J_F, loss, peak; three restitutions; whether it is cut
 CHUNK = 64
 QUANTITIES = ("k", "r", "mass_ratio", "mu_s", "mu", "phi0", "omega0", "slip0", "restitution")
 _DEFAULTS = {"r": 1.0, "mass_ratio": 0.0, "omega0": 0.0, "slip0": 0.0, "restitution": 0.0}
 
 
 @kernel
-def gather(state, tape, scene, ends, turns, pulses):
-    """Take the tape: what it counts into ``ends``, the first turns and pulses of the scene into their arrays."""
-    for record in range(int(state[RECORDS])):
-        r = record * WIDTH
-        n_turns, n_pulses = int(ends[scene, 3]), int(ends[scene, 4])
-        if tape[r] == TURN:
-            if n_turns < turns.shape[1]:
-                turns[scene, n_turns, 0] = tape[r + 1]
-                turns[scene, n_turns, 1] = angle_of(tape[r + 2], tape[r + 3], tape[r + 4])
-                turns[scene, n_turns, 2] = tape[r + 6]
-                turns[scene, n_turns, 3] = tape[r + TURN_ENERGY]
-            ends[scene, 3] += 1
-        elif tape[r] == PULSE:
-            if n_pulses < pulses.shape[1]:
-                pulses[scene, n_pulses, 0] = tape[r + 1]
-                pulses[scene, n_pulses, 1] = tape[r + 5]
-                pulses[scene, n_pulses, 2] = angle_of(tape[r + 2], tape[r + 3], tape[r + 4])
-                pulses[scene, n_pulses, 3] = angle_of(tape[r + 6], tape[r + 7], tape[r + 8])
-                for i in range(7):
-                    pulses[scene, n_pulses, 4 + i] = tape[r + 9 + i]
-                pulses[scene, n_pulses, 11] = tape[r + PULSE_CUT]
-            ends[scene, 4] += 1
-        elif tape[r] == REPEAT:
-            count, period, angle = tape[r + R_COUNT], tape[r + R_PERIOD], tape[r + R_WHOLE] * 2 * pi
-            again(turns, scene, n_turns, int(tape[r + R_TURNS]), count, 1, period, angle)
-            again(pulses, scene, n_pulses, int(tape[r + R_PULSES]), count, 2, period, angle)
-            ends[scene, 3] += count * tape[r + R_TURNS]
-            ends[scene, 4] += count * tape[r + R_PULSES]
-            ends[scene, 2] += count * (tape[r + R_RECORDS] - tape[r + R_TURNS] - tape[r + R_PULSES])
-        else:
-            ends[scene, 2] += 1
-
-
-@kernel
-def again(rows, scene, done, length, count, ways, period, angle):
-    """The last ``length`` rows ``count`` times more, as far as there is room; the first ``ways`` columns are times, as
-    many after them angles.
-    """
-    if length < 1 or done > rows.shape[1]:
-        return
-    for place in range(done, min(rows.shape[1], done + int(count) * length)):
-        times, source = (place - done) // length + 1, done - length + (place - done) % length
-        for i in range(rows.shape[2]):
-            rows[scene, place, i] = rows[scene, source, i]
-        for i in range(ways):
-            rows[scene, place, i] += times * period
-            rows[scene, place, ways + i] += times * angle
-
-
-@kernel
-def entry_batch(pars, release, low, high, work, state, tape, ends, turns, pulses):
-    """Run scenes ``low`` to ``high``; the first turns and pulses of each go into ``turns`` and ``pulses``."""
+def entry_batch(pars, release, low, high, work, state, events, rows):
+    """Run scenes ``low`` to ``high``; what is kept of each goes into ``rows``."""
     for scene in range(low, high):
-        for i in range(len(state)):
-            state[i] = 0.0
-        state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP] = (
-            release[scene, 0], release[scene, 1], release[scene, 2], release[scene, 3], release[scene, 4],
-        )  # fmt: skip
+        release_from(state, release[scene, 0], release[scene, 1], release[scene, 2])
         state[STEPS] = WORK
         n_records = 0
         while True:
             state[RECORDS] = 0.0
-            code = entry_run(pars[scene], state, work, tape)
-            gather(state, tape, scene, ends, turns, pulses)
+            code = entry_run(pars[scene], state, work, events)
+            gather(state, events, scene, rows)
             n_records += int(state[RECORDS])
             if code == MORE and n_records > 2 * WORK:
                 code = WORK_BOUND
             if code != MORE:
                 break
         state[RECORDS] = 0.0
-        cut_pulse(pars[scene], state, tape)
-        gather(state, tape, scene, ends, turns, pulses)
-        ends[scene, 0] = code
-        ends[scene, 1] = state[T]
+        cut_pulse(pars[scene], state, events)
+        gather(state, events, scene, rows)
+        rows.ends[scene, CODE] = code
+        rows.ends[scene, T_STOP] = state[T]
 
 
 @dataclass(frozen=True)
@@ -225,28 +155,30 @@ def simulate_batch(
     table = _table(scenes)
     count = len(table)
     kept = 2 if turns is None else turns
-    pars, release = _constants(table, turns, t_end, until)
-    ends = np.zeros((count, 5))
-    turn_rows = np.full((count, kept, TURN_VALUES), np.nan)
-    pulse_rows = np.full((count, pulses, PULSE_VALUES), np.nan)
+    pars, release = _parameters(table, turns, t_end, until), np.ascontiguousarray(table[:, 5:8])
+    rows = Rows(
+        np.zeros((count, END_VALUES)),
+        np.full((count, kept, TURN_VALUES), np.nan),
+        np.full((count, pulses, PULSE_VALUES), np.nan),
+    )
     run = compiled()["entry_batch"]
 
     def work_through(start: int) -> None:
-        work, state, tape = np.zeros((SERIES, ORDER + 1)), np.zeros(STATE), np.zeros(TAPE_RECORDS * WIDTH)
+        work, state, events = np.zeros((SERIES, ORDER + 1)), np.zeros(STATE), np.zeros(LOG_RECORDS * WIDTH)
         stop = min(start + CHUNK, count)
-        run(pars, release, start, stop, work, state, tape, ends, turn_rows, pulse_rows)
+        run(pars, release, start, stop, work, state, events, rows)
 
     with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
         list(pool.map(work_through, range(0, count, CHUNK)))
     mass = (1 + table[:, 2])[:, None]
-    turn_rows[:, :, 3] *= mass
-    pulse_rows[:, :, 4:8] *= mass[:, :, None]
+    rows.turns[:, :, 3] *= mass
+    rows.pulses[:, :, 4:8] *= mass[:, :, None]
     return Batch(
-        ends[:, 0].astype(int),
-        ends[:, 1],
-        *(ends[:, i].astype(int) for i in (2, 3, 4)),
-        *(turn_rows[:, :, i] for i in range(TURN_VALUES)),
-        *(pulse_rows[:, :, i] for i in range(PULSE_VALUES)),
+        rows.ends[:, CODE].astype(int),
+        rows.ends[:, T_STOP],
+        *(rows.ends[:, i].astype(int) for i in (PHASE_COUNT, TURN_COUNT, PULSE_COUNT)),
+        *(rows.turns[:, :, i] for i in range(TURN_VALUES)),
+        *(rows.pulses[:, :, i] for i in range(PULSE_VALUES)),
     )
 
 
@@ -301,27 +233,17 @@ def _check(table: Array) -> None:
             raise SceneError(f"scene {index} of the batch: {error}") from None
 
 
-def _constants(table: Array, turns: int | None, t_end: float | None, until: str | None) -> tuple[Array, Array]:
-    """Parameters and release states of all scenes, as :mod:`rigid.solve` makes them for one."""
-    k, r, q, mu_s, mu, phi0, omega0, slip0, bounce = table.T
-    gyr = (k**2 / 2 + q * (1 + r**2) / 2 + (1 - k) ** 2 * q / (1 + q)) / (1 + q) / r**2
-    e = (1 - k) / (1 + q) / r
-    one_minus_e = (k + q + (r - 1) * (1 + q)) / (r * (1 + q))
-    point = (gyr < 1e-100) & (one_minus_e < 1e-40)
-    gyr, one_minus_e, e = np.where(point, 0, gyr), np.where(point, 0, one_minus_e), np.where(point, 1, e)
+def _parameters(table: Array, turns: int | None, t_end: float | None, until: str | None) -> Array:
+    """Parameters of all scenes, as :func:`rigid.solve.parameters` makes them for one."""
+    k, r, mass_ratio, mu_s, mu, *_, bounce = table.T
+    hoop = hoop_constants(k, r, mass_ratio)
+    point = is_point_mass(hoop)
     pars = np.empty((len(table), at.PARAMETERS))
-    pars[:, at.ECC], pars[:, at.ONE_MINUS_E], pars[:, at.GYR] = e, one_minus_e, gyr
-    pars[:, at.ZETA] = (gyr + one_minus_e**2) / e
+    pars[:, at.ECC], pars[:, at.ONE_MINUS_E] = np.where(point, 1, hoop.e), np.where(point, 0, hoop.one_minus_e)
+    pars[:, at.GYR] = np.where(point, 0, hoop.K)
+    pars[:, at.ZETA] = np.where(point, 0, hoop.zeta)
     pars[:, at.MU_S], pars[:, at.MU], pars[:, at.RESTITUTION] = mu_s, mu, bounce
     pars[:, at.TURNS] = inf if turns is None else turns
     pars[:, at.T_END] = inf if t_end is None else t_end
     pars[:, at.UNTIL] = UNTIL_CODES[until]
-    whole = np.floor(phi0 / (2 * pi) + 0.5)
-    offsets = (phi0 - whole * (2 * pi)) - whole * (2 * PI_LOW)
-    angles = [chart(a, 1.0, n) for a, n in zip(offsets.tolist(), whole.tolist(), strict=True)]
-    release = np.column_stack([np.array(angles, dtype=float).reshape(len(table), 3), omega0, slip0])
-    level = (release[:, 0] != phi0) & (np.abs(release[:, 0]) <= LEVEL * np.maximum(1, np.abs(phi0)))
-    release[level, 0] = 0.0
-    for column in (0, 3, 4):
-        release[np.abs(release[:, column]) < NOTHING_AT_ALL, column] = 0.0
-    return pars, np.ascontiguousarray(release)
+    return pars

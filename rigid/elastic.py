@@ -59,15 +59,20 @@ class Ring:
         )
 
 
+#: names of the friction laws, which are defined in the flexible solver
+LAWS = ("patch", "brush", "regularised")
+
+
 @dataclass(frozen=True, slots=True)
 class Contact:
     """The compliant frictional contact of the flexible hoop with the floor.
 
     Parameters
     ----------
-    law : {"patch", "brush"}
+    law : {"patch", "brush", "regularised"}
         "patch": the static coefficient acts on the resultants of the contact patch, |F| <= mu_s N (the paper's law);
-        "brush": it acts at every point of the patch.
+        "brush": it acts at every point of the patch; "regularised": no static coefficient at all,
+        F = -mu N v/sqrt(v^2 + v_s^2) with v the slip velocity of the patch.
     stiffness : float
         Normal foundation eps_n R^2/(m g): force per area of rim and unit penetration, dimensionless.
     tangential_ratio : float
@@ -77,15 +82,18 @@ class Contact:
         with the mass and under the weight M g of disk and hoop. 1 is critical there. The damper is a relaxation time of
         the foundation, so the ratio grows with the load, like N^(1/6): 2.6 times at 300 M g. 0 is none. Every ratio
         above 0 has the rigid hoop as its limit for infinite stiffness, 0 has not.
+    slip_velocity_scale : float
+        v_s in sqrt(g R), of the regularised law.
     """
 
     law: str = "patch"
     stiffness: float = 1e9
     tangential_ratio: float = 0.8
     damping: float = 1.0
+    slip_velocity_scale: float = 1e-3
 
     def __post_init__(self) -> None:
-        require_choice("contact.law", self.law, ("patch", "brush"))
+        require_choice("contact.law", self.law, LAWS)
         require(
             "contact.stiffness",
             self.stiffness,
@@ -103,6 +111,14 @@ class Contact:
             open_low=True,
         )
         require("contact.damping", self.damping, 0, inf, "the damping ratio is at least 0")
+        require(
+            "contact.slip_velocity_scale",
+            self.slip_velocity_scale,
+            0,
+            inf,
+            "the slip velocity v_s/sqrt(g R) that smooths a regularised friction must be positive",
+            open_low=True,
+        )
 
 
 @dataclass(frozen=True, slots=True)

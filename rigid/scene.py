@@ -14,10 +14,44 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass, field
 from math import inf, sqrt
-from typing import Any
+from typing import Any, Generic, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from .allowed import SceneError, require, require_choice, require_whole
 from .elastic import Contact, Ring, Solve
+
+N = TypeVar("N", float, NDArray[np.float64])
+
+
+class HoopConstants(NamedTuple, Generic[N]):
+    """The constants of a hoop, (3) and (6), over the outer radius where the paper's are over the inner."""
+
+    e: N
+    """Distance of the centre of mass G from the hoop's centre C over R, vartheta/r."""
+    one_minus_e: N
+    """1 - e without cancellation for a small disk on a thin light hoop."""
+    K: N
+    """Squared radius of gyration about G over R squared, (eta/r)^2."""
+    zeta: N
+    """(eta^2 + (r - vartheta)^2)/(r vartheta) = (K + (1 - e)^2)/e."""
+
+
+def hoop_constants(k: N, r: N, mass_ratio: N) -> HoopConstants[N]:
+    """The constants of one hoop from numbers, or of many from arrays of one shape."""
+    q = mass_ratio
+    # disk about its own centre, hoop about C, and both moved to G: m m_h/(m + m_h) (1 - k)^2, free of cancellation
+    eta_squared = (k**2 / 2 + q * (1 + r**2) / 2 + (1 - k) ** 2 * q / (1 + q)) / (1 + q)
+    K = eta_squared / r**2
+    e = (1 - k) / (1 + q) / r
+    one_minus_e = (k + q + (r - 1) * (1 + q)) / (r * (1 + q))
+    return HoopConstants(e, one_minus_e, K, (K + one_minus_e**2) / e)
+
+
+def is_point_mass(hoop: HoopConstants[N]) -> bool | NDArray[np.bool_]:
+    """Whether nothing of a hoop but a mass on its rim is left to what a float holds."""
+    return (hoop.K < 1e-100) & (hoop.one_minus_e < 1e-40)
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,42 +98,19 @@ class Hoop:
             )
 
     @property
-    def vartheta(self) -> float:
-        """Distance of the centre of mass G from the hoop's centre C, over R0, (3)."""
-        return (1 - self.k) / (1 + self.mass_ratio)
-
-    @property
-    def eta_squared(self) -> float:
-        """Squared radius of gyration about G, over R0 squared, (3)."""
-        k, r, q = self.k, self.r, self.mass_ratio
-        # disk about its own centre, hoop about C, and both moved to G: m m_h/(m + m_h) (1 - k)^2, free of cancellation
-        return (k**2 / 2 + q * (1 + r**2) / 2 + (1 - k) ** 2 * q / (1 + q)) / (1 + q)
+    def constants(self) -> HoopConstants[float]:
+        """What the equations of motion know of the hoop, (3) and (6)."""
+        return hoop_constants(self.k, self.r, self.mass_ratio)
 
     @property
     def e(self) -> float:
-        """Eccentricity of G over the outer radius, vartheta/r."""
-        return self.vartheta / self.r
+        """Eccentricity of G over the outer radius."""
+        return self.constants.e
 
     @property
     def K(self) -> float:
-        """Squared radius of gyration about G over the outer radius squared, (eta/r)^2."""
-        return self.eta_squared / self.r**2
-
-    @property
-    def one_minus_e(self) -> float:
-        """1 - e without cancellation for a small disk on a thin light hoop."""
-        k, r, q = self.k, self.r, self.mass_ratio
-        return (k + q + (r - 1) * (1 + q)) / (r * (1 + q))
-
-    @property
-    def zeta(self) -> float:
-        """(eta^2 + (r - vartheta)^2) / (r vartheta), (6)."""
-        return (self.K + self.one_minus_e**2) / self.e
-
-    @property
-    def total_mass(self) -> float:
-        """Disk and hoop together, in the unit of ``m``."""
-        return self.m * (1 + self.mass_ratio)
+        """Squared radius of gyration about G over the outer radius squared."""
+        return self.constants.K
 
 
 @dataclass(frozen=True, slots=True)

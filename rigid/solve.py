@@ -4,33 +4,26 @@ from __future__ import annotations
 
 import threading
 from dataclasses import dataclass
-from math import floor, inf, pi
+from math import inf, pi
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .kernel import layout as at
-from .kernel.angle import PI_LOW, chart
 from .kernel.compile import compiled
 from .lists import Fold, Listing
 from .motion import Array, Motion, Side, States
 from .phases import instant
-from .phases.choice import MOST_STALLS, entry_run
-from .phases.rolling_phase import LISTED_PERIODS
-from .phases.slipping import ORDER, SERIES
+from .phases.choice import MOST_STALLS, entry_run, release_from
+from .phases.rolling.phase import LISTED_PERIODS
 from .record.pulse import cut_pulse
-from .scene import Scene
+from .scene import Scene, is_point_mass
 
-TAPE_RECORDS = 128
+LOG_RECORDS = 128
 STEPS = 200_000  # the work bound of one motion: Taylor steps and phases
 MOST_RECORDS = 200_000  # and its phases, turns and pulses together
 PATIENCE = 4_000  # interpreted steps, some 0.4 s, after which a process goes over to the compiled kernel
-
-# phi0 this close to a multiple of pi, relatively, means that multiple: no float but 0 is one itself
-LEVEL = 2.3e-16
-# an angle or a velocity whose square would underflow
-NOTHING_AT_ALL = 1e-140
 
 UNTIL_CODES = {None: at.NOTHING, "pulse": at.FIRST_PULSE, "rest": at.REST}
 _REASONS = {
@@ -54,10 +47,10 @@ _interpreted_steps = 0
 def parameters(scene: Scene) -> list[float]:
     """The constants of a motion, R = g = M = 1 (see :mod:`rigid.kernel.layout`)."""
     hoop, run = scene.hoop, scene.run
-    gyr, one_minus_e, e = hoop.K, hoop.one_minus_e, hoop.e
-    if gyr < 1e-100 and one_minus_e < 1e-40:
-        gyr, one_minus_e, e = 0.0, 0.0, 1.0
-    zeta = (gyr + one_minus_e**2) / e
+    constants = hoop.constants
+    e, one_minus_e, gyr, zeta = constants.e, constants.one_minus_e, constants.K, constants.zeta
+    if is_point_mass(constants):
+        e, one_minus_e, gyr, zeta = 1.0, 0.0, 0.0, 0.0
     turns = inf if run.turns is None else float(run.turns)
     t_end = inf if run.t_end is None else run.t_end / scene.time_unit
     friction = scene.friction
@@ -80,17 +73,8 @@ def release_state(scene: Scene) -> list[float]:
     """The state at t = 0 (see :mod:`rigid.kernel.layout`)."""
     release = scene.release
     state = [0.0] * at.STATE
-    turns = float(floor(release.phi0 / (2 * pi) + 0.5))
-    a = (release.phi0 - turns * (2 * pi)) - turns * (2 * PI_LOW)
-    a, top, whole = chart(a, 1.0, turns)
-    if a != release.phi0 and abs(a) <= LEVEL * max(1.0, abs(release.phi0)):
-        a = 0.0
-    state[at.ANGLE], state[at.TOP], state[at.WHOLE] = a, top, whole
-    state[at.OMEGA] = float(release.omega0 * scene.time_unit)
-    state[at.SLIP] = float(release.slip0 / scene.velocity_unit)
-    for i in (at.ANGLE, at.OMEGA, at.SLIP):
-        if abs(state[i]) < NOTHING_AT_ALL:
-            state[i] = 0.0
+    omega0, slip0 = float(release.omega0 * scene.time_unit), float(release.slip0 / scene.velocity_unit)
+    release_from(state, release.phi0, omega0, slip0)
     state[at.STEPS] = float(STEPS)
     return state
 
@@ -99,8 +83,8 @@ class _Workspace(threading.local):
     """What the compiled kernel works in, one for each thread."""
 
     def __init__(self) -> None:
-        self.tape = np.zeros(TAPE_RECORDS * at.WIDTH)
-        self.work = np.zeros((SERIES, ORDER + 1))
+        self.events = np.zeros(LOG_RECORDS * at.WIDTH)
+        self.work = np.zeros((at.SERIES, at.ORDER + 1))
 
 
 _workspace = _Workspace()
@@ -116,45 +100,45 @@ def _run(par: list[float], state: list[float]) -> tuple[int, list[list[float]], 
     records: list[list[float]] = []
     left = float(STEPS)
     if _interpreted_steps < PATIENCE:
-        tape: Any = [0.0] * (TAPE_RECORDS * at.WIDTH)
-        work: Any = [[0.0] * (ORDER + 1) for _ in range(SERIES)]
+        events: Any = [0.0] * (LOG_RECORDS * at.WIDTH)
+        work: Any = [[0.0] * (at.ORDER + 1) for _ in range(at.SERIES)]
         code = at.MORE
         while code == at.MORE and _interpreted_steps < PATIENCE:
             allowance = float(PATIENCE - _interpreted_steps)
             state[at.RECORDS], state[at.STEPS] = 0.0, allowance
-            code = entry_run(par, state, work, tape)
+            code = entry_run(par, state, work, events)
             spent = allowance - state[at.STEPS]
             left -= spent
             _interpreted_steps += int(spent)
-            _unroll(tape, state, records)
+            _unroll(events, state, records)
         if code not in (at.MORE, at.WORK_BOUND) or state[at.STALLS] > MOST_STALLS:
             return code, _with_the_cut_pulse(par, state, records), state
     run = compiled()["entry_run"]
-    tape, work = _workspace.tape, _workspace.work
+    events, work = _workspace.events, _workspace.work
     constants, here = np.array(par), np.array(state)
     here[at.STEPS] = left
     code = at.MORE
     while code == at.MORE and len(records) < MOST_RECORDS:
         here[at.RECORDS] = 0.0
-        code = run(constants, here, work, tape)
-        _unroll(tape, here, records)
+        code = run(constants, here, work, events)
+        _unroll(events, here, records)
     end = here.tolist()
     return (at.WORK_BOUND if code == at.MORE else code), _with_the_cut_pulse(par, end, records), end
 
 
 def _with_the_cut_pulse(par: list[float], state: list[float], records: list[list[float]]) -> list[list[float]]:
     """The records, and the pulse that the end of the run cuts short."""
-    tape = [0.0] * at.WIDTH
+    events = [0.0] * at.WIDTH
     state[at.RECORDS] = 0.0
-    cut_pulse(par, state, tape)
-    _unroll(tape, state, records)
+    cut_pulse(par, state, events)
+    _unroll(events, state, records)
     return records
 
 
-def _unroll(tape: Any, state: Any, records: list[list[float]]) -> None:
-    """Take the records off the tape."""
+def _unroll(events: Any, state: Any, records: list[list[float]]) -> None:
+    """Take the records off the event log."""
     used = int(state[at.RECORDS]) * at.WIDTH
-    row = tape[:used].tolist() if isinstance(tape, np.ndarray) else tape[:used]
+    row = events[:used].tolist() if isinstance(events, np.ndarray) else events[:used]
     records += [row[i : i + at.WIDTH] for i in range(0, used, at.WIDTH)]
 
 
@@ -258,13 +242,13 @@ class Sampler:
         flat = [number for row in padded for number in row]
         if _interpreted_steps < PATIENCE and len(times) < PATIENCE:
             out: Any = [0.0] * (len(times) * width)
-            work: Any = [[0.0] * (ORDER + 1) for _ in range(SERIES)]
-            tape = [0.0] * (16 * at.WIDTH)
+            work: Any = [[0.0] * (at.ORDER + 1) for _ in range(at.SERIES)]
+            events = [0.0] * (16 * at.WIDTH)
             state = [0.0] * at.STATE
-            instant.entry_sample(list(self.par), flat, owner.tolist(), times.tolist(), out, work, state, tape)
+            instant.entry_sample(list(self.par), flat, owner.tolist(), times.tolist(), out, work, state, events)
             return np.array(out, dtype=float).reshape(len(times), width)
         out = np.zeros(len(times) * width)
-        work = np.zeros((SERIES, ORDER + 1))
+        work = np.zeros((at.SERIES, at.ORDER + 1))
         compiled()["entry_sample"](
             np.array(self.par),
             np.array(flat),

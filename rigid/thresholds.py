@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from .kernel.angle import trig
 from .kernel.layout import MU_S, ZETA
-from .phases.rolling import ceiling, margin_polynomials, rolling_forces, turning_point
+from .phases.rolling.closed_form import ceiling, margin_polynomials, rolling_forces, turning_point
 from .scene import Friction, Hoop, Release, Scene
 from .solve import parameters, release_state
 

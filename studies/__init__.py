@@ -1,10 +1,89 @@
-"""What is compared, swept, drawn and reported, and the command line.
+"""What is compared, swept, drawn and reported, and the command line::
+
+    from rigid import load_scene
+    from studies import Ladder, stiffness_study
+
+    study = stiffness_study(load_scene("paper-3.3-massless"), Ladder("both", low=1e7, high=1e13, count=7))
+    study.limits["impulse_ratio"], study.rungs
 
 ``stiffness``  the flexible hoop against the rigid one as stiffness grows: ladder, rates, limit, figures, page
+``limit``      that limit solved, from the inner problems (``inner``) of the rigid hoop's events
 ``sweep``      the product of scene keys over processes or a Dask cluster
 ``paper``      every number and figure of the paper again
 ``bench``      run time against error;  ``stress``  thousands of scenes and what must hold of them
 ``running``    scenes through solvers, in processes, kept in a folder, whatever the study
 ``plots``      what all figures share
+``examples``   programs of twenty lines
 ``cli``        ``hoop ...``
+
+Everything here is loaded when it is asked for. Of another package a module takes what its face has from the face; a
+name that the face has not, because it would make it heavy or is no user's business, comes from its own module.
 """
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .running.files import StudyError
+    from .running.measures import MEASURES, Measure, Unit, measure, measures
+    from .running.workers import pool
+    from .stiffness.ladder import Ladder
+    from .stiffness.limits import Limit, limit_of
+    from .stiffness.study import Rung, StiffnessStudy, stiffness_study
+    from .sweep import Sweep, Table, load_sweep, run_sweep, sweep_from_dict
+
+_HOMES = {
+    "MEASURES": "running.measures",
+    "Ladder": "stiffness.ladder",
+    "Limit": "stiffness.limits",
+    "Measure": "running.measures",
+    "Rung": "stiffness.study",
+    "StiffnessStudy": "stiffness.study",
+    "StudyError": "running.files",
+    "Sweep": "sweep",
+    "Table": "sweep",
+    "Unit": "running.measures",
+    "limit_of": "stiffness.limits",
+    "load_sweep": "sweep",
+    "measure": "running.measures",
+    "measures": "running.measures",
+    "pool": "running.workers",
+    "run_sweep": "sweep",
+    "stiffness_study": "stiffness.study",
+    "sweep_from_dict": "sweep",
+}
+
+
+def __getattr__(name: str) -> object:
+    """What a study needs (pandas, matplotlib, a solver) is loaded with it and not before."""
+    if name in _HOMES:
+        return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
+
+__all__ = [
+    "MEASURES",
+    "Ladder",
+    "Limit",
+    "Measure",
+    "Rung",
+    "StiffnessStudy",
+    "StudyError",
+    "Sweep",
+    "Table",
+    "Unit",
+    "limit_of",
+    "load_sweep",
+    "measure",
+    "measures",
+    "pool",
+    "run_sweep",
+    "stiffness_study",
+    "sweep_from_dict",
+]

@@ -1,9 +1,31 @@
-"""The same examples in every run; HYPOTHESIS_PROFILE=explore looks for new ones, as `hoop stress --seed N` does."""
+"""The same examples in every run, and kernels that are compiled before the first test.
+
+HYPOTHESIS_PROFILE=explore looks for new examples, as `hoop stress --seed N` does.
+"""
 
 import os
+import subprocess
+import sys
+from pathlib import Path
 
+import pytest
 from hypothesis import settings
 
 settings.register_profile("same", derandomize=True, database=None)
 settings.register_profile("explore")
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
+
+ROOT = Path(__file__).parent.parent
+
+
+@pytest.fixture(scope="session", autouse=True)
+def compiled_elsewhere() -> None:
+    """On a machine that has not run this code yet, compile in other processes: it takes more memory than all tests."""
+    if "flexible" not in sys.modules:
+        return  # no test that needs the dear one was collected
+    from rigid.kernel.store import is_cold
+
+    if is_cold("flexible"):
+        for name in ("rigid", "flexible"):
+            program = f"from studies.running.solvers import prepare; prepare('{name}')"
+            subprocess.run([sys.executable, "-c", program], cwd=ROOT, check=True)

@@ -1,4 +1,4 @@
-"""The structure of the code: imports point one way, among the packages and among the rooms of each.
+"""The structure of the code: imports point one way, among the packages and among the rooms of each; sizes.
 
 A room is a folder of modules. The modules at the top of a package are a room too; the faces (``__init__``) only pass
 on what their room holds.
@@ -7,10 +7,17 @@ on what their room holds.
 from __future__ import annotations
 
 import ast
+import importlib
+import re
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
+
+from rigid.elastic import LAWS
 
 ROOT = Path(__file__).parent.parent
 PACKAGES = ("rigid", "meshes", "flexible", "studies")  # an import never points to one further right
@@ -91,3 +98,118 @@ def test_a_room_has_at_most_nine_modules() -> None:
         if path.name != "__init__.py":
             rooms.setdefault(room_of(module), []).append(path.stem)
     assert not {room: modules for room, modules in rooms.items() if len(modules) > MOST}
+
+
+def imports_of_names(path: Path) -> list[tuple[str, str]]:
+    """(module, name) of everything that a file imports from the packages by ``from ... import ...``."""
+    return [
+        (node.module, alias.name)
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ImportFrom) and not node.level and node.module in SOURCES
+        for alias in node.names
+        if f"{node.module}.{alias.name}" not in SOURCES
+    ]
+
+
+def test_what_a_face_has_is_taken_from_the_face() -> None:
+    faces = {package: set(importlib.import_module(package).__all__) for package in PACKAGES}
+    around = [
+        (path.name, module, name)
+        for path in [*SOURCES.values(), *(ROOT / "tests").rglob("*.py")]
+        for module, name in imports_of_names(path)
+        if module not in PACKAGES and name in faces[module.split(".")[0]]
+    ]
+    assert not around
+
+
+def test_nothing_private_leaves_its_package() -> None:
+    private = [
+        (module, name)
+        for module, path in SOURCES.items()
+        for source, name in imports_of_names(path)
+        if name.startswith("_") and source.split(".")[0] != module.split(".")[0]
+    ]
+    assert not private
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_a_face_has_what_it_lists(package: str) -> None:
+    face = importlib.import_module(package)
+    assert set(face.__all__) <= set(dir(face)), "dir() helps"
+    assert all(hasattr(face, name) for name in face.__all__)
+
+
+def test_a_face_is_light() -> None:
+    """What a package loads on demand only: scipy, a compiler, tables and figures take seconds."""
+    for package, heavy in (("rigid", "numba scipy"), ("studies", "numba scipy pandas matplotlib flexible")):
+        line = f"import sys, {package}; assert not set(sys.modules) & set({heavy.split()}), sys.modules.keys()"
+        subprocess.run([sys.executable, "-c", line], cwd=ROOT, check=True)
+
+
+LONGEST_FILE, LONGEST_FUNCTION, MOST_ARGUMENTS = 300, 80, 8
+"""Lines of a file, lines of a function without its docstring, arguments of a function."""
+
+
+def functions(path: Path) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef]:
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            yield node
+
+
+def is_command(function: ast.FunctionDef | ast.AsyncFunctionDef) -> bool:
+    """Whether its arguments are the options of a command line, which click hands over one by one."""
+    return any(ast.unparse(decorator).split("(")[0].endswith(".command") for decorator in function.decorator_list)
+
+
+def long_files() -> set[str]:
+    return {m for m, path in SOURCES.items() if len(path.read_text(encoding="utf-8").splitlines()) > LONGEST_FILE}
+
+
+def long_functions() -> set[str]:
+    long = set()
+    for module, path in SOURCES.items():
+        for function in functions(path):
+            docstring = ast.get_docstring(function, clean=False) or ""
+            lines = (function.end_lineno or 0) - function.lineno + 1 - len(docstring.splitlines())
+            if lines > LONGEST_FUNCTION:
+                long.add(f"{module}.{function.name}")
+    return long
+
+
+def functions_of_many_arguments() -> set[str]:
+    many = set()
+    for module, path in SOURCES.items():
+        for function in functions(path):
+            taken = function.args.posonlyargs + function.args.args + function.args.kwonlyargs
+            count = len([argument for argument in taken if argument.arg not in ("self", "cls")])
+            if count > MOST_ARGUMENTS and not is_command(function):
+                many.add(f"{module}.{function.name}")
+    return many
+
+
+@pytest.mark.parametrize("larger", [long_files, long_functions, functions_of_many_arguments])
+def test_nothing_is_larger_than_one_can_read(larger: Callable[[], set[str]]) -> None:
+    assert not larger()
+
+
+def test_a_friction_law_is_known_by_its_own_file_alone() -> None:
+    """The rest of the program asks :class:`flexible.contact.laws.law.Law`, and gets laws from where they are listed."""
+    laws = "flexible.contact.laws"
+    own = {f"{laws}.{name}" for name in LAWS}
+    known = {module: targets & own for module, targets in IMPORTS.items() if module != f"{laws}.listing"}
+    assert own <= set(SOURCES)
+    assert not {module: targets for module, targets in known.items() if targets}
+    words = re.compile(rf"([\"'])({'|'.join(LAWS)})\1")
+    allowed = own | {"rigid.elastic"}
+    said = {module for module, path in SOURCES.items() if words.search(code_of(path))} - allowed
+    # scenes of a benchmark and of an example, and what the README says of one
+    assert said == {"studies.bench.truth.reference", "studies.examples.own_friction_law", "studies.readme"}
+
+
+def code_of(path: Path) -> str:
+    """Source without docstrings and comments."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
+            node.value.value = ""
+    return ast.unparse(tree)

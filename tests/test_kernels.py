@@ -18,15 +18,15 @@ import rigid
 from rigid.kernel import announce, store
 
 ROOT = Path(__file__).parent.parent
-CALLEE = "flexible/contact/normal.py"
+CALLEE = "flexible/contact/points/normal.py"
 
-# A kernel of flexible.contact.assembly and the one that it calls in flexible.contact.normal: one point on the floor
-# whose own gap alone moves its force, so that the result is -(way - slip)/elastic times the diagonal: -0.5*3 = -1.5.
+# A kernel of flexible.contact.assembly and the one that it calls in flexible.contact.points.normal: one point on the
+# floor whose own gap alone moves its force, so that the result is -(way - slip)/elastic times the diagonal, -1.5.
 PROGRAM = """
 import numpy as np
 from flexible.contact.assembly import slip_by_gaps
-from flexible.contact.detection import Points
-from flexible.contact.normal import Foundation
+from flexible.contact.points.detection import Points
+from flexible.contact.points.normal import Foundation
 from rigid.kernel.announce import compile_seconds
 whole, real = np.zeros(1, np.int64), np.zeros(1)
 kinds = {"number": whole, "last": np.ones(1, np.bool_), "local": whole, "shape": np.zeros((1, 3))}
@@ -125,6 +125,22 @@ def test_another_folder_than_expected_is_told(tmp_path, monkeypatch):
     assert "cannot be written" in trouble
 
 
+def test_two_processes_may_begin_at_once(tmp_path, monkeypatch):
+    """The other makes the folder after this one has seen that there is none."""
+    monkeypatch.setattr(store, "user_cache", lambda: (tmp_path, ""))
+    monkeypatch.setattr(store, "_homes", [])
+    place = tmp_path / store.machine() / "kernels-0123"
+    place.mkdir(parents=True)
+    is_dir, too_early = Path.is_dir, [False]
+
+    def seen(path, **options):
+        return too_early.pop() if path == place and too_early else is_dir(path, **options)
+
+    monkeypatch.setattr(Path, "is_dir", seen)
+    assert store.home("kernels", "0123") == place
+    assert not too_early
+
+
 def test_the_fingerprint_covers_every_source_and_nothing_else(tmp_path):
     stage = ROOT / "flexible" / "models" / "stage.py"
     covered = store.sources([stage])
@@ -186,7 +202,10 @@ def test_one_worker_compiles_for_all(monkeypatch):
 
     asked = []
 
-    class Executor:
+    class Processes:
+        def __init__(self, count):
+            pass
+
         def submit(self, function, *arguments):
             asked.append(function)
             future = Future()
@@ -194,8 +213,8 @@ def test_one_worker_compiles_for_all(monkeypatch):
             return future
 
     monkeypatch.setattr(workers, "is_cold", lambda package: package == "flexible")
-    monkeypatch.setattr(workers.Processes, "_start", lambda self: Executor())
-    place = workers.Processes(2)
+    monkeypatch.setattr(workers, "Processes", Processes)
+    place = workers.Machine(2)
     scene = rigid.load_scene("paper-3.3-massless")
     for solver in ("rigid", "flexible", "flexible"):
         place.submit(Case(solver, scene))

@@ -20,6 +20,7 @@ from rigid import (
     simulate,
     simulate_batch,
 )  # fmt: skip
+from rigid.elastic import LAWS
 from studies.stress import checks
 
 fractions = st.floats(0, 1)
@@ -104,7 +105,7 @@ positive = st.floats(1e-6, 1e12)
 @given(
     scenes(),
     st.builds(Ring, positive, st.floats(-0.9, 0.5), st.one_of(st.none(), st.floats(0.01, 0.5)), st.floats(0.01, 1.5)),
-    st.builds(Contact, st.sampled_from(["patch", "brush"]), positive, positive, st.floats(0, 3)),
+    st.builds(Contact, st.sampled_from(LAWS), positive, positive, st.floats(0, 3)),
     st.builds(
         Solve, st.sampled_from(["auto", "full"]), st.sampled_from(["pulses", "all"]),
         st.sampled_from(["equilibrium", "undeformed"]), st.floats(1e-12, 0.5), st.integers(24, 4000),

@@ -70,13 +70,9 @@ class Factors(NamedTuple):
     core: Array
 
 
-def empty_blocks(sections: int) -> Blocks:
-    """All zero, for this number of sections, ends included."""
-    return _empty(sections)
-
-
 @jit
-def _empty(sections: int) -> Any:
+def no_blocks(sections: int) -> Any:
+    """All zero, for this number of sections, ends included."""
     return Blocks(
         np.zeros((sections, 3, 3)),
         np.zeros((sections - 1, 3, 3)),
@@ -213,8 +209,8 @@ def factor(blocks: Any, keeps: Any, rest: int) -> Any:
 
 
 @jit
-def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any, Any]:
-    """Solve for one right-hand side: frame (3,), sections (n + 2, 3), rest (r,); the same of the solution.
+def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]:
+    """Solve for one right-hand side: frame (3,), sections (n + 2, 3), rest (r,); the solution as (3 + 3 n,) and (r,).
 
     Raises
     ------
@@ -265,4 +261,9 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any,
             for b in range(6):
                 value -= beside[i, a, b] * border[b]
             x[here, a] = value
-    return found[:FRAME].copy(), x, found[after:].copy()
+    vector = np.empty(FRAME + 3 * (x.shape[0] - 2))
+    vector[:FRAME] = found[:FRAME]
+    for i in range(1, x.shape[0] - 1):
+        for a in range(3):
+            vector[3 * i + a] = x[i, a]
+    return vector, found[after:].copy()

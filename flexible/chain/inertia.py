@@ -16,6 +16,8 @@ from typing import Any, NamedTuple
 
 from rigid.kernel.compile import jit
 
+from .corotated import Rod
+
 
 class Body(NamedTuple):
     """What moves with the frame.
@@ -38,25 +40,16 @@ class Body(NamedTuple):
     ring_mass: float
 
 
-@jit
-def inertia(body: Any, rod: Any, pos: Any, q: Any, vel: Any, qv: Any, acc: Any, qa: Any, beta: float, blocks: Any,
-            frame: Any, force: Any) -> None:  # fmt: skip
-    """Add inertial forces and gravity, and their derivatives by an increment, see :func:`flexible.ring.frame.inertia`.
+class Chain(NamedTuple):
+    """All that moves: frame and sections."""
 
-    Parameters
-    ----------
-    body : Body
-    rod : Rod
-    pos, vel, acc : (3,) arrays
-        (V, h, phi) and rates.
-    q, qv, qa : (n + 2, 3) arrays
-        Sections and rates.
-    beta : float
-    blocks : Blocks
-        Of which diagonal, columns, rows and corner are added to.
-    frame, force : (3,), (n + 2, 3) arrays
-        Generalised forces on the frame, forces and moment on the sections.
-    """
+    body: Body
+    rod: Rod
+
+
+@jit
+def _disk(body: Any, pos: Any, vel: Any, acc: Any, beta: float, corner: Any, frame: Any) -> None:
+    """Add what belongs to the disk."""
     offset = body.offset
     s, c = sin(pos[2]), cos(pos[2])
     w, alpha = vel[2], acc[2]
@@ -67,7 +60,6 @@ def inertia(body: Any, rod: Any, pos: Any, q: Any, vel: Any, qv: Any, acc: Any, 
     dx_phi = offset * (-alpha * s - w * w * c - 2 * w * s * r1 + c * r2) + r2
     dy_phi = -offset * (alpha * c - w * w * s + 2 * w * c * r1 + s * r2)
     lever = 1 + offset * c
-    corner = blocks.corner
     frame[0] += dx
     frame[1] += dy
     frame[2] += dx * lever - dy * offset * s + body.disk_inertia * alpha
@@ -78,8 +70,33 @@ def inertia(body: Any, rod: Any, pos: Any, q: Any, vel: Any, qv: Any, acc: Any, 
     corner[2, 0] += lever * r2
     corner[2, 1] -= offset * s * r2
     corner[2, 2] += dx_phi * lever - (dx + dy_phi) * offset * s - dy * offset * c + body.disk_inertia * r2
+
+
+@jit
+def inertia(chain: Any, pose: Any, rates: Any, changes: Any, beta: float, blocks: Any, frame: Any, force: Any) -> None:
+    """Add inertial forces and gravity, and their derivatives by an increment, see :func:`flexible.ring.frame.inertia`.
+
+    Parameters
+    ----------
+    chain : Chain
+    pose, rates, changes : tuples
+        (V, h, phi) and (n + 2, 3) of the sections; their velocities and accelerations.
+    beta : float
+    blocks : Blocks
+        Of which diagonal, columns, rows and corner are added to.
+    frame, force : (3,), (n + 2, 3) arrays
+        Generalised forces on the frame, forces and moment on the sections.
+    """
+    body, rod = chain
+    (pos, q), (vel, qv), (acc, qa) = pose, rates, changes
+    _disk(body, pos, vel, acc, beta, blocks.corner, frame)
     if body.ring_mass == 0:
         return
+    corner = blocks.corner
+    s, c = sin(pos[2]), cos(pos[2])
+    w, alpha = vel[2], acc[2]
+    ax, ay = acc[0] + alpha, acc[1] + 1.0
+    r1, r2 = 1 / beta, 1 / beta**2
     a1, a2 = ax * s + ay * c, ax * c - ay * s
     a1_phi, a2_phi = a2 + s * r2, -a1 + c * r2
     # force along y1, y2 and moment about C of the whole ring, and derivatives by phi; then by V and h, with A alone
@@ -152,8 +169,9 @@ def inertia(body: Any, rod: Any, pos: Any, q: Any, vel: Any, qv: Any, acc: Any, 
 
 
 @jit
-def energies(body: Any, rod: Any, pos: Any, q: Any, vel: Any, qv: Any) -> tuple[float, float]:
+def energies(chain: Any, pos: Any, q: Any, vel: Any, qv: Any) -> tuple[float, float]:
     """Kinetic energy and gravity (0 with the hoop's centre at the floor)."""
+    body, rod = chain
     offset = body.offset
     s, c = sin(pos[2]), cos(pos[2])
     w = vel[2]
@@ -177,8 +195,9 @@ def energies(body: Any, rod: Any, pos: Any, q: Any, vel: Any, qv: Any) -> tuple[
 
 
 @jit
-def momenta(body: Any, rod: Any, pos: Any, q: Any, error: Any, qe: Any, frame: Any, force: Any) -> None:
+def momenta(chain: Any, pos: Any, q: Any, error: Any, qe: Any, frame: Any, force: Any) -> None:
     """Mass matrix times a rate: (3,), (n + 2, 3), filled in; rates of the frame are those of (V, h, phi)."""
+    body, rod = chain
     offset = body.offset
     s, c = sin(pos[2]), cos(pos[2])
     ax, ay, alpha = error[0] + error[2], error[1], error[2]

@@ -19,10 +19,10 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from ..ring.fem import Ring, membrane_stiffness
-from ..ring.reduction import body_constants
-from .bordered import empty_blocks
+from ..ring.reduction import body_of
+from .bordered import no_blocks
 from .corotated import Rod, elastic
-from .inertia import Body
+from .inertia import Body, Chain
 from .rim import RimNodes, follow
 from .section import LOADED, RodCompliance, mass_radius, radial, rod_compliance
 
@@ -81,22 +81,22 @@ def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
 
 def make_body(scene: Scene, rod: Rod) -> Body:
     """What of the hoop moves with the frame; together with the rod's sections it has the ring's mass and inertia."""
-    offset, disk, mass, about_c = body_constants(scene)
+    whole = body_of(scene)
     square = (rod.place**2).sum(axis=1)
     return Body(
-        float(offset),
-        float(disk),
-        float(mass - rod.mass.sum()),
+        whole.offset,
+        whole.disk_inertia,
+        float(whole.ring_mass - rod.mass.sum()),
         float(-(rod.mass @ rod.place[:, 0])),
-        float(about_c - rod.mass @ square - rod.turning.sum()),
-        float(mass),
+        float(whole.ring_inertia - rod.mass @ square - rod.turning.sum()),
+        whole.ring_mass,
     )
 
 
 def dense_stiffness(rod: Rod, q: Array) -> Array:
     """Stiffness of the chain at some displacement, (3 (n + 2), 3 (n + 2))."""
     sections = len(rod.theta)
-    blocks = empty_blocks(sections)
+    blocks = no_blocks(sections)
     elastic(rod, q, np.zeros((sections, 3)), blocks.diagonal, blocks.up, blocks.down)
     matrix = np.zeros((sections, 3, sections, 3))
     i = np.arange(sections)
@@ -211,8 +211,7 @@ class ChainRing:
 
     Attributes
     ----------
-    rod : Rod
-    body : Body
+    chain : Chain
     nodes : RimNodes
         Of the whole rim.
     vertex : (n_elements,) array
@@ -224,20 +223,20 @@ class ChainRing:
         self.ring = ring
         self.stiffness = membrane_stiffness(scene)
         unit, mass = self.shape.rod, scene.hoop.mass_ratio
-        self.rod = unit._replace(
+        rod = unit._replace(
             local=unit.local * self.stiffness,
             across=unit.across * self.stiffness,
             mass=unit.mass * mass,
             turning=unit.turning * mass,
         )
-        self.body = make_body(scene, self.rod)
+        self.chain = Chain(make_body(scene, rod), rod)
         self.nodes = self.shape.nodes
         self.vertex = np.ascontiguousarray(ring.mesh.rim_theta[::2])
 
     @property
     def sections(self) -> int:
         """Number of sections that are free."""
-        return len(self.rod.theta) - 2
+        return len(self.chain.rod.theta) - 2
 
     def window(self, first: int, count: int) -> tuple[NDArray[np.int64], RimNodes]:
         """Rim nodes of ``count`` elements from ``first`` on: their numbers, and what they follow."""

@@ -18,7 +18,7 @@ from math import cos, pi, sin
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes.gradient import gauss_gradient
+from meshes import gauss_gradient
 from rigid import SceneError
 
 from ..ring.fem import Ring

@@ -1,8 +1,7 @@
 """Compliant frictional contact of the rim with the floor, in compiled code.
 
-``detection``  material points of the rim near the floor
-``normal``     the foundation under them
-``friction``   the bristles along it
-``assembly``   from points to unknowns
-``forces``     all of it together: forces, tangent, state of the patch
+``points``    material points of the rim: which touch, the foundation under them, the bristles along it
+``laws``      friction laws, a file each
+``assembly``  from points to unknowns
+``forces``    all of it together: forces, tangent, state of the patch
 """

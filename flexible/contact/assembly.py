@@ -12,7 +12,7 @@ import numpy as np
 
 from rigid.kernel.compile import jit
 
-from .normal import force_by_gaps
+from .points.normal import force_by_gaps
 
 X, Y = 0, 1
 
@@ -99,7 +99,7 @@ def directions(points: Any) -> tuple[Any, Any]:
 
 
 @jit
-def tangents(points: Any, foundation: Any, tractions: Any, along: Any, up: Any, nodes: int) -> tuple[Any, Any, Any]:
+def tangents(points: Any, foundation: Any, forces: Any, along: Any, up: Any, nodes: int) -> tuple[Any, Any, Any]:
     """Derivatives of elastic normal forces by gaps, of tangential ones by gaps and by abscissas, in those bases."""
     size = 2 + nodes
     k_yy, k_xy, k_xx = np.zeros((size, size)), np.zeros((size, size)), np.zeros((size, size))
@@ -109,7 +109,7 @@ def tangents(points: Any, foundation: Any, tractions: Any, along: Any, up: Any, 
     element = 0
     total = points.gap.shape[0]
     for i in range(total):
-        if foundation.force[i] == 0 and tractions.force[i] == 0:
+        if foundation.force[i] == 0 and forces.force[i] == 0:
             continue
         here = points.local[i]
         if here != element:
@@ -117,12 +117,12 @@ def tangents(points: Any, foundation: Any, tractions: Any, along: Any, up: Any, 
             element = here
         for w in range(5):
             by_up[w] = -foundation.diagonal[i] * up[i, w]
-            by_traction[w] = tractions.by_gap[i, 2] * up[i, w]
+            by_traction[w] = forces.by_gap[i, 2] * up[i, w]
         for away in (-2, -1, 1, 2):
             near = i + away
             if near < 0 or near >= total or points.last[min(i, near)]:
                 continue
-            spring, rate = 0.0, tractions.by_gap[i, 2 + away]
+            spring, rate = 0.0, forces.by_gap[i, 2 + away]
             if abs(away) == 1:
                 spring = foundation.coupling[min(i, near)]
             elif rate == 0:
@@ -141,11 +141,11 @@ def tangents(points: Any, foundation: Any, tractions: Any, along: Any, up: Any, 
             for w in range(5):
                 block[0, q, w] += up[i, q] * by_up[w]
                 block[1, q, w] += along[i, q] * by_traction[w]
-        if tractions.by_abscissa[i] != 0 or tractions.by_phi[i] != 0:
+        if forces.by_abscissa[i] != 0 or forces.by_phi[i] != 0:
             for q in range(5):
-                block[2, q, 1] += along[i, q] * tractions.by_phi[i]
+                block[2, q, 1] += along[i, q] * forces.by_phi[i]
                 for w in range(5):
-                    block[2, q, w] += along[i, q] * tractions.by_abscissa[i] * along[i, w]
+                    block[2, q, w] += along[i, q] * forces.by_abscissa[i] * along[i, w]
     _scatter(k_yy, k_xy, k_xx, block, element)
     return k_yy, k_xy, k_xx
 

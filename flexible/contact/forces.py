@@ -7,10 +7,10 @@ and (u_X, u_Y) the point's displacement in the world's axes,
     floor abscissa x = V + phi - sin(psi) + u_X,       V = x_C - phi,
 
 neither of which subtracts numbers of order one (R = m = g = 1 throughout). Normal forces are those of
-:mod:`flexible.contact.normal`, tangential ones those of :mod:`flexible.contact.friction`; for the patch law, whether
-the patch sticks or slides is decided on the resultants, by the caller.
+:mod:`flexible.contact.points.normal`, tangential ones those of a law in :mod:`flexible.contact.laws`, in the mode that
+the caller asks for.
 
-Damping, if any, is that of the patch as a whole, N = N_el + theta dN_el/dt, and while it sticks
+Damping, if any, is that of the patch as a whole, N = N_el + theta dN_el/dt, and while a patch sticks
 F = F_el - theta k_t v with v the mean slip of the patch: it damps the approach and the slip, and not a material point's
 own gap rate, which under rolling would be a rolling resistance. The slip of a point is all of its motion along the
 floor, rolling included: at the rim of a wide patch that alone is phidot psi^2/2.
@@ -26,177 +26,166 @@ import numpy as np
 from rigid.kernel.compile import jit
 
 from .assembly import X, Y, add_outer, add_spread, directions, gathered, slip_by_gaps, spread, tangents
-from .detection import element_at, gather, vertex_angle
-from .friction import BRUSH, SLIDE_LEFT, SLIDE_RIGHT, STICK, carry, rub
-from .normal import force_by_gaps, press
+from .laws.listing import tractions
+from .points.bristles import carry
+from .points.data import Before, Bristles, Contact, Damper, Load, Parameters, Resultants, Rim, Slip
+from .points.detection import gather
+from .points.normal import force_by_gaps, press
+from .points.rim import lift
 
-# positions in the array of contact parameters
-SPACING, EPS_N, EPS_T, MU_S, MU = range(5)
-# positions in the array of resultants: forces, energies, length of the patch and how much of it sticks, mean way along
-# the floor in the step, angles psi of its ends, whether it left the window, elastic normal force, damping factor,
-# damping drag, and the work of the bristles beyond their mean force times the mean way
-NORMAL, FRICTION, NORMAL_ENERGY, BRISTLE_ENERGY, LENGTH, STUCK, SLIP, LOW, HIGH, OUTSIDE, ELASTIC, ETA, DRAG = range(13)
-BEYOND = 13
-RESULTANTS = 14
 
-UNDAMPED = np.array([0.0, 0.0, 1.0, 0.0, 0.0, 1.0])
+@jit
+def _load(foundation: Any, damper: Damper) -> Load:
+    """The normal force as a whole, and what the damper makes of it."""
+    elastic = foundation.force.sum()
+    eta, eta_rate = damper.eta_0, 0.0
+    if elastic > 0 and damper.relaxation > 0:
+        eta += damper.relaxation * (1 - damper.elastic_0 / elastic)
+        eta_rate = damper.relaxation * damper.elastic_0 / elastic**2
+        if eta < 0:
+            eta, eta_rate = 0.0, 0.0
+    return Load(elastic, eta, eta_rate)
+
+
+@jit
+def _nothing(nodes: int, outside: bool) -> Contact:
+    """Off the floor."""
+    size = 3 + 2 * nodes
+    zero = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf, 0.0)
+    none = Bristles(np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0, np.int8))
+    return Contact(np.zeros(3), np.zeros((nodes, 2)), np.zeros((size, size)), zero, none, outside)
+
+
+@jit
+def _add_shared(points: Any, foundation: Any, forces: Any, shared: Any, elastic: float) -> None:
+    """Share a force of the whole patch over its points like the pressure."""
+    total = points.gap.shape[0]
+    for i in range(total):
+        before = i - 1 if i > 0 and not points.last[i - 1] else -1
+        behind = i + 1 if i + 1 < total and not points.last[i] else -1
+        forces.force[i] += shared.force * (foundation.force[i] / elastic)
+        force_by_gaps(forces.by_gap[i, 1:4], shared.force / elastic, foundation, before, i, behind)
+
+
+@jit
+def _add_turning(tangent: Any, force: Any, points: Any, pressed: Any, pulled: Any) -> None:
+    """The directions themselves turn with phi: add that to the tangent, for vertical and horizontal point forces."""
+    turning = 0.0
+    for i in range(points.gap.shape[0]):
+        psi = points.psi[i]
+        u_x, u_y = sin(psi) - points.arm_x[i], points.arm_y[i] - lift(psi)
+        turning += pressed[i] * (cos(psi) - u_y) + pulled[i] * (sin(psi) - u_x)
+    tangent[2, 2] += turning
+    for row in range(3, force.shape[0], 2):
+        tangent[2, row] += force[row + 1]
+        tangent[row, 2] += force[row + 1]
+        tangent[2, row + 1] -= force[row]
+        tangent[row + 1, 2] -= force[row]
+
+
+@jit
+def _ends(points: Any) -> tuple[float, float]:
+    """Angles psi of the first and the last point that touch, 0 if none does."""
+    low, high, active = 0.0, 0.0, 0
+    for i in range(points.gap.shape[0]):
+        if points.gap[i] < 0:
+            if active == 0:
+                low = points.psi[i]
+            high = points.psi[i]
+            active += 1
+    return low, high
+
+
+@jit
+def _stored(points: Any, carried: Any, pull: Any, keeps: Any) -> Bristles:
+    """What of the points outlasts the step."""
+    size = keeps.sum()
+    number, sliding = np.empty(size, np.int64), np.empty(size, np.int8)
+    stretch, held = np.empty(size), np.empty(size)
+    n = 0
+    for i in range(keeps.shape[0]):
+        if keeps[i]:
+            number[n], stretch[n], held[n] = points.number[i], carried.stretch[i], pull[i]
+            sliding[n] = carried.sliding[i]
+            n += 1
+    return Bristles(number, stretch, held, sliding)
 
 
 @jit
 def contact_forces(
-    pose: Any,
-    u: Any,
-    first: int,
-    vertex: Any,
-    law: Any,
-    mode: int,
-    old_pose: Any,
-    u_old: Any,
-    bristles: Any,
-    flags: Any,
-    damper: Any,
-) -> Any:
+    pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper
+) -> Contact:  # fmt: skip
     """Forces of the floor on the rim, their tangent, and the state of the bristles.
 
     Parameters
     ----------
-    pose, old_pose : (3,) arrays
-        (V, h, phi) now and at the beginning of the step.
-    u, u_old : (2 count + 1, 2) arrays
-        Displacement (y1, y2) of the nodes of ``count`` rim elements from element ``first`` on, now and then.
-    vertex : (n_elements,) array
-        Angles at which the rim's elements begin.
-    law : (5,) array
-        Spacing, eps_n, eps_t, mu_s, mu.
+    pose : (3,) array
+        (V, h, phi) now.
+    u : (2 count + 1, 2) array
+        Displacement (y1, y2) of the nodes of ``count`` rim elements from element ``rim.first`` on.
+    rim : Rim
+    law : Parameters
     mode : int
-        STICK, SLIDE_RIGHT or SLIDE_LEFT for the patch law, BRUSH for the brush.
-    bristles, flags : (m, 3), (m,) arrays
-        Number, stretch and force of each point in contact at the beginning of the step, ascending; sliding or not.
-    damper : (6,) array
-        (rho, N_0, eta_0, c, x_0, r): pressures are eta times the elastic ones, eta = eta_0 + rho (N_el - N_0)/N_el, at
-        least 0; a sticking patch drags with -c (x - x_0), shared like the pressure, x its mean way in the step.
-        rho is the damper's relaxation time over the step's beta; N_0, x_0 are what N_el, x were without a rate.
-        The slip velocity at the end of the stage is r (x - x_0) over the stage's length.
-
-    Returns
-    -------
-    force : (3,) array
-        Generalised forces on (V, h, phi).
-    nodal : (2 count + 1, 2) array
-        Forces on the nodes in the disk's axes.
-    tangent : (n, n) array
-        Derivative of (force, nodal) by (pose, u), n = 3 + 2 (2 count + 1).
-    resultants : (RESULTANTS,) array
-    new_bristles, new_flags : as ``bristles``, ``flags``
-        Points in contact now.
+        Of the law.
+    before : Before
+        The contact at the beginning of the step.
+    damper : Damper
     """
-    spacing, eps_n, eps_t = law[SPACING], law[EPS_N], law[EPS_T]
     nodes = u.shape[0]
     phi = pose[2]
     size = 3 + 2 * nodes
-    res = np.zeros(RESULTANTS)
-    points, outside = gather(pose, u, first, vertex, spacing, old_pose, u_old)
-    res[OUTSIDE] = 1.0 if outside else 0.0
-    total = points.gap.shape[0]
-    if total == 0:
-        nothing = np.zeros((size, size))
-        return np.zeros(3), np.zeros((nodes, 2)), nothing, res, np.empty((0, 3)), np.empty(0, np.int8)
+    points, outside = gather(pose, u, rim, law.spacing, before)
+    if points.gap.shape[0] == 0:
+        return _nothing(nodes, outside)
 
-    foundation = press(points.gap, points.last, eps_n, spacing)
-    elastic = foundation.force.sum()
-    eta, eta_rate = damper[2], 0.0
-    if elastic > 0 and damper[0] > 0:
-        eta += damper[0] * (1 - damper[1] / elastic)
-        eta_rate = damper[0] * damper[1] / elastic**2
-        if eta < 0:
-            eta, eta_rate = 0.0, 0.0
-    dphi = phi - old_pose[2]
-    lift = 2 * np.sin(points.psi / 2) ** 2
-    moved, slip = 0.0, 0.0
+    foundation = press(points.gap, points.last, law.eps_n, law.spacing)
+    load = _load(foundation, damper)
+    elastic, eta = load.elastic, load.eta
+    dphi = phi - before.pose[2]
+    lifts = lift(points.psi)
+    moved, way = 0.0, 0.0
     if elastic > 0:
         moved = (foundation.force * points.move).sum() / elastic
-        slip = moved + dphi * (foundation.force * lift).sum() / elastic
-    start = damper[4] - (slip - moved) * (1 - 1 / damper[5])
-    carried = carry(points, bristles, flags, dphi, damper[5], start, slip, damper[4], mode == BRUSH)
-    tractions = rub(points, foundation, carried, mode, eta, spacing, eps_n, eps_t, law[MU_S], law[MU])
+        way = moved + dphi * (foundation.force * lifts).sum() / elastic
+    slip = Slip(way, damper.way_0, damper.velocity_0 + damper.rate * (way - damper.way_0), damper.rate, damper.drag)
+    carried = carry(points, before.bristles, dphi, damper.ratio, slip, moved)
+    answer = tractions(points, foundation, carried, mode, load, slip, law)
+    forces, shared = answer.points, answer.shared
+    pull = forces.force.copy()
+    if shared.acts:
+        _add_shared(points, foundation, forces, shared, elastic)
 
     along, up = directions(points)
     s, c = sin(phi), cos(phi)
-    held = tractions.force.copy()
-    dragging = mode == STICK and elastic > 0 and damper[3] > 0
-    drag = 0.0
-    if dragging:  # shared over the patch like the pressure
-        drag = -damper[3] * (slip - damper[4])
-        for i in range(total):
-            before = i - 1 if i > 0 and not points.last[i - 1] else -1
-            behind = i + 1 if i + 1 < total and not points.last[i] else -1
-            tractions.share[i] = foundation.force[i] / elastic
-            tractions.force[i] += drag * tractions.share[i]
-            force_by_gaps(tractions.by_gap[i, 1:4], drag / elastic, foundation, before, i, behind)
-
     pushes = spread(gathered(points, foundation.force, up, nodes), Y, s, c)
-    forces = spread(gathered(points, tractions.force, along, nodes), X, s, c) + eta * pushes
-    k_yy, k_xy, k_xx = tangents(points, foundation, tractions, along, up, nodes)
+    force = spread(gathered(points, forces.force, along, nodes), X, s, c) + eta * pushes
+    k_yy, k_xy, k_xx = tangents(points, foundation, forces, along, up, nodes)
     tangent = np.zeros((size, size))
     add_spread(tangent, k_yy, Y, Y, s, c, eta)
     add_spread(tangent, k_xy, X, Y, s, c, 1.0)
     add_spread(tangent, k_xx, X, X, s, c, 1.0)
-    if eta_rate != 0 or dragging:  # eta and the drag change with all unknowns at once
+    # eta and what is shared change with all unknowns at once
+    if load.eta_rate != 0:
         elastic_by = spread(k_yy[0], Y, s, c)
-        share_by = eta_rate * elastic_by
-        add_outer(tangent, pushes, share_by)
-        if dragging:
-            slip_by = spread(gathered(points, foundation.force / elastic, along, nodes), X, s, c)
-            slip_by[2] += dphi * (foundation.force * np.sin(points.psi)).sum() / elastic
-            ways = points.move + dphi * lift
-            slip_by += spread(slip_by_gaps(points, ways, foundation, slip, elastic, up, nodes), Y, s, c)
-            share_by = -damper[3] * slip_by - drag / elastic * elastic_by
-        add_outer(tangent, spread(gathered(points, tractions.share, along, nodes), X, s, c), share_by)
+        add_outer(tangent, pushes, load.eta_rate * elastic_by)
+        add_outer(tangent, spread(gathered(points, forces.share, along, nodes), X, s, c), load.eta_rate * elastic_by)
+    if shared.acts:
+        elastic_by = spread(k_yy[0], Y, s, c)
+        slip_by = spread(gathered(points, foundation.force / elastic, along, nodes), X, s, c)
+        slip_by[2] += dphi * (foundation.force * np.sin(points.psi)).sum() / elastic
+        ways = points.move + dphi * lifts
+        slip_by += spread(slip_by_gaps(points, ways, foundation, way, elastic, up, nodes), Y, s, c)
+        shared_by = shared.by_way * slip_by + (shared.by_elastic - shared.force / elastic) * elastic_by
+        spreading = spread(gathered(points, foundation.force / elastic, along, nodes), X, s, c)
+        add_outer(tangent, spreading, shared_by)
+    _add_turning(tangent, force, points, eta * foundation.force, forces.force)
 
-    # the directions themselves turn with phi
-    turning = 0.0
-    for i in range(total):
-        psi = points.psi[i]
-        u_x, u_y = sin(psi) - points.arm_x[i], points.arm_y[i] - 2 * sin(psi / 2) ** 2
-        turning += eta * foundation.force[i] * (cos(psi) - u_y) + tractions.force[i] * (sin(psi) - u_x)
-    tangent[2, 2] += turning
-    for i in range(nodes):
-        row = 3 + 2 * i
-        tangent[2, row] += forces[row + 1]
-        tangent[row, 2] += forces[row + 1]
-        tangent[2, row + 1] -= forces[row]
-        tangent[row + 1, 2] -= forces[row]
-
-    res[NORMAL], res[FRICTION] = forces[1], forces[0]
-    res[NORMAL_ENERGY], res[BRISTLE_ENERGY] = foundation.energy, tractions.energy
-    res[LENGTH] = foundation.length
-    res[STUCK] = tractions.stuck / foundation.length if foundation.length > 0 else 0.0
-    res[SLIP], res[ELASTIC], res[ETA], res[DRAG] = slip, elastic, eta, drag
-    res[BEYOND] = ((carried.pull + held) * (carried.way - carried.mean)).sum() / 2
-    active = 0
-    for i in range(total):
-        if points.gap[i] < 0:
-            if active == 0:
-                res[LOW] = points.psi[i]
-            res[HIGH] = points.psi[i]
-            active += 1
-    keeps = points.gap < 0
-    if mode == STICK:  # a point just past the edge that points leave still bounds the bristles behind it
-        for i in range(total):
-            if carried.touched[i] and points.gap[i] >= 0:
-                before = i > 0 and not points.last[i - 1] and points.gap[i - 1] < 0
-                behind = i + 1 < total and not points.last[i] and points.gap[i + 1] < 0
-                keeps[i] = before or behind
-    kept, kept_flags = np.empty((keeps.sum(), 3)), np.empty(keeps.sum(), np.int8)
-    n = 0
-    for i in range(total):
-        if keeps[i]:
-            kept[n, 0], kept[n, 1], kept[n, 2] = points.number[i], carried.stretch[i], held[i]
-            kept_flags[n] = carried.sliding[i]
-            n += 1
-    return forces[:3].copy(), forces[3:].copy().reshape(nodes, 2), tangent, res, kept, kept_flags
-
-
-__all__ = [
-    "BRUSH", "SLIDE_LEFT", "SLIDE_RIGHT", "STICK", "UNDAMPED", "contact_forces", "element_at", "vertex_angle",
-]  # fmt: skip
+    low, high = _ends(points)
+    stuck = answer.stuck / foundation.length if foundation.length > 0 else 0.0
+    beyond = ((carried.pull + pull) * (carried.way - carried.mean)).sum() / 2
+    res = Resultants(
+        force[1], force[0], foundation.energy, answer.energy, foundation.length, stuck, way, low, high, elastic, eta,
+        shared.damping, beyond, -shared.by_way, shared.reach, answer.feet,
+    )  # fmt: skip
+    bristles = _stored(points, carried, pull, answer.keeps)
+    return Contact(force[:3].copy(), force[3:].copy().reshape(nodes, 2), tangent, res, bristles, outside)

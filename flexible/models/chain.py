@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Scene
 
-from ..chain.bordered import empty_blocks
+from ..chain.bordered import Factors, no_blocks
 from ..chain.corotated import elastic
 from ..chain.rim import follow
 from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
-from ..chain.stage import rise, solve_stage, turned
-from ..chain.whole import forces, held, passed_on, sections
-from ..contact.forces import HIGH, LOW, NORMAL
+from ..chain.stage import solve_stage
+from ..chain.touch import Facing, rise, turned
+from ..chain.whole import errors, held, sections
+from ..contact.points.data import Before, Damper, Rim
 from ..ring.fem import ring_of
 from .rim_contact import POINTS, RimContact
-from .state import State
+from .stage import Predictor, largest
+from .state import Errors, Stage, State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -55,9 +55,8 @@ class ChainHoop(RimContact):
         self.ring = ChainRing(scene, ring_of(scene, through), parts)
         super().__init__(scene, self.ring.vertex, points, tolerance)
         self._missing: dict[Window, Array] = {}
-        self._last = (0.0, 0.0)
-        self._passed: tuple[Array, Array] | None = None
-        rod = self.ring.rod
+        self._looked = (0.0, 0.0)
+        rod = self.ring.chain.rod
         mass = np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1].ravel()
         #: momenta of the slow vibrations, by which steps are chosen, of a rate of the sections
         self._slow = np.zeros((0, len(mass)))
@@ -74,8 +73,7 @@ class ChainHoop(RimContact):
         key = (window[0] % len(self.vertex), window[1])
         if key not in self._missing:
             number = self.ring.window(*key)[0]
-            block = self.ring.missing(number, number)
-            self._missing[key] = (block + block.T) / 2
+            self._missing[key] = self.ring.missing(number, number)
         return self._missing[key]
 
     def displacement(self, state: State, window: Window) -> Array:
@@ -86,20 +84,20 @@ class ChainHoop(RimContact):
         """Displacement of the rim nodes of a window, and what of it the sections do not account for."""
         ring, q = self.ring, sections(state.pos)
         here, nodes = ring.window(*window)
-        moved, _, turn = follow(ring.rod, q, nodes)
+        moved, _, turn = follow(ring.chain.rod, q, nodes)
         if window == state.window:
             return state.u, state.u - moved
-        if state.res[NORMAL] == 0:
+        if state.res.normal == 0:
             return moved, np.zeros_like(moved)
         there, nodes = ring.window(*state.window)
-        _, _, turn_there = follow(ring.rod, q, nodes)
+        turn_there = follow(ring.chain.rod, q, nodes)[2]
         gives = (turned(ring.missing(here, there), turn, turn_there) @ state.nodal.ravel()).reshape(-1, 2)
         return moved + gives, gives
 
     def _reach(self, pos: Array) -> tuple[float, float]:
         """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is."""
         ring = self.ring
-        gap, psi = rise(ring.rod, sections(pos), ring.nodes, self._rim_theta, pos[2], pos[1])
+        gap, psi = rise(ring.chain.rod, sections(pos), ring.nodes, self._rim_theta, pos[2], pos[1])
         below = psi[gap <= max(0.0, gap.min())]
         return float(below.min()), float(below.max())
 
@@ -107,71 +105,54 @@ class ChainHoop(RimContact):
         self,
         old: State,
         mode: int,
-        damper: Array,
-        pos_pred: Array,
-        vel_pred: Array,
-        beta: float,
-        guess: Array,
-        near: tuple[Window, Array] | None = None,
-    ) -> Any:
+        damper: Damper,
+        predictor: Predictor,
+        near: Stage | None = None,
+    ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
         ring = self.ring
-        if ring.body.ring_mass == 0:  # no inertia to go by: from where the ring was
-            guess = guess.copy()
-            guess[3:] = old.pos[3:] - pos_pred[3:]
+        massless = ring.chain.body.ring_mass == 0
+        if massless:  # no inertia to go by: from where the ring was
+            guess = predictor.guess.copy()
+            guess[3:] = old.pos[3:] - predictor.pos[3:]
+            predictor = predictor._replace(guess=guess)
+        expected = predictor.pos + predictor.guess
         if near is None:
-            low, high = self._reach(pos_pred + guess)
-            if old.res[NORMAL] > 0:
-                low, high = min(low, old.res[LOW]), max(high, old.res[HIGH])
-            self._last = low, high
-        low, high = self._last  # both stages of a step look where the first one does
+            low, high = self._reach(expected)
+            if old.res.normal > 0:
+                low, high = min(low, old.res.low), max(high, old.res.high)
+            self._looked = low, high
+        low, high = self._looked  # both stages of a step look where the first one does
         margin = 0.3 * (high - low) + 0.1 * self.element
         for _ in range(4):
-            window = self.window(pos_pred[2] + guess[2], low, high, margin)
-            nodes = ring.window(*window)[1]
+            window = self.window(float(expected[2]), low, high, margin)
             u_old, beyond = self._beyond(old, window)
-            contact = (
-                window[0], ring.vertex, self.law, mode, old.pos[:3], u_old, old.bristles, old.flags, damper,
-            )  # fmt: skip
-            iterations, d, u, factors, nodal, res, bristles, flags = solve_stage(
-                ring.body, ring.rod, nodes, self._lacking(window), contact, pos_pred, vel_pred,
-                beta, guess, beyond, self.tolerance,
-            )  # fmt: skip
+            facing = Facing(Rim(window[0], ring.vertex), ring.window(*window)[1], self._lacking(window))
+            before = Before(old.pos[:3], u_old, old.bristles)
+            iterations, d, u, factors, contact = solve_stage(
+                ring.chain, facing, self.law.parameters, mode, before, damper, predictor, (beyond, self.tolerance)
+            )
             if iterations != -2:
                 break
             margin = 2 * margin + self.element
-        acc = d / beta**2
-        if ring.body.ring_mass == 0:
+        acc = d / predictor.beta**2
+        if massless:
             acc[3:] = 0.0
-        return iterations >= 0, d, acc, factors, window, u, nodal, res, bristles, flags
+        return Stage(iterations >= 0, d, acc, factors, window, u, contact.nodal, contact.res, contact.bristles)
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
-        kinetic, gravity, strain = held(self.ring.body, self.ring.rod, state.pos, state.vel)
-        if state.res[NORMAL] > 0:
+        kinetic, gravity, strain = held(self.ring.chain, state.pos, state.vel)
+        if state.res.normal > 0:
             strain += float((state.nodal * self._beyond(state, state.window)[1]).sum()) / 2
         return kinetic, gravity, strain
 
-    def _passed_on(self, state: State, beta: float, matrix: Any, error: Array) -> Array:
-        """An error as the step passes it on; that of the velocities is asked for twice."""
-        if self._passed is None or self._passed[0] is not error:
-            self._passed = (error, passed_on(matrix, self.ring.body, self.ring.rod, state.pos, error, beta))
-        return self._passed[1]
-
-    def momentum_error(self, state: State, beta: float, matrix: Any, error: Array) -> float:
+    def errors(self, state: State, beta: float, matrix: Factors, error: Array, moved: Array) -> Errors:
         """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
-        passed = self._passed_on(state, beta, matrix, error)
-        slow = np.abs(self._slow @ passed[3:]).max(initial=0.0) / (1 + self.ring.body.ring_mass) ** 0.5
-        return float(max(abs(passed[0] + passed[2]), abs(passed[1]), abs(passed[2]), slow))
-
-    def energy_error(self, state: State, beta: float, matrix: Any, error: Array, moved: Array) -> float:
-        """See :class:`flexible.models.state.Model`."""
-        body, rod = self.ring.body, self.ring.rod
-        rate, way = (self._passed_on(state, beta, matrix, change) / 2 for change in (error, moved))
-        after = held(body, rod, state.pos + way, state.vel + rate)
-        before = held(body, rod, state.pos - way, state.vel - rate)
-        work = forces(body, rod, state.pos, state.vel, state.acc) @ way
-        return float(sum(after) - sum(before) - 2 * work)
+        chain = self.ring.chain
+        rate, energy = errors(matrix, chain, state.pos, state.vel, state.acc, beta, error, moved)
+        slow = np.abs(self._slow @ rate[3:]).max(initial=0.0) / (1 + chain.body.ring_mass) ** 0.5
+        return Errors(largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow])), float(energy))
 
     def resting(self, omega: float, alpha: float, a1: float, a2: float) -> RestingChain:
         """The ring at rest in a frame with these rates and this acceleration of C, gravity included."""
@@ -183,7 +164,7 @@ class RestingChain:
 
     def __init__(self, ring: ChainRing, omega: float, alpha: float, acceleration: Array) -> None:
         self.ring = ring
-        rod = ring.rod
+        rod = ring.chain.rod
         self.coordinates = np.zeros(3 * ring.sections)
         turn = alpha * np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]]) - omega**2 * np.diag([1.0, 1, 0])
         y = np.column_stack([rod.place, np.ones(len(rod.mass))])[1:-1]
@@ -191,7 +172,6 @@ class RestingChain:
         load = y @ turn.T + np.array([*acceleration, alpha])
         self.load = (weights * load).ravel()
         self.inertia = np.kron(np.diag(rod.mass[1:-1]), turn)
-        self.lever: dict[int, Array] = {}
 
     def _padded(self) -> Array:
         return np.concatenate([np.zeros(3), self.coordinates, np.zeros(3)]).reshape(-1, 3)
@@ -199,9 +179,9 @@ class RestingChain:
     def linearise(self, share: float) -> None:
         """See :class:`flexible.models.equilibrium.RestingRing`."""
         q = self._padded()
-        matrix = dense_stiffness(self.ring.rod, q)[3:-3, 3:-3] + share * self.inertia
-        blocks, force = empty_blocks(len(q)), np.zeros_like(q)
-        elastic(self.ring.rod, q, force, blocks.diagonal, blocks.up, blocks.down)
+        matrix = dense_stiffness(self.ring.chain.rod, q)[3:-3, 3:-3] + share * self.inertia
+        blocks, force = no_blocks(len(q)), np.zeros_like(q)
+        elastic(self.ring.chain.rod, q, force, blocks.diagonal, blocks.up, blocks.down)
         self.inverse = np.linalg.inv(matrix)
         pull = force[1:-1].ravel() + share * (self.inertia @ self.coordinates + self.load)
         self.base = self.coordinates - self.inverse @ pull
@@ -212,10 +192,10 @@ class RestingChain:
         if window not in self._known:
             ring, q = self.ring, self._padded()
             number, nodes = ring.window(*window)
-            moved, rows = rim_matrix(ring.rod, q, nodes)
-            turn = follow(ring.rod, q, nodes)[2]
+            moved, rows = rim_matrix(ring.chain.rod, q, nodes)
+            turn = follow(ring.chain.rod, q, nodes)[2]
             yields = turned(ring.missing(number, number), turn, turn)
-            self._known[window] = moved.ravel(), rows, (yields + yields.T) / 2
+            self._known[window] = moved.ravel(), rows, yields
         return self._known[window]
 
     def response(self, window: Window) -> tuple[Array, Array]:

@@ -6,14 +6,19 @@ them, exactly for a linear ring, near its present shape for the exact one, which
 
 from __future__ import annotations
 
+from math import isfinite
 from typing import Any, Protocol
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
-from scipy.sparse.linalg import splu
 
-from ..contact.forces import HIGH, LOW, MU, NORMAL, OUTSIDE, SLIDE_RIGHT, SPACING, UNDAMPED, contact_forces
+from ..contact.forces import contact_forces
+from ..contact.laws.listing import sharing
+from ..contact.points.data import NOTHING, UNDAMPED, Before, Rim, no_bristles
+from ..contact.points.rim import gap_at, upward
+from ..ring.nodal import factored
+from .stage import largest
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -73,7 +78,7 @@ class RestingNodes:
     def linearise(self, share: float) -> None:
         u = self.coordinates
         matrix = (self.ring.tangent(u) + share * self.inertia).tocsc()
-        self._solve = splu(matrix).solve
+        self._solve = factored(matrix)
         self.base = u - self._solve(self.ring.elastic(u) + share * (self.inertia @ u + self.load))
         self._columns: dict[Window, Array] = {}
 
@@ -91,7 +96,7 @@ class RestingNodes:
 
     def move(self, window: Window, force: Array) -> float:
         moved = self.base + self._answer(window) @ force
-        change = float(np.abs(moved - self.coordinates).max() / max(np.abs(moved).max(), 1e-300))
+        change = largest(moved - self.coordinates) / max(largest(moved), 1e-300)
         self.coordinates = moved
         return change
 
@@ -104,24 +109,24 @@ class Patch:
     height : float
         h, the hoop's centre above R.
     window : (int, int)
-    u, nodal, res, bristles, flags :
-        See :func:`flexible.contact.forces.contact_forces`.
+    u : (nodes, 2) array
+    nodal, res, bristles :
+        See :class:`flexible.contact.points.data.Contact`.
     """
 
     def __init__(self, hoop: Any, phi: float, normal: float, friction: float) -> None:
         self.hoop, self.phi, self.normal = hoop, phi, normal
-        self.law = hoop.law.copy()
-        self.law[MU] = friction / normal  # shares any F over the patch like the pressure
-        self.half = (1.5 * normal / self.law[1]) ** (1 / 3)
+        self.law, self.mode = sharing(hoop.law.parameters, friction / normal)
+        self.half = (1.5 * normal / self.law.eps_n) ** (1 / 3)
         self.low, self.high = -self.half, self.half
         self.height = -(self.half**2) / 2
         self.window: Window = (0, 0)
         self.u: Array = np.zeros((0, 2))
+        self.res, self.bristles = NOTHING, no_bristles()
 
     def solve(self, ring: RestingRing, share: float) -> bool:
         """Newton on height and rim for ``share`` of the forces; whether it converged."""
         s, c = np.sin(self.phi), np.cos(self.phi)
-        empty, flags = np.empty((0, 3)), np.empty(0, np.int8)
         wanted = share * self.normal
         margin = self.half + self.hoop.element
         last = np.inf
@@ -133,22 +138,25 @@ class Patch:
                 self._foresee(window, ring, wanted)
             offset, compliance = ring.response(window)
             pose = np.array([0.0, self.height, self.phi])
-            force, self.nodal, tangent, self.res, self.bristles, self.flags = contact_forces(
-                pose, self.u, window[0], self.hoop.vertex, self.law, SLIDE_RIGHT, pose, self.u, empty, flags, UNDAMPED
-            )
-            if self.res[OUTSIDE] != 0:
+            rim, before = Rim(window[0], self.hoop.vertex), Before(pose, self.u, no_bristles())
+            contact = contact_forces(pose, self.u, rim, self.law, self.mode, before, UNDAMPED)
+            force, tangent = contact.force, contact.tangent
+            self.nodal, self.res, self.bristles = contact.nodal, contact.res, contact.bristles
+            if contact.outside:
                 margin = 2 * margin + self.hoop.element
                 continue
             flat = self.nodal.ravel()
             misfit = self.u.ravel() - offset - compliance @ flat
             # what a misfit of the rim makes of the force: patch and ring in series
             scale = 1 + abs(tangent[1, 1]) / (1 + abs(tangent[1, 1]) * np.abs(compliance).max())
-            error = max(abs(force[1] - wanted), scale * np.abs(misfit).max())
+            error = max(largest(force[1:2] - wanted), scale * largest(misfit))
+            if not isfinite(error):
+                return False
             floor = 1e-15 * (1 + abs(tangent[1, 1])) * (abs(self.height) + np.abs(self.u).max())
             if error < 1e-10 * (1 + wanted) + floor:
-                self.low, self.high = self.res[LOW] - self.law[SPACING], self.res[HIGH] + self.law[SPACING]
+                self.low, self.high = self.res.low - self.law.spacing, self.res.high + self.law.spacing
                 return True
-            if self.res[NORMAL] == 0:
+            if self.res.normal == 0:
                 self.u = offset.reshape(-1, 2).copy()
                 self.height = -self._rise(self.u, s, c) - self.half**2 / 2
                 continue
@@ -169,7 +177,7 @@ class Patch:
         offset, compliance = ring.response(window)
         force = np.zeros_like(offset)
         s, c = np.sin(self.phi), np.cos(self.phi)
-        if self.window[1] and self.res[NORMAL] > 0:
+        if self.window[1] and self.res.normal > 0:
             count = len(self.hoop.vertex)
             place = {n % (2 * count): i for i, n in enumerate(self._nodes(window))}
             pairs = force.reshape(-1, 2)
@@ -194,7 +202,7 @@ class Patch:
         """Height of the lowest rim node of the window above where the undeformed rim would touch, at h = 0."""
         theta = self.hoop.rim_angle(self._nodes(self.window))
         psi = self.phi + theta - np.pi
-        return float((2 * np.sin(psi / 2) ** 2 + u[:, 0] * c - u[:, 1] * s).min())
+        return float(gap_at(0.0, psi, upward(u[:, 0], u[:, 1], s, c)).min())
 
 
 def settle(ring: RestingRing, patch: Patch) -> bool:
@@ -202,7 +210,11 @@ def settle(ring: RestingRing, patch: Patch) -> bool:
     share, step = 0.0, 1.0
     while share < 1:
         start, known = ring.coordinates, dict(patch.__dict__)
-        if _settled(ring, patch, share + step):
+        try:
+            settled = _settled(ring, patch, share + step)
+        except np.linalg.LinAlgError:
+            settled = False
+        if settled:
             share += step
             step = min(2 * step, 1 - share)
         else:

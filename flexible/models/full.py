@@ -7,22 +7,21 @@ borders are exact in every iteration, so that the ring's may lag behind.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import cos, sin
-from typing import Any
+from math import cos, isfinite, sin
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse.linalg import splu
 
 from rigid import Scene
 
-from ..contact.forces import ELASTIC, EPS_N, EPS_T, HIGH, LENGTH, LOW, NORMAL, OUTSIDE, SLIP, contact_forces
+from ..contact.forces import contact_forces
+from ..contact.points.data import Before, Damper, Rim
 from ..ring.fem import Ring, ring_of
-from ..ring.frame import DISK_INERTIA, OFFSET, RING_INERTIA, RING_MASS
-from ..ring.nodal import Inertia, NodalRing, inertia, turned
+from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
 from .rim_contact import POINTS, RimContact
-from .state import State
+from .stage import Predictor, largest
+from .state import Errors, Stage, State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -39,7 +38,7 @@ class _Factored:
         if not ring.massless:
             matrix = matrix + ring.mass * (1 / beta**2 - w * w) + ring.gyro * (alpha + 2 * w / beta)
         options = {"SymmetricMode": True}
-        self.solve = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options).solve
+        self.solve = factored(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
         self.ring, self.w, self.beta = ring, w, beta
         self._columns: dict[Window, Array] = {}
 
@@ -126,10 +125,6 @@ class FullHoop(RimContact):
         load = a1 * ring.along[0] + a2 * ring.along[1] + alpha * ring.rotation - omega**2 * ring.stretching
         return RestingNodes(ring, ring.gyro * alpha - ring.mass * omega**2, load)
 
-    def nodes(self, state: State) -> Array:
-        """Displacement (y1, y2) of every node of the mesh, (n_nodes, 2)."""
-        return self.ring.ring.expand(state.pos[3:])
-
     def displacement(self, state: State, window: Window) -> Array:
         """Displacement of the rim nodes of a window."""
         return state.pos[3:][self.ring.dofs(*window)].reshape(-1, 2)
@@ -138,80 +133,81 @@ class FullHoop(RimContact):
         self,
         old: State,
         mode: int,
-        damper: Array,
-        pos_pred: Array,
-        vel_pred: Array,
-        beta: float,
-        guess: Array,
-        near: tuple[Window, Array] | None = None,
-    ) -> Any:
+        damper: Damper,
+        predictor: Predictor,
+        near: Stage | None = None,
+    ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
         if self.ring.massless:  # no inertia to go by: from where the ring was
-            guess = guess.copy()
-            guess[3:] = old.pos[3:] - pos_pred[3:]
-        expected = pos_pred + guess
+            guess = predictor.guess.copy()
+            guess[3:] = old.pos[3:] - predictor.pos[3:]
+            predictor = predictor._replace(guess=guess)
+        expected = predictor.pos + predictor.guess
         low, high = self.reach(expected[2], expected[1], expected[3:][self.ring.ring.rim_dofs])
-        if old.res[NORMAL] > 0:
-            low, high = min(low, old.res[LOW]), max(high, old.res[HIGH])
+        if old.res.normal > 0:
+            low, high = min(low, old.res.low), max(high, old.res.high)
         margin = 0.3 * (high - low) + 0.1 * self.element
         for _ in range(4):
-            window = self.window(pos_pred[2] + guess[2], low, high, margin)
-            solved, outside = self._newton(old, mode, damper, pos_pred, vel_pred, beta, guess, window)
+            window = self.window(float(expected[2]), low, high, margin)
+            solved, outside = self._newton(old, mode, damper, predictor, window)
             if not outside:
                 break
             margin = 2 * margin + self.element
         return solved
 
     def _newton(
-        self,
-        old: State,
-        mode: int,
-        damper: Array,
-        pos_pred: Array,
-        vel_pred: Array,
-        beta: float,
-        guess: Array,
-        window: Window,
-    ) -> tuple[Any, bool]:
+        self, old: State, mode: int, damper: Damper, predictor: Predictor, window: Window
+    ) -> tuple[Stage, bool]:
         """The stage in one window, and whether the patch left it."""
-        law, dofs = self.law, self.ring.dofs(*window)
-        u_old = self.displacement(old, window)
+        pos_pred, vel_pred, beta, guess = predictor
+        law, dofs = self.law.parameters, self.ring.dofs(*window)
+        rim = Rim(window[0], self.vertex)
+        before = Before(old.pos[:3], self.displacement(old, window), old.bristles)
         d = guess.copy()
         last, lags = np.inf, True
+        update, damping, way, reach = np.zeros_like(d), 1.0, 0.0, np.inf
         ok = False
         for iteration in range(25):
             pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
             u = pos[3:][dofs].reshape(-1, 2)
-            force, nodal, tangent, res, bristles, flags = contact_forces(
-                pos[:3], u, window[0], self.vertex, law, mode, old.pos[:3], u_old, old.bristles, old.flags, damper
-            )
+            contact = contact_forces(pos[:3], u, rim, law, mode, before, damper)
+            res = contact.res
+            if res.elastic > 0 and abs(res.way - way) > 1.5 * reach:  # see flexible.models.stage
+                share = reach / abs(res.way - way)
+                d += damping * (1 - share) * update
+                damping *= share
+                continue
+            way, reach = res.way, res.reach
             own = inertia(self.ring, pos, vel, acc, beta)
-            frame, ring = own.frame - force, own.ring.copy()
-            ring[dofs] -= nodal.ravel()
-            worst = max(np.abs(frame).max(), np.abs(ring).max())
-            if not np.isfinite(worst):
-                break
-            small = self.tolerance * (1 + res[NORMAL])
+            frame, ring = own.frame - contact.force, own.ring.copy()
+            ring[dofs] -= contact.nodal.ravel()
+            worst = max(largest(frame), largest(ring))
+            if not isfinite(worst):
+                return Stage(False), False
+            small = self.tolerance * (1 + res.normal)
             if worst > small:
                 depth = abs(pos[1]) + np.abs(u).max()
-                small += 4e-16 * (law[EPS_N] + law[EPS_T]) * res[LENGTH] * depth
-                small += 1e-14 * (damper[0] + 1) * res[ELASTIC]
-                small += 1e-15 * damper[3] * (abs(res[SLIP]) + abs(damper[4])) + self.ring.round_off(pos[3:])
-                small += 4e-16 * np.abs(vel_pred[3:]).max(initial=0.0) / beta * self.ring.body[RING_MASS]
+                small += 4e-16 * (law.eps_n + law.eps_t) * res.length * depth
+                small += 1e-14 * (damper.relaxation + 1) * res.elastic
+                steepness = max(damper.drag, res.steepness)
+                small += 1e-15 * steepness * (abs(res.way) + abs(damper.way_0)) + self.ring.round_off(pos[3:])
+                small += 4e-16 * np.abs(acc[3:]).max(initial=0.0) * self.ring.body.ring_mass
             factored = self._factor(pos, vel, acc, beta, lags and iteration > 1 and worst > 0.05 * last)
-            matrix = NewtonMatrix(factored, own, tangent, window)
+            matrix = NewtonMatrix(factored, own, contact.tangent, window)
             if worst <= small and iteration > 0:
                 ok = True
                 break
-            step_frame, step_ring = matrix.solve(frame, ring)
+            update = np.concatenate(matrix.solve(frame, ring))
+            if not isfinite(largest(update)):
+                return Stage(False), False
             damping = 0.5 if iteration > 3 and worst > last else 1.0
             last = worst
-            d[:3] -= damping * step_frame
-            d[3:] -= damping * step_ring
-        outside = bool(res[OUTSIDE] != 0)
+            d -= damping * update
+        outside = contact.outside
         if self.ring.massless:
             acc[3:] = 0.0
-        return (ok and not outside, d, acc, matrix, window, u, nodal, res, bristles, flags), outside
+        found = Stage(ok and not outside, d, acc, matrix, window, u, contact.nodal, res, contact.bristles)
+        return found, outside
 
     def _factor(self, pos: Array, vel: Array, acc: Array, beta: float, anew: bool) -> _Factored:
         if anew or self._factored is None or not self._factored.serves(vel[2], beta):
@@ -221,44 +217,36 @@ class FullHoop(RimContact):
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
         ring, body, pos, vel = self.ring, self.ring.body, state.pos, state.vel
-        offset, mass = body[OFFSET], body[RING_MASS]
+        offset, mass = body.offset, body.ring_mass
         s, c = sin(pos[2]), cos(pos[2])
         w, u, v = vel[2], pos[3:], vel[3:]
         vx, vy = vel[0] + w, vel[1]
         dx, dy = vx + offset * w * c, vy - offset * w * s
-        kinetic = (dx * dx + dy * dy + body[DISK_INERTIA] * w * w) / 2
+        kinetic = (dx * dx + dy * dy + body.disk_inertia * w * w) / 2
         gravity = 1 + pos[1] + offset * c
         if not ring.massless:
             m_u, m_v = ring.mass @ u, ring.mass @ v
             (s1, s1_v), (s2, s2_v) = ((l @ u, l @ v) for l in ring.along)
             v1, v2 = vx * s + vy * c, vx * c - vy * s
-            moment = body[RING_INERTIA] + (2 * ring.stretching + m_u) @ u
+            moment = body.ring_inertia + (2 * ring.stretching + m_u) @ u
             kinetic += mass * (vx * vx + vy * vy) / 2 + v1 * (s1_v - w * s2) + v2 * (s2_v + w * s1)
             kinetic += (moment * w * w + v @ m_v) / 2 + w * (v @ (ring.rotation + turned(m_u)))
             gravity += mass * (1 + pos[1]) + s1 * c - s2 * s
         return float(kinetic), float(gravity), ring.strain_energy(u)
 
-    def momentum_error(self, state: State, beta: float, matrix: NewtonMatrix, error: Array) -> float:
+    def errors(self, state: State, beta: float, matrix: NewtonMatrix, error: Array, moved: Array) -> Errors:
         """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
-        ring, still = self.ring, np.zeros_like(state.vel)
-        with_error = inertia(ring, state.pos, still, error, beta)
-        without = inertia(ring, state.pos, still, still, beta)
-        load = (with_error.frame - without.frame) / beta**2, (with_error.ring - without.ring) / beta**2
-        frame, u = matrix.solve(*load)
-        slow = np.abs(self._slow @ u).max(initial=0.0) / (1 + ring.body[RING_MASS]) ** 0.5
-        return float(max(abs(frame[0] + frame[2]), abs(frame[1]), abs(frame[2]), slow))
-
-    def energy_error(self, state: State, beta: float, matrix: NewtonMatrix, error: Array, moved: Array) -> float:
-        """See :class:`flexible.models.state.Model`."""
         ring, still = self.ring, np.zeros_like(state.vel)
         without = inertia(ring, state.pos, still, still, beta)
         passed = []
         for change in (error, moved):
             with_change = inertia(ring, state.pos, still, change, beta)
             load = (with_change.frame - without.frame) / beta**2, (with_change.ring - without.ring) / beta**2
-            passed.append(np.concatenate(matrix.solve(*load)) / 2)
+            passed.append(np.concatenate(matrix.solve(*load)))
         rate, way = passed
-        after, before = (replace(state, pos=state.pos + s * way, vel=state.vel + s * rate) for s in (1, -1))
+        slow = np.abs(self._slow @ rate[3:]).max(initial=0.0) / (1 + ring.body.ring_mass) ** 0.5
+        size = largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow]))
+        after, before = (replace(state, pos=state.pos + s * way, vel=state.vel + s * rate) for s in (0.5, -0.5))
         own = inertia(ring, state.pos, state.vel, state.acc, beta)
-        forces = own.frame @ way[:3] + own.ring @ way[3:]
-        return float(sum(self.energies(after)) - sum(self.energies(before)) - 2 * forces)
+        work = own.frame @ way[:3] + own.ring @ way[3:]
+        return Errors(size, float(sum(self.energies(after)) - sum(self.energies(before)) - work))

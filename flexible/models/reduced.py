@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Scene
 
-from ..contact.forces import HIGH, LOW, NORMAL
-from ..ring.frame import RING_MASS, energies, inertia
+from ..contact.points.data import Before, Damper, Rim
+from ..ring.frame import energies
 from ..ring.reduction import ReducedRing, reduce
 from .equilibrium import RestingModes
 from .rim_contact import POINTS, RimContact
-from .stage import filtered_error, solve_stage
-from .state import State
+from .stage import Predictor, Window, filtered_errors, largest, solve_stage
+from .state import Errors, Stage, State
 
 Array = NDArray[np.float64]
 
@@ -31,7 +29,7 @@ class ReducedHoop(RimContact):
     @property
     def coordinates(self) -> int:
         """Number of coordinates of the ring in ``State.pos``."""
-        return len(self.ring.modal)
+        return len(self.ring.frame.modal)
 
     def _arrays(self, window: tuple[int, int]) -> tuple[Array, Array]:
         n = len(self.ring.vertex)
@@ -43,8 +41,8 @@ class ReducedHoop(RimContact):
 
     def resting(self, omega: float, alpha: float, a1: float, a2: float) -> RestingModes:
         """The ring at rest in a frame with these rates and this acceleration of C, gravity included."""
-        square, l1, l2, rotation, stretching = self.ring.modal.T
-        dynamic = np.diag(square - omega**2) + alpha * self.ring.gyro
+        square, l1, l2, rotation, stretching = self.ring.frame.modal.T
+        dynamic = np.diag(square - omega**2) + alpha * self.ring.frame.gyro
         return RestingModes(dynamic, a1 * l1 + a2 * l2 + alpha * rotation - omega**2 * stretching, self._arrays)
 
     def displacement(self, state: State, window: tuple[int, int]) -> Array:
@@ -53,7 +51,7 @@ class ReducedHoop(RimContact):
             return state.u
         here, there = self.ring.dofs(*window), self.ring.dofs(*state.window)
         moved = self.ring.rim_shapes[here] @ state.pos[3:]
-        if state.res[NORMAL] > 0:
+        if state.res.normal > 0:
             moved = moved + self.ring.compliance(here, there) @ state.nodal.ravel()
         return moved.reshape(-1, 2)
 
@@ -61,59 +59,46 @@ class ReducedHoop(RimContact):
         self,
         old: State,
         mode: int,
-        damper: Array,
-        pos_pred: Array,
-        vel_pred: Array,
-        beta: float,
-        guess: Array,
-        near: tuple[tuple[int, int], Array] | None = None,
-    ) -> Any:
+        damper: Damper,
+        predictor: Predictor,
+        near: Stage | None = None,
+    ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
-        phi = pos_pred[2] + guess[2]
-        low, high = old.res[LOW], old.res[HIGH]
-        if old.res[NORMAL] == 0:  # a bent rim comes down anywhere
-            expected = pos_pred + guess
+        expected = predictor.pos + predictor.guess
+        low, high = old.res.low, old.res.high
+        if old.res.normal == 0:  # a bent rim comes down anywhere
             low, high = self.reach(expected[2], expected[1], self.ring.rim_shapes @ expected[3:])
         margin = 0.3 * (high - low) + 0.1 * self.element
         for _ in range(4):
-            window = self.window(phi, low, high, margin)
+            window = self.window(float(expected[2]), low, high, margin)
             u_old = self.displacement(old, window)
             shapes, compliance = self._arrays(window)
-            u_guess = near[1] if near is not None and near[0] == window else u_old
-            ring = self.ring
-            iterations, d, u, acc, matrix, nodal, res, bristles, flags = solve_stage(
-                ring.body, ring.modal, ring.gyro, shapes, compliance, window[0], ring.vertex, self.law, mode,
-                old.pos[:3], u_old, old.bristles, old.flags, damper, pos_pred, vel_pred, beta, guess, u_guess,
-                self.tolerance,
+            u_guess = near.u if near is not None and near.window == window else u_old
+            near_floor = Window(Rim(window[0], self.ring.vertex), shapes, compliance)
+            before = Before(old.pos[:3], u_old, old.bristles)
+            iterations, d, acc, u, matrix, contact = solve_stage(
+                self.ring.frame, near_floor, self.law.parameters, mode, before, damper, predictor,
+                (u_guess, self.tolerance),
             )  # fmt: skip
             if iterations != -2:
                 break
             margin = 2 * margin + self.element
-        return iterations >= 0, d, acc, matrix, window, u, nodal, res, bristles, flags
+        return Stage(
+            iterations >= 0, d, acc, matrix, window, u, contact.nodal, contact.res, contact.bristles,
+        )  # fmt: skip
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity, ring strain (of the modes and of the static part)."""
-        ring = self.ring
-        kinetic, gravity, strain = energies(ring.body, ring.modal, ring.gyro, state.pos, state.vel)
-        if state.res[NORMAL] > 0:
+        kinetic, gravity, strain = energies(self.ring.frame, state.pos, state.vel)
+        if state.res.normal > 0:
             compliance = self._arrays(state.window)[1]
             force = state.nodal.ravel()
             strain += float(force @ compliance @ force) / 2
         return kinetic, gravity, strain
 
-    def momentum_error(self, state: State, beta: float, matrix: Array, error: Array) -> float:
+    def errors(self, state: State, beta: float, matrix: Array, error: Array, moved: Array) -> Errors:
         """See :class:`flexible.models.state.Model`."""
-        ring = self.ring
-        error = filtered_error(ring.body, ring.modal, ring.gyro, state.pos, state.vel, state.acc, beta, matrix, error)
-        ringing = np.abs(error[3:]).max(initial=0.0) / (1 + ring.body[RING_MASS]) ** 0.5
-        return float(max(abs(error[0] + error[2]), abs(error[1]), abs(error[2]), ringing))
-
-    def energy_error(self, state: State, beta: float, matrix: Array, error: Array, moved: Array) -> float:
-        """See :class:`flexible.models.state.Model`."""
-        body, modal, gyro = self.ring.body, self.ring.modal, self.ring.gyro
-        pos, vel, acc = state.pos, state.vel, state.acc
-        error, moved = (filtered_error(body, modal, gyro, pos, vel, acc, beta, matrix, x) for x in (error, moved))
-        with_error = energies(body, modal, gyro, pos + moved / 2, vel + error / 2)
-        without = energies(body, modal, gyro, pos - moved / 2, vel - error / 2)
-        forces = inertia(body, modal, gyro, pos, vel, acc, beta)[0]
-        return float(sum(with_error) - sum(without) - forces @ moved)
+        frame = self.ring.frame
+        rate, energy = filtered_errors(frame, state.pos, state.vel, state.acc, beta, matrix, error, moved)
+        ringing = np.abs(rate[3:]).max(initial=0.0) / (1 + frame.body.ring_mass) ** 0.5
+        return Errors(largest(np.array([rate[0] + rate[2], rate[1], rate[2], ringing])), energy)

@@ -9,7 +9,10 @@ from numpy.typing import NDArray
 
 from rigid import Scene
 
-from ..contact.forces import EPS_T, LENGTH, element_at
+from ..contact.laws.law import Law
+from ..contact.laws.listing import LAWS
+from ..contact.points.data import Parameters
+from ..contact.points.rim import element_at, gap_at, upward
 from .state import State
 
 Array = NDArray[np.float64]
@@ -18,12 +21,22 @@ Array = NDArray[np.float64]
 POINTS = 24  # to a patch, of a contact
 
 
-def contact_law(scene: Scene, points: int = POINTS) -> Array:
-    """Parameters of the contact, with ``points`` to the patch of a rigid hoop under the disk's weight."""
-    eps = scene.contact.stiffness
+def contact_law(scene: Scene, points: int = POINTS) -> Law:
+    """The scene's friction law, with ``points`` to the patch of a rigid hoop under the disk's weight."""
+    contact, friction = scene.contact, scene.friction
+    eps = float(contact.stiffness)
     half_width = (1.5 / eps) ** (1 / 3)
-    spacing = min(2 * half_width / points, 2 * pi / scene.solve.elements / 8)
-    return np.array([spacing, eps, eps * scene.contact.tangential_ratio, scene.friction.mu_s, scene.friction.mu])
+    law = LAWS[contact.law]
+    parameters = Parameters(
+        law=law.code,
+        spacing=min(2 * half_width / points, 2 * pi / scene.solve.elements / 8),
+        eps_n=eps,
+        eps_t=eps * contact.tangential_ratio,
+        mu_s=float(friction.mu_s),
+        mu=float(friction.mu),
+        slip_scale=float(contact.slip_velocity_scale),
+    )
+    return law(parameters)
 
 
 def patch_stiffness(scene: Scene) -> float:
@@ -67,14 +80,13 @@ class RimContact:
         middle = (vertex + np.append(vertex[1:], vertex[0] + 2 * pi)) / 2
         self._rim_theta = np.column_stack([vertex, middle]).ravel()
         self.law = contact_law(scene, points)
-        self.mu_s = scene.friction.mu_s
         self.tolerance = tolerance
         self.element = 2 * pi / scene.solve.elements
         self.relaxation = relaxation_time(scene)
 
     def patch_damping(self, state: State) -> float:
         """See :class:`flexible.models.state.Model`."""
-        return float(self.relaxation * self.law[EPS_T] * state.res[LENGTH])
+        return self.relaxation * self.law.parameters.eps_t * state.res.length
 
     def window(self, phi: float, low: float, high: float, margin: float) -> tuple[int, int]:
         """First rim element and number of elements of the part ``low`` to ``high`` (angles from the bottom)."""
@@ -91,7 +103,7 @@ class RimContact:
         u = moved.reshape(-1, 2)
         psi = phi - pi + self.rim_angle(np.arange(len(u)))
         psi -= 2 * pi * np.round(psi / (2 * pi))
-        gap = height + 2 * np.sin(psi / 2) ** 2 + u[:, 0] * np.cos(phi) - u[:, 1] * np.sin(phi)
+        gap = gap_at(height, psi, upward(u[:, 0], u[:, 1], np.sin(phi), np.cos(phi)))
         below = psi[gap <= max(0.0, gap.min())]
         return float(below.min()), float(below.max())
 

@@ -8,14 +8,15 @@ contact's own vibrations) it damps, so steps follow the motion and not the stiff
 from __future__ import annotations
 
 from math import sqrt
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from rigid.kernel.compile import jit
 
-from ..contact.forces import ELASTIC, EPS_N, EPS_T, LENGTH, NORMAL, OUTSIDE, SLIP, contact_forces
-from ..ring.frame import inertia
+from ..contact.forces import contact_forces
+from ..contact.points.data import Before, Contact, Damper, Parameters, Rim
+from ..ring.frame import Frame, energies, inertia
 
 TAU = 2 - sqrt(2)  # where the first stage ends, as a fraction of the step
 BETA = TAU / 2
@@ -24,106 +25,144 @@ _W = sqrt(2) / 4
 ERROR_WEIGHTS = (_W - (1 - _W) / 3, _W - (3 * _W + 1) / 3, BETA - BETA / 3)
 
 
+class Predictor(NamedTuple):
+    """A stage's form: pos = ``pos`` + d, vel = ``vel`` + d/``beta``, acc = d/``beta``^2."""
+
+    pos: Any
+    vel: Any
+    beta: float
+    guess: Any  # of d
+
+
+class Window(NamedTuple):
+    """What a ring of modes answers to the floor near which it is: u = shapes q + compliance f."""
+
+    rim: Rim
+    shapes: Any  # (2 nodes, n)
+    compliance: Any  # (2 nodes, 2 nodes)
+
+
+class Solved(NamedTuple):
+    """A stage as compiled code leaves it."""
+
+    iterations: int  # Newton's; negative when it did not converge, or the window was too short
+    d: Any
+    acc: Any
+    u: Any  # (nodes, 2) displacement of the window's nodes
+    matrix: Any  # Newton's last, for the filter of the error estimate
+    contact: Contact
+
+
+@jit
+def _round_off(contact: Contact, height: float, u: Any, scale: float, damper: Damper) -> float:
+    """Size of the rounding errors in the contact's forces: of the gap's, of the damping factor's, of the slip's."""
+    res = contact.res
+    floor = 4e-16 * scale * (abs(height) + np.abs(u).max()) + 1e-14 * (damper.relaxation + 1) * res.elastic
+    floor += 1e-15 * max(damper.drag, res.steepness) * (abs(res.way) + abs(damper.way_0))
+    return floor
+
+
+@jit
+def _assemble(matrix: Any, own: Any, contact: Any, window: Window, scale: float) -> None:
+    """Newton's matrix for frame, modes and window, out of the tangents of inertia and contact."""
+    m = own.shape[0]
+    t_uu, t_ux = contact[3:, 3:].copy(), contact[3:, :3].copy()
+    matrix[:m, :m] = own
+    matrix[:3, :3] -= contact[:3, :3]
+    matrix[:3, m:] = -contact[:3, 3:]
+    if m > 3:
+        columns = window.shapes.T.copy()
+        matrix[3:m, :3] -= columns @ t_ux
+        matrix[3:m, m:] = -(columns @ t_uu)
+        matrix[m:, 3:m] = -scale * window.shapes
+    matrix[m:, :3] = -scale * (window.compliance @ t_ux)
+    matrix[m:, m:] = -scale * (window.compliance @ t_uu)
+    for k in range(m, matrix.shape[0]):
+        matrix[k, k] += scale
+
+
+@jit
+def largest(values: Any) -> float:
+    """Largest absolute value, infinite if any is not a number: comparing with one would pass it over."""
+    most = 0.0
+    for value in values.flat:
+        if not np.isfinite(value):
+            return np.inf
+        most = max(most, abs(value))
+    return most
+
+
 @jit
 def solve_stage(
-    body: Any,
-    modal: Any,
-    gyro: Any,
-    shapes: Any,
-    compliance: Any,
-    first: int,
-    vertex: Any,
-    law: Any,
-    mode: int,
-    old_pose: Any,
-    u_old: Any,
-    bristles: Any,
-    flags: Any,
-    damper: Any,
-    pos_pred: Any,
-    vel_pred: Any,
-    beta: float,
-    guess: Any,
-    u_guess: Any,
-    tolerance: float,
-) -> Any:
+    frame: Frame, window: Window, law: Parameters, mode: int, before: Before, damper: Damper, predictor: Predictor,
+    start: Any,
+) -> Solved:  # fmt: skip
     """Solve one stage.
 
-    ``guess`` and ``u_guess`` start Newton for d and for the displacement of the window's nodes.
-
-    Returns
-    -------
-    iterations : int
-        Newton's; negative when it did not converge.
-    d, u, acc : arrays
-    matrix : (n, n) array
-        Newton's last, for the filter of the error estimate.
-    nodal, resultants, bristles, flags :
-        As :func:`flexible.contact.forces.contact_forces` returns them.
+    ``predictor.guess`` and ``start[0]`` start Newton for d and for the displacement of the window's nodes;
+    ``start[1]`` is the tolerance on forces.
     """
+    pos_pred, vel_pred, beta = predictor.pos, predictor.vel, predictor.beta
+    shapes, compliance = window.shapes, window.compliance
+    u_guess, tolerance = start
+    modal = frame.modal
     n = modal.shape[0]
     nodes = u_guess.shape[0]
     m = 3 + n
     size = m + 2 * nodes
-    d, u = guess.copy(), u_guess.copy()
+    d, u = predictor.guess.copy(), u_guess.copy()
     matrix = np.empty((size, size))
     residual = np.empty(size)
+    update = np.zeros(size)
     iterations = -1
-    last = np.inf
+    damping, last = 1.0, np.inf
+    way, reach = 0.0, np.inf
     softest = np.abs(compliance).max()
     for iteration in range(25):
         pos = pos_pred + d
         acc = d / beta**2
         vel = vel_pred + d / beta
-        force, nodal, tangent, res, new_bristles, new_flags = contact_forces(
-            pos[:3], u, first, vertex, law, mode, old_pose, u_old, bristles, flags, damper
-        )
-        own, own_tangent = inertia(body, modal, gyro, pos, vel, acc, beta)
-        flat = nodal.copy().reshape(2 * nodes)
-        t_uu = tangent[3:, 3:].copy()
-        t_ux = tangent[3:, :3].copy()
-        scale = 1.0 + (law[EPS_N] + law[EPS_T]) * res[LENGTH]  # turns an error of u into one of the forces
+        contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper)
+        force, tangent, res = contact.force, contact.tangent, contact.res
+        # across the bend of a smoothed friction Newton would go to and fro for ever
+        if res.elastic > 0 and abs(res.way - way) > 1.5 * reach:
+            share = reach / abs(res.way - way)
+            back = damping * (1 - share)
+            damping *= share
+            d += back * update[:m]
+            u += back * update[m:].reshape(nodes, 2)
+            continue
+        way, reach = res.way, res.reach
+        own, own_tangent = inertia(frame, pos, vel, acc, beta)
+        flat = contact.nodal.copy().reshape(2 * nodes)
+        scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
         moved = compliance @ flat
-        worst, astray = 0.0, 0.0  # of forces, and of displacements as forces on the foundation
         for i in range(3):
             residual[i] = own[i] - force[i]
-            worst = max(worst, abs(residual[i]))
         for i in range(n):
             pushed = 0.0
             for k in range(2 * nodes):
                 pushed += shapes[k, i] * flat[k]
             residual[3 + i] = own[3 + i] - pushed
-            worst = max(worst, abs(residual[3 + i]))
         for k in range(2 * nodes):
             modal_part = 0.0
             for i in range(n):
                 modal_part += shapes[k, i] * pos[3 + i]
             residual[m + k] = scale * (u[k // 2, k % 2] - modal_part - moved[k])
-            astray = max(astray, abs(residual[m + k]))
-        # below this, the forces are round-off of the gap
-        floor = 4e-16 * scale * (abs(pos[1]) + np.abs(u).max()) + 1e-14 * (damper[0] + 1) * res[ELASTIC]
-        floor += 1e-15 * damper[3] * (abs(res[SLIP]) + abs(damper[4]))
-        small = tolerance * (1 + res[NORMAL]) + floor
+        # of forces, and of displacements as forces on the foundation
+        worst, astray = largest(residual[:m]), largest(residual[m:])
+        small = tolerance * (1 + res.normal) + _round_off(contact, pos[1], u, scale, damper)
+        if not np.isfinite(worst + astray + small):
+            break
         # a ring softer than the foundation moves by its compliance times what the forces may be off
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
             iterations = iteration
             break
         worst = max(worst, astray)
-        if not np.isfinite(worst):
-            break
-        matrix[:m, :m] = own_tangent
-        matrix[:3, :3] -= tangent[:3, :3]
-        matrix[:3, m:] = -tangent[:3, 3:]
-        if n > 0:
-            columns = shapes.T.copy()
-            matrix[3:m, :3] -= columns @ t_ux
-            matrix[3:m, m:] = -(columns @ t_uu)
-            matrix[m:, 3:m] = -scale * shapes
-        matrix[m:, :3] = -scale * (compliance @ t_ux)
-        matrix[m:, m:] = -scale * (compliance @ t_uu)
-        for k in range(2 * nodes):
-            matrix[m + k, m + k] += scale
+        _assemble(matrix, own_tangent, tangent, window, scale)
         update = np.linalg.solve(matrix, residual)
+        if not np.isfinite(largest(update)):
+            break
         damping = 1.0
         if iteration > 3 and worst > last:
             damping = 0.5
@@ -132,22 +171,34 @@ def solve_stage(
             d[i] -= damping * update[i]
         for k in range(2 * nodes):
             u[k // 2, k % 2] -= damping * update[m + k]
-    acc = d / beta**2
-    if res[OUTSIDE] != 0:
+    if contact.outside:
         iterations = -2
-    return iterations, d, u, acc, matrix, nodal, res, new_bristles, new_flags
+    return Solved(iterations, d, d / beta**2, u, matrix, contact)
 
 
 @jit
-def filtered_error(
-    body: Any, modal: Any, gyro: Any, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any
-) -> Any:
-    """An error of velocities or positions as the step itself passes it on: (M + beta C + beta^2 K)^-1 M times it.
+def filtered_errors(
+    frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any, moved: Any
+) -> tuple[Any, float]:
+    """Errors of velocities and positions as the step itself passes them on: (M + beta C + beta^2 K)^-1 M times each.
 
     What the step does not resolve, and damps, would otherwise hold the steps down to the vibrations' periods.
+
+    Returns
+    -------
+    error : (3 + n,) array
+        That of the velocities.
+    energy : float
+        What comes with both, beyond the work of the floor's forces.
     """
-    with_error = inertia(body, modal, gyro, pos, vel, acc + error, beta)[0]
-    without = inertia(body, modal, gyro, pos, vel, acc, beta)[0]
-    load = np.zeros(matrix.shape[0])
-    load[: pos.shape[0]] = (with_error - without) / beta**2
-    return np.linalg.solve(matrix, load)[: pos.shape[0]]
+    size = pos.shape[0]
+    forces = inertia(frame, pos, vel, acc, beta)[0]
+    loads = np.zeros((matrix.shape[0], 2))
+    loads[:size, 0] = (inertia(frame, pos, vel, acc + error, beta)[0] - forces) / beta**2
+    loads[:size, 1] = (inertia(frame, pos, vel, acc + moved, beta)[0] - forces) / beta**2
+    passed = np.linalg.solve(matrix, loads)
+    rate, way = passed[:size, 0].copy(), passed[:size, 1].copy()
+    after = energies(frame, pos + way / 2, vel + rate / 2)
+    before = energies(frame, pos - way / 2, vel - rate / 2)
+    gained = after[0] + after[1] + after[2] - before[0] - before[1] - before[2]
+    return rate, gained - (forces * way).sum()

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..contact.forces import BRISTLE_ENERGY, FRICTION, LENGTH, NORMAL, NORMAL_ENERGY, STUCK
+from ..contact.laws.law import Law
+from ..contact.points.data import Bristles, Damper, Resultants
+from .stage import Predictor
 
 Array = NDArray[np.float64]
 
@@ -26,25 +28,46 @@ class State:
     window: tuple[int, int]  # first rim element and number of elements
     u: Array
     nodal: Array
-    res: Array
-    bristles: Array
-    flags: NDArray[np.int8]
+    res: Resultants
+    bristles: Bristles
     slip_velocity: float
     elastic_rate: float = 0.0  # of N_el
+    feet_velocity: float = 0.0  # of the feet of a sliding patch's bristles, along the floor
 
     @property
     def normal_force(self) -> float:
-        return float(self.res[NORMAL])
+        return self.res.normal
 
     @property
     def friction_force(self) -> float:
-        return float(self.res[FRICTION])
+        return self.res.friction
+
+
+class Stage(NamedTuple):
+    """One stage of a step, solved or not; of one that is not, only ``ok`` has a meaning."""
+
+    ok: bool
+    d: Any = None  # increment of pos
+    acc: Any = None
+    matrix: Any = None  # Newton's; the model's own business
+    window: Any = None
+    u: Any = None
+    nodal: Any = None
+    res: Any = None
+    bristles: Any = None
+
+
+class Errors(NamedTuple):
+    """Of a step."""
+
+    momentum: float  # an impulse over M: a tolerance is the same share of the impulses whatever the mass of the hoop
+    energy: float  # gained, beyond the work of all forces of the floor
 
 
 class Model(Protocol):
     """What the march needs of a level of fidelity."""
 
-    mu_s: float
+    law: Law
     relaxation: float
 
     def patch_damping(self, state: State) -> float:
@@ -54,28 +77,21 @@ class Model(Protocol):
         self,
         old: State,
         mode: int,
-        damper: Array,
-        pos_pred: Array,
-        vel_pred: Array,
-        beta: float,
-        guess: Array,
-        near: tuple[tuple[int, int], Array] | None = None,
-    ) -> Any:
-        """Solve one stage: (ok, d, acc, matrix, window, u, nodal, res, bristles, flags).
+        damper: Damper,
+        predictor: Predictor,
+        near: Stage | None = None,
+    ) -> Stage:
+        """Solve one stage; the ring starts from the stage ``near``, if that had the same window.
 
-        ``guess`` starts the increment, ``near`` (a window and its displacement) the ring.
+        Whatever fails in it is a stage that is not ok, or a LinAlgError.
         """
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity, ring strain."""
 
-    def momentum_error(self, state: State, beta: float, matrix: Any, error: Array) -> float:
-        """Size of an error in the velocities after a step that ended with Newton's ``matrix``: an impulse over M, so
-        that a tolerance is the same share of the impulses whatever the mass of the hoop."""
-
-    def energy_error(self, state: State, beta: float, matrix: Any, error: Array, moved: Array) -> float:
-        """Energy, beyond the work of all forces of the floor, that comes with an error in the velocities and ``moved``
-        in the positions."""
+    def errors(self, state: State, beta: float, matrix: Any, error: Array, moved: Array) -> Errors:
+        """Size and energy of an ``error`` in the velocities and ``moved`` in the positions, after a step whose last
+        matrix of Newton is ``matrix``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,14 +148,14 @@ def record(model: Model, state: State, books: Books) -> Record:
         y_C=1 + float(state.pos[1]),
         slip_velocity=state.slip_velocity,
         approach_velocity=float(state.vel[1]),
-        normal_force=float(res[NORMAL]),
-        friction_force=float(res[FRICTION]),
-        patch_length=float(res[LENGTH]),
-        stick_fraction=float(res[STUCK]),
+        normal_force=res.normal,
+        friction_force=res.friction,
+        patch_length=res.length,
+        stick_fraction=res.stuck,
         kinetic=kinetic,
         gravity=gravity,
         ring_strain=strain,
-        contact_spring=float(res[NORMAL_ENERGY] + res[BRISTLE_ENERGY]),
+        contact_spring=res.normal_energy + res.bristle_energy,
         normal_impulse=books.normal_impulse,
         friction_impulse=books.friction_impulse,
         friction_loss=books.friction_loss,

@@ -2,5 +2,6 @@
 
 ``recovery``  displacement, velocity and stress of the whole ring at an instant
 ``rim``, ``patch``, ``curves``  the rim as a line, pressure and friction along the patch, N(t) and F(t)
+``instants``  which instants become frames, and the hoop at each of them
 ``fields``    all of it as a PVD + VTU series
 """

@@ -12,7 +12,7 @@ _NAMES = ("normal_force", "friction_force", "slip_velocity")
 
 
 def curves(motion: FlexibleMotion, start: float, stop: float, between: int = 400) -> dict[str, Any]:
-    """Curves from ``start`` to ``stop``: every step of the flexible stretches, samples elsewhere.
+    """Curves from ``start`` to ``stop``: every step of the flexible segments, samples elsewhere.
 
     Returns
     -------

@@ -15,7 +15,7 @@ of width R, and R/b times as large for another.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import floor, log10
 from pathlib import Path
 from typing import Any
@@ -32,20 +32,18 @@ from meshes import (
     bending_stress,
     disk_block,
     floor_block,
-    frame_times,
     hoop_stress,
     ring_block,
     von_mises,
 )
 from meshes.draw.scales import tidy
 from meshes.draw.style import SI_UNITS, UNITS
-from rigid import Pulse, Scene
+from rigid import Scene
 
-from ..models.state import State
-from ..motion import FlexibleMotion, Kept
+from ..motion import FlexibleMotion
 from ..ring.fem import ring_of
-from ..time.tr_bdf2 import advanced
 from .curves import curves
+from .instants import Instant, instants_at, times_of
 from .recovery import Interior, interior_of
 from .rim import RIM_FIELDS, rim_of
 
@@ -65,21 +63,6 @@ RING_FIELDS = (
 FIELDS = RING_FIELDS + RIM_FIELDS
 
 _TOGETHER = 50  # frames that are computed at once
-_AROUND = 0.25  # by default the frames begin and end this share of a pulse before and after it
-
-
-@dataclass(frozen=True, slots=True)
-class _Instant:
-    """A frame to be: where the hoop is, and the ring's state if it is elastic there, with its neighbours."""
-
-    t: float
-    place: Placement
-    velocity_C: tuple[float, float]
-    omega: float
-    kept: Kept | None = None
-    state: State | None = None
-    before: State | None = None
-    after: State | None = None
 
 
 def write_fields(
@@ -121,11 +104,10 @@ def write_fields(
         raise SeriesError(f"fields = {', '.join(unknown) or 'none'} is not possible: they are {', '.join(FIELDS)}.")
     if not motion.kept and motion.history is None:
         raise SeriesError("the motion kept no states of the ring: simulate(scene, history=True) does.")
-    when = _times(motion, frames, times, pulse)
+    when = times_of(motion, frames, times, pulse)
     scene = motion.scene
     si = not scene.hoop.R == scene.hoop.m == scene.hoop.g == 1
-    clocks = [np.array([state.t for state in kept.states]) for kept in motion.kept]
-    instants = [_instant(motion, clocks, float(t) / scene.time_unit, float(t)) for t in when]
+    instants = instants_at(motion, when)
     painter = _Painter(scene, asked, instants)
     with SeriesWriter(directory, SI_UNITS if si else UNITS, _title(scene)) as writer:
         writer.history(**curves(motion, float(when[0]), float(when[-1])))
@@ -155,68 +137,10 @@ def _short(value: float) -> str:
     return power if mantissa == "1" else f"{mantissa}·{power}"
 
 
-def _times(motion: FlexibleMotion, frames: int, times: ArrayLike | None, pulse: int | None) -> Array:
-    end = motion.t_end
-    if times is not None:
-        listed = np.unique(np.asarray(times, dtype=float))
-        if not listed.size or not (listed[0] >= 0 and listed[-1] <= end * (1 + 1e-12)):
-            raise SeriesError(f"times are not possible: they must lie between 0 and {end:g}, the end of the motion.")
-        return listed
-    if frames < 2:
-        raise SeriesError(f"frames = {frames!r} is not possible: it takes at least 2.")
-    start = 0.0
-    if pulse is not None and motion.pulses:
-        if not 0 <= pulse < len(motion.pulses):
-            raise SeriesError(f"pulse = {pulse!r} is not possible: the motion has {len(motion.pulses)}.")
-        start, end = _around(motion, motion.pulses[pulse])
-    if not start < end:
-        raise SeriesError(f"there is no stretch of time to show from t = {start:g} on: {motion.ended}.")
-    history = motion.history
-    if history is None or not len(history.t):
-        return frame_times(start, end, frames)
-    return frame_times(start, end, frames, history.t, history.normal_force)
-
-
-def _around(motion: FlexibleMotion, pulse: Pulse) -> tuple[float, float]:
-    """From a little before a pulse to a little after it, as far as the hoop is flexible there."""
-    margin, unit = _AROUND * (pulse.t_end - pulse.t_start), motion.scene.time_unit
-    start, end = max(0.0, pulse.t_start - margin), min(motion.t_end, pulse.t_end + margin)
-    for kept in motion.kept:
-        first, last = kept.states[0].t * unit, kept.states[-1].t * unit
-        if first <= (pulse.t_start + pulse.t_end) / 2 <= last:
-            start, end = max(start, first), min(end, last)
-    return start, end
-
-
-def _instant(motion: FlexibleMotion, clocks: list[Array], t: float, told: float) -> _Instant:
-    """The state at ``t``, in the solver's units; ``told`` is the same time in the scene's.
-
-    ``clocks`` are the times of the kept states.
-    """
-    for kept, steps in zip(motion.kept, clocks, strict=True):
-        first, last = steps[0], steps[-1]
-        if not first - 1e-12 * last <= t <= last * (1 + 1e-12):
-            continue
-        i = min(max(int(np.searchsorted(steps, t, side="right")) - 1, 0), len(steps) - 2)
-        before, after = kept.states[i], kept.states[i + 1]
-        state: State | None = before
-        if t > before.t:
-            state = after if t >= after.t else advanced(kept.hoop, before, t)
-        if state is None:
-            state = min(before, after, key=lambda s: abs(s.t - t))
-        place = Placement(float(state.pos[2]), state.x_C, 1 + float(state.pos[1]))
-        velocity = (float(state.vel[0] + state.vel[2]), float(state.vel[1]))
-        return _Instant(told, place, velocity, float(state.vel[2]), kept, state, before, after)
-    now, R, unit = motion.at(told), motion.scene.hoop.R, motion.scene.velocity_unit
-    place = Placement(float(now.phi), float(now.x_C) / R, float(now.y_C) / R)
-    omega = float(now.omega) * motion.scene.time_unit
-    return _Instant(told, place, (omega + float(now.slip_velocity) / unit, 0.0), omega)
-
-
 class _Painter:
     """Instants to frames, in the units of the scene."""
 
-    def __init__(self, scene: Scene, asked: tuple[str, ...], instants: list[_Instant]) -> None:
+    def __init__(self, scene: Scene, asked: tuple[str, ...], instants: list[Instant]) -> None:
         self.scene, self.asked = scene, set(asked)
         self.interiors = {id(i.kept): interior_of(i.kept.hoop) for i in instants if i.kept is not None}
         hoop = scene.hoop
@@ -228,8 +152,8 @@ class _Painter:
         self.mesh = next((interior.mesh for interior in self.interiors.values()), ring_of(scene).mesh)
         self.factor = np.array([self._display_factor(instants)])
 
-    def frames(self, instants: list[_Instant]) -> Iterator[Frame]:
-        """Frames of some instants, those of one stretch done at once."""
+    def frames(self, instants: list[Instant]) -> Iterator[Frame]:
+        """Frames of some instants, those of one segment done at once."""
         done: dict[int, dict[str, Array]] = {}
         for key in dict.fromkeys(id(i.kept) for i in instants if i.kept is not None):
             own = [i for i in instants if id(i.kept) == key]
@@ -237,7 +161,7 @@ class _Painter:
         for instant in instants:
             yield self._frame(instant, done.get(id(instant)))
 
-    def _ring_fields(self, interior: Interior, instants: list[_Instant]) -> Iterator[dict[str, Array]]:
+    def _ring_fields(self, interior: Interior, instants: list[Instant]) -> Iterator[dict[str, Array]]:
         """Nodal fields in the disk's frame, those that were asked for."""
         states = [i.state for i in instants if i.state is not None]
         u = interior.displacement(states)
@@ -253,7 +177,7 @@ class _Painter:
         for number in range(len(instants)):
             yield {name: values[..., number] for name, values in found.items()}
 
-    def _frame(self, instant: _Instant, found: dict[str, Array] | None) -> Frame:
+    def _frame(self, instant: Instant, found: dict[str, Array] | None) -> Frame:
         mesh, place, R = self.mesh, instant.place, self.length
         count = len(mesh.points)
         if found is None:
@@ -274,9 +198,10 @@ class _Painter:
         ring = replace(ring, field_data={"display_factor": self.factor})
         blocks = {"ring": ring}
         if self.asked & set(RIM_FIELDS):
-            hoop = None if instant.kept is None else instant.kept.hoop
+            kept, state = instant.kept, instant.state
+            contact = None if kept is None or state is None else (kept.hoop, state)
             on_rim: dict[str, Array] = {n: nodal[n] for n in ("displacement", "velocity") if n in nodal}
-            blocks["rim"] = rim_of(mesh, points, on_rim, hoop, instant.state, place, self.asked, self.stress, R)
+            blocks["rim"] = rim_of(mesh, points, on_rim, contact, place, self.asked, self.stress, R)
         inner = 1 - self.scene.wall
         radius = max(self.scene.hoop.k * inner, 0.025)  # a point mass has to be seen too
         centre = R * place.points(np.array([[inner - radius, 0.0]]))[0]
@@ -295,7 +220,7 @@ class _Painter:
             made |= {name: value for name, value in both.items() if name in self.asked}
         return made
 
-    def _display_factor(self, instants: list[_Instant]) -> float:
+    def _display_factor(self, instants: list[Instant]) -> float:
         """What makes the largest displacement about 6 % of R in pictures."""
         elastic = [i for i in instants if i.state is not None]
         some = elastic[:: max(1, len(elastic) // 30)]

@@ -8,8 +8,8 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from ..contact.forces import BRUSH, DRAG, ELASTIC, EPS_N, EPS_T, ETA, MU, SPACING, STICK
-from ..contact.friction import SLIDE_LEFT, SLIDE_RIGHT, edge_of_patch
+from ..contact.points.bristles import edge_of_patch
+from ..contact.points.rim import element_at, gap_at, shape_functions, upward, vertex_angle
 from ..models.rim_contact import RimContact
 from ..models.state import State
 
@@ -44,11 +44,12 @@ class Profile:
 
 def profile(hoop: RimContact, state: State) -> Profile:
     """The profile at a state; empty off the floor."""
-    if not len(state.bristles):
+    if not len(state.bristles.number):
         none = np.empty(0)
         return Profile(none, none, none, np.empty(0, np.int8))
-    spacing, eps_n, eps_t = (float(hoop.law[i]) for i in (SPACING, EPS_N, EPS_T))
-    number = state.bristles[:, 0].astype(np.int64)
+    law, number = hoop.law, state.bristles.number
+    spacing = law.parameters.spacing
+    sticks = law.sticks(state.mode)
     parts = np.split(np.arange(len(number)), np.flatnonzero(np.diff(number) > 1) + 1)
     pieces = []
     for part in parts:
@@ -58,19 +59,17 @@ def profile(hoop: RimContact, state: State) -> Profile:
         on_floor = np.flatnonzero(gap < 0)
         if not len(on_floor):
             continue
-        held, flags = np.full(len(around), np.nan), np.zeros(len(around))
-        held[1:-1], flags[1:-1] = -eps_t * state.bristles[part, 1], state.flags[part]
-        if state.mode in (SLIDE_RIGHT, SLIDE_LEFT):
-            held = -state.mode * hoop.law[MU] * eps_n * np.minimum(gap, 0.0) * state.res[ETA]
-        elastic = -eps_n * np.minimum(gap, 0.0)
-        if state.res[ELASTIC] > 0:
-            held += state.res[DRAG] * elastic / state.res[ELASTIC]
-        slips = flags != 0 if state.mode == BRUSH else np.full(len(around), state.mode != STICK)
+        stretch, sliding = np.full(len(around), np.nan), np.zeros(len(around))
+        stretch[1:-1], sliding[1:-1] = state.bristles.stretch[part], state.bristles.sliding[part]
+        elastic = -law.parameters.eps_n * np.minimum(gap, 0.0)
+        held = law.pulls(state, stretch, elastic)
+        # what the damper drags is shared like the pressure and ends with it, not with the bristles
+        dragged = state.res.damping * elastic / state.res.elastic if state.res.elastic > 0 else 0 * elastic
         inside = slice(on_floor[0], on_floor[-1] + 1)
-        sticks = np.where(slips, SLIPS, STICKS)
-        columns = [theta[inside], state.res[ETA] * elastic[inside], held[inside], sticks[inside]]
+        stick = np.where(law.slipping(state, sliding), SLIPS, STICKS)
+        columns = [theta[inside], state.res.eta * elastic[inside], held[inside], stick[inside]]
         for end, way in ((on_floor[0], -1), (on_floor[-1], 1)):
-            share, pull = _beyond(gap, held, end, way, state.mode)
+            share, pull = _beyond(gap, held - dragged, end, way, sticks)
             edge = [theta[end] + way * spacing * share, np.zeros(3), pull, np.full(3, FREE)]
             columns = [np.concatenate([e[::-1], c] if way < 0 else [c, e]) for c, e in zip(columns, edge, strict=True)]
         pieces.append(columns)
@@ -80,32 +79,27 @@ def profile(hoop: RimContact, state: State) -> Profile:
 
 def _gap(hoop: RimContact, state: State, theta: Array) -> Array:
     """Gap of material points, on the displacement that the contact used."""
-    vertex = hoop.vertex
-    turn = np.floor((theta - vertex[0]) / (2 * pi))
-    element = np.searchsorted(vertex, theta - 2 * pi * turn, side="right") - 1
-    element = element + turn.astype(np.int64) * len(vertex)
-    first, count = state.window
-    element = np.clip(element, first, first + count - 1)
-    start, end = (vertex[e % len(vertex)] + 2 * pi * (e // len(vertex)) for e in (element, element + 1))
-    xi = (theta - start) / (end - start)
+    vertex, (first, count) = hoop.vertex, state.window
+    element = np.clip([element_at(vertex, angle) for angle in theta], first, first + count - 1)
+    start, end = vertex_angle(vertex, element), vertex_angle(vertex, element + 1)
     k = 2 * (element - first)
-    shape = np.stack([(1 - xi) * (1 - 2 * xi), 4 * xi * (1 - xi), xi * (2 * xi - 1)])
-    u = sum(shape[i][:, None] * state.u[k + i] for i in range(3))
+    u = sum(n[:, None] * state.u[k + i] for i, n in enumerate(shape_functions((theta - start) / (end - start))))
     phi, height = state.pos[2], state.pos[1]
-    return height + 2 * np.sin((phi + theta - pi) / 2) ** 2 + u[:, 0] * np.cos(phi) - u[:, 1] * np.sin(phi)
+    gap: Array = gap_at(height, phi + theta - pi, upward(u[:, 0], u[:, 1], np.sin(phi), np.cos(phi)))
+    return gap
 
 
-def _beyond(gap: Array, held: Array, end: int, way: int, mode: int) -> tuple[Array, Array]:
+def _beyond(gap: Array, held: Array, end: int, way: int, sticks: bool) -> tuple[Array, Array]:
     """Where, in spacings beyond the last touching point, pressure and then friction end (twice), and friction there.
 
-    The pressure's edge is that of :mod:`flexible.contact.normal`, on a straight gap, and so is that of whatever slides;
-    that of a sticking patch lies on the parabola of :mod:`flexible.contact.friction`.
+    The pressure's edge is that of :mod:`flexible.contact.points.normal`, on a straight gap, and so is that of whatever
+    slides; that of a patch that sticks as a whole lies on the parabola of :mod:`flexible.contact.points.bristles`.
     """
     straight = curved = gap[end] / (gap[end] - gap[end + way])
-    if mode == STICK and 0 <= end - way < len(gap):
+    if sticks and 0 <= end - way < len(gap):
         curved = max(straight, edge_of_patch(gap[end], gap[end + way], gap[end - way])[0])
     share = np.array([straight, curved, curved])
-    if mode == STICK and not np.isnan(held[end + way]):  # points leave here, stretched
+    if sticks and not np.isnan(held[end + way]):  # points leave here, stretched
         pull = held[end] + share * (held[end + way] - held[end])
     else:
         pull = held[end] * (1 - share / curved)

@@ -20,7 +20,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from meshes.gradient import gauss_gradient, nodal_gradient
+from meshes import gauss_gradient, nodal_gradient
 from rigid import SceneError
 
 from ..models.chain import ChainHoop
@@ -146,7 +146,7 @@ class ReducedInterior(Interior):
         moved: Array = self.ring.solve(load)
         if self.mass > 0:
             shapes = self.reduced.shapes
-            return moved / self.young - shapes @ ((shapes.T @ load) / self.reduced.modal[:, :1])
+            return moved / self.young - shapes @ ((shapes.T @ load) / self.reduced.frame.modal[:, :1])
         return moved / self.young
 
     def _dynamic_rate(self, states: Sequence[State]) -> Array | float:

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from meshes import Block, Placement, RingMesh
 from meshes.fields import LINE
 
+from ..contact.points.rim import shape_functions
 from ..models.rim_contact import RimContact
 from ..models.state import State
 from .patch import FREE, Profile, profile
@@ -24,8 +25,7 @@ def rim_of(
     mesh: RingMesh,
     points: Array,
     nodal: dict[str, Array],
-    hoop: RimContact | None,
-    state: State | None,
+    contact: tuple[RimContact, State] | None,
     place: Placement,
     asked: set[str],
     stress: float,
@@ -40,7 +40,7 @@ def rim_of(
         Undeformed nodes in the world.
     nodal : mapping of (n_nodes, 2) arrays
         Fields of the ring that the rim gets too.
-    hoop, state : RimContact, State or None
+    contact : (RimContact, State) or None
         The contact at this instant; None while the hoop is rigid.
     place : Placement
     asked : set of str
@@ -60,7 +60,7 @@ def rim_of(
         "traction": np.zeros(len(rim)),
         "stick": np.full(len(rim), FREE, np.int8),
     }
-    patch = profile(hoop, state) if hoop is not None and state is not None else None
+    patch = profile(*contact) if contact is not None else None
     if patch is not None and len(patch.theta):
         # from -pi on, as the mesh counts
         extra = (patch.theta - theta[0]) % (2 * pi) + theta[0]
@@ -99,6 +99,6 @@ def _quadratic(extra: Array, theta: Array) -> tuple[Array, NDArray[np.int64]]:
     element = np.clip(np.searchsorted(vertex, extra, side="right") - 1, 0, len(vertex) - 1)
     ends = np.append(vertex, vertex[0] + 2 * pi)
     xi = (extra - ends[element]) / (ends[element + 1] - ends[element])
-    shape = np.column_stack([(1 - xi) * (1 - 2 * xi), 4 * xi * (1 - xi), xi * (2 * xi - 1)])
+    shape = np.column_stack(shape_functions(xi))
     positions = (2 * element[:, None] + np.arange(3)) % count
     return shape, positions

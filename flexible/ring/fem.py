@@ -17,7 +17,7 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from skfem import Basis, BilinearForm
 from skfem.helpers import ddot, dot, sym_grad, trace
 
-from meshes.ring import RingMesh, ring_mesh
+from meshes import RingMesh, ring_mesh
 from rigid import Scene
 
 Array = NDArray[np.float64]

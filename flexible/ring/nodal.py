@@ -11,20 +11,36 @@ equilibrium at every stage: the same equations with M = 0.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import cos, sin
+from typing import Any, cast
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
+from scipy.sparse.linalg import splu
 
 from rigid import Scene
 
 from .fem import Ring, membrane_stiffness
-from .frame import DISK_INERTIA, OFFSET, RING_INERTIA, RING_MASS
-from .reduction import body_constants
+from .reduction import body_of
 
 Array = NDArray[np.float64]
+
+
+def factored(matrix: sp.csc_matrix, **options: Any) -> Callable[[Array], Array]:
+    """What solves with a sparse matrix.
+
+    Raises
+    ------
+    LinAlgError
+        As any other solver does: the matrix is singular.
+    """
+    try:
+        return cast("Callable[[Array], Array]", splu(matrix, **options).solve)
+    except RuntimeError as error:
+        raise np.linalg.LinAlgError(str(error)) from None
 
 
 class NodalRing:
@@ -35,8 +51,7 @@ class NodalRing:
     ring : Ring
     stiffness : float
         E b.
-    body : (4,) array
-        See :mod:`flexible.ring.frame`.
+    body : Body
     mass : (n, n) sparse
         Consistent mass of the free dofs.
     along : (2, n) array
@@ -50,7 +65,7 @@ class NodalRing:
     def __init__(self, scene: Scene, ring: Ring) -> None:
         self.ring = ring
         self.stiffness = membrane_stiffness(scene)
-        self.body = body_constants(scene)
+        self.body = body_of(scene)
         ratio = scene.hoop.mass_ratio
         self.massless = ratio == 0
         self.mass: sp.csc_matrix = (ring.free_mass * ratio).tocsc()
@@ -112,7 +127,7 @@ class Inertia:
 def inertia(ring: NodalRing, pos: Array, vel: Array, acc: Array, beta: float) -> Inertia:
     """Inertial, gravitational and elastic forces of frame and ring; see :func:`flexible.ring.frame.inertia`."""
     body = ring.body
-    offset, mass = body[OFFSET], body[RING_MASS]
+    offset, mass = body.offset, body.ring_mass
     s, c = sin(pos[2]), cos(pos[2])
     w, alpha = vel[2], acc[2]
     ax, ay = acc[0] + alpha, acc[1] + 1.0
@@ -123,12 +138,12 @@ def inertia(ring: NodalRing, pos: Array, vel: Array, acc: Array, beta: float) ->
     dx_phi = offset * (-alpha * s - w * w * c - 2 * w * s * r1 + c * r2) + r2
     dy_phi = -offset * (alpha * c - w * w * s + 2 * w * c * r1 + s * r2)
     lever = 1 + offset * c
-    frame = np.array([dx, dy, dx * lever - dy * offset * s + body[DISK_INERTIA] * alpha])
+    frame = np.array([dx, dy, dx * lever - dy * offset * s + body.disk_inertia * alpha])
     by_frame = np.zeros((3, 3))
     by_frame[0, 0] = by_frame[1, 1] = r2
     by_frame[0, 2], by_frame[1, 2] = dx_phi, dy_phi
     by_frame[2, 0], by_frame[2, 1] = lever * r2, -offset * s * r2
-    by_frame[2, 2] = dx_phi * lever - (dx + dy_phi) * offset * s - dy * offset * c + body[DISK_INERTIA] * r2
+    by_frame[2, 2] = dx_phi * lever - (dx + dy_phi) * offset * s - dy * offset * c + body.disk_inertia * r2
     by_ring, of_frame = np.zeros((3, len(u))), np.zeros((len(u), 3))
     forces = ring.elastic(u)
     if ring.massless:
@@ -141,7 +156,7 @@ def inertia(ring: NodalRing, pos: Array, vel: Array, acc: Array, beta: float) ->
     spread, spun = ring.stretching + m_u, ring.rotation + turn_u
     a1, a2 = ax * s + ay * c, ax * c - ay * s
     (s1, s1_v, s1_a), (s2, s2_v, s2_a) = ((l @ u, l @ v, l @ a) for l in (l1, l2))
-    moment = body[RING_INERTIA] + (ring.stretching + spread) @ u
+    moment = body.ring_inertia + (ring.stretching + spread) @ u
     rate = spread @ v
     f1 = mass * a1 - alpha * s2 - 2 * w * s2_v - w * w * s1 + s1_a
     f2 = mass * a2 + alpha * s1 + 2 * w * s1_v - w * w * s2 + s2_a

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from .fem import Ring, membrane_stiffness, ring_of
+from .frame import Body, Frame
 
 Array = NDArray[np.float64]
 
@@ -24,12 +25,8 @@ class ReducedRing:
 
     Attributes
     ----------
-    body : (4,) array
-        Disk offset, disk inertia, ring mass, ring inertia (see :mod:`flexible.ring.frame`).
-    modal : (n, 5) array
-        Squared frequency and participations of each mode.
-    gyro : (n, n) array
-        Gyroscopic coupling.
+    frame : Frame
+        Rigid parts and modes.
     shapes : (n_free, n) array
         Modes on the free dofs: those that are integrated, and therefore those that are drawn.
     rim_shapes : (2 n_rim, n) array
@@ -40,9 +37,7 @@ class ReducedRing:
 
     ring: Ring
     stiffness: float
-    body: Array
-    modal: Array
-    gyro: Array
+    frame: Frame
     shapes: Array
     rim_shapes: Array
     vertex: Array
@@ -55,7 +50,7 @@ class ReducedRing:
 
     def compliance(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> Array:
         """Residual static compliance: displacement of some rim dofs under unit forces on others."""
-        held = (self.rim_shapes[rows] / self.modal[:, 0]) @ self.rim_shapes[columns].T
+        held = (self.rim_shapes[rows] / self.frame.modal[:, 0]) @ self.rim_shapes[columns].T
         return self.ring.rim_block(rows, columns) / self.stiffness - held
 
     def dofs(self, first: int, count: int) -> NDArray[np.int64]:
@@ -64,12 +59,13 @@ class ReducedRing:
         return np.column_stack([2 * nodes, 2 * nodes + 1]).ravel()
 
 
-def body_constants(scene: Scene) -> Array:
-    """Disk offset, disk inertia, ring mass and ring inertia about C of a scene."""
+def body_of(scene: Scene) -> Body:
+    """The rigid parts of a scene's hoop."""
     hoop = scene.hoop
     offset = (1 - hoop.k) / hoop.r
     inner = 1 - scene.wall
-    return np.array([offset, (hoop.k / hoop.r) ** 2 / 2, hoop.mass_ratio, hoop.mass_ratio * (1 + inner**2) / 2])
+    mass = float(hoop.mass_ratio)
+    return Body(offset, (hoop.k / hoop.r) ** 2 / 2, mass, mass * (1 + inner**2) / 2)
 
 
 def reduce(scene: Scene, modes: int = 24, ring: Ring | None = None) -> ReducedRing:
@@ -101,9 +97,7 @@ def reduce(scene: Scene, modes: int = 24, ring: Ring | None = None) -> ReducedRi
     return ReducedRing(
         ring=ring,
         stiffness=stiffness,
-        body=body_constants(scene),
-        modal=np.ascontiguousarray(modal),
-        gyro=np.ascontiguousarray(gyro),
+        frame=Frame(body_of(scene), np.ascontiguousarray(modal), np.ascontiguousarray(gyro)),
         shapes=shapes,
         rim_shapes=np.ascontiguousarray(shapes[ring.rim_dofs]),
         vertex=np.ascontiguousarray(ring.mesh.rim_theta[::2]),

@@ -8,40 +8,71 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import NamedTuple
 
-from ..contact.forces import BRISTLE_ENERGY, BRUSH, ELASTIC, FRICTION, NORMAL, SLIDE_LEFT, SLIDE_RIGHT, STICK
 from ..models.state import Books, Model, Record, State, record
-from .tr_bdf2 import MarchError, Trial, attempt, restart
+from .events import MODE_ENDS, TURN, Ends, locate, passed, watches
+from .tr_bdf2 import MarchError, Step, attempt, restart
+
+SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
+AFRESH = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
+MOST_STALLS = 50  # events within a shortest step of each other
 
 
-def _excess(model: Model, state: State) -> float:
-    """Positive when the patch can no longer go on as it does."""
-    if state.mode == STICK:  # a damper may take all of N while the bristles still pull
-        return abs(state.res[FRICTION]) - model.mu_s * state.res[NORMAL] if state.res[ELASTIC] > 0 else -1.0
-    if state.mode == BRUSH or state.res[NORMAL] == 0 or model.mu_s == 0:
-        return -1.0
-    return state.mode * state.slip_velocity
+def _free(model: Model, state: State) -> State:
+    """The state in the mode in which a patch that is off the floor comes down."""
+    mode = model.law.free(state)
+    return state if mode == state.mode else replace(state, mode=mode)
 
 
-def _free(state: State) -> State:
-    """A patch off the floor comes down sliding, the way it moves: one that stuck would break as it touches."""
-    if state.mode == BRUSH or state.res[ELASTIC] > 0 or state.slip_velocity == 0:
-        return state
-    return replace(state, mode=SLIDE_LEFT if state.slip_velocity > 0 else SLIDE_RIGHT)
+class Accepted(NamedTuple):
+    """An accepted step, and the event at which it ends."""
+
+    trial: Step
+    event: int | None
+    attempts: int
+
+
+def _until_event(model: Model, state: State, trial: Step, ends: Ends) -> Accepted | None:
+    """A step that passes no event: ``trial``, or a shorter one up to its first event; None where none can be solved."""
+    event, attempts = None, 0
+    for watch in watches(model.law, state, ends):
+
+        def past(step: Step, watch: int = watch) -> float:
+            return passed(watch, model.law, ends, state, step.state)
+
+        if past(trial) < 0:
+            continue
+        before = passed(watch, model.law, ends, state, state)
+        located = locate(lambda h: attempt(model, state, h), past, trial, before, trial.state.t - state.t)
+        attempts += located.attempts
+        if located.trial is None:
+            return None
+        trial, event = located.trial, watch if located.at_event else None
+    return Accepted(trial, event, attempts)
+
+
+class Limits(NamedTuple):
+    """Between what the steps of a march are chosen."""
+
+    first: float = 1e-4  # length of the first step, sqrt(R/g)
+    longest: float = 0.05
+    most: int = 50_000  # steps, those tried in vain too
+
+
+LIMITS = Limits()
 
 
 def march(
     model: Model,
     state: State,
-    done: Callable[[State], float],
+    ends: Ends,
     rtol: float,
-    h: float = 1e-4,
-    largest_step: float = 0.05,
-    max_steps: int = 50_000,
+    limits: Limits = LIMITS,
     progress: Callable[[State], object] | None = None,
     keep: Callable[[State], None] | None = None,
 ) -> tuple[State, list[Record], int, str]:
-    """March until ``done(state)`` turns positive; that instant is located.
+    """March to the first of the ends, which is located.
 
     ``progress`` is told every state that was reached, and stops the march by a true answer; ``keep`` is given the state
     behind every record.
@@ -54,7 +85,7 @@ def march(
     attempts : int
         Steps tried.
     ended : str
-        Empty when ``done`` ended the march, otherwise why it stopped early.
+        Empty when one of the ends was reached, otherwise why the march stopped early.
     """
     books = Books()
     records: list[Record] = []
@@ -64,49 +95,53 @@ def march(
         if keep is not None:
             keep(state)
 
-    state = _free(state)
+    state = _free(model, state)
     note(state)
-    attempts, accepted = 0, 0
+    attempts, turns, stalls = 0, 0, 0
+    if _over(state, ends, turns):
+        return state, records, attempts, ""
     tolerance = 3.0 * rtol**1.5  # second order: the error over a pulse goes as its power 2/3
-    while attempts < max_steps:
+    h = limits.first
+    while attempts < limits.most:
+        if h < SHORTEST:
+            return state, records, attempts, _stuck(state, "no step however short could be solved")
         attempts += 1
-        trial = attempt(model, state, h)
+        asked = min(h, ends.t - state.t)
+        trial = attempt(model, state, asked)
         if trial is None:
-            h /= 4
-            if h < 1e-13:
-                return state, records, attempts, _stuck(state)
+            h = asked / 4
             continue
         if trial.error > tolerance:
-            h *= max(0.2, 0.9 * (tolerance / trial.error) ** (1 / 3))
-            if h < 1e-13:
-                return state, records, attempts, _stuck(state)
+            h = asked * max(0.2, 0.9 * (tolerance / trial.error) ** (1 / 3))
             continue
-        grown = min(h * min(3.0, 0.9 * (tolerance / max(trial.error, 1e-300)) ** (1 / 3)), largest_step)
-        event: Callable[[State], float] | None = None
-        for watch in (lambda s: _excess(model, s), done):
-            if watch(trial.state) > 0:
-                located = _locate(model, state, trial, watch)
-                attempts += located[1]
-                if located[0].state.t < trial.state.t or event is None:
-                    trial, event = located[0], watch
-        accepted += 1
+        grown = min(asked * min(3.0, 0.9 * (tolerance / max(trial.error, 1e-300)) ** (1 / 3)), limits.longest)
+        step = _until_event(model, state, trial, ends)
+        if step is None:
+            h = asked / 4
+            continue
+        trial, event = step.trial, step.event
+        attempts += step.attempts
         books.normal_impulse += trial.impulses[0]
         books.friction_impulse += trial.impulses[1]
-        stored = float(trial.state.res[BRISTLE_ENERGY] - state.res[BRISTLE_ENERGY])
+        stored = trial.state.res.bristle_energy - state.res.bristle_energy
         books.friction_loss -= trial.friction_work + stored
         books.damping_loss += trial.damped
         books.numerical_loss += trial.numerical
         books.off_floor += trial.off_floor
-        state = _free(trial.state)
+        stalls = stalls + 1 if trial.state.t - state.t < SHORTEST else 0
+        turns += event == TURN
+        state = _free(model, trial.state)
         note(state)
-        asked = progress is not None and progress(state)
-        if done(state) >= 0:
+        stopped = progress is not None and progress(state)
+        if _over(state, ends, turns):
             return state, records, attempts, ""
-        if asked:
+        if stopped:
             return state, records, attempts, f"stopped at t = {state.t:.6g}, as asked"
-        if event is not None:
-            mode = STICK if state.mode != STICK else (1 if state.res[FRICTION] > 0 else -1)
-            if mode == STICK:  # to the last digit, which a step that was cut short may not have
+        if stalls > MOST_STALLS:
+            return state, records, attempts, _stuck(state, "stick and slip follow each other without end")
+        if event == MODE_ENDS:
+            mode = model.law.successor(state)
+            if model.law.sticks(mode):  # to the last digit, which a step that was cut short may not have
                 state = replace(state, slip_velocity=0.0)
             try:
                 state = restart(model, state, mode)
@@ -117,43 +152,18 @@ def march(
             released = before.ring_strain + before.contact_spring - after.ring_strain - after.contact_spring
             books.friction_loss += released
             note(state)
-            h = min(h, grown) / 8
+            h = max(min(asked, grown) / 8, AFRESH)
         else:
             h = grown
-    return state, records, attempts, f"stopped at t = {state.t:.6g} after {max_steps} steps"
+    return state, records, attempts, f"stopped at t = {state.t:.6g} after {limits.most} steps"
 
 
-def _stuck(state: State) -> str:
-    return (
-        f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g} (N = {state.normal_force:.4g}): "
-        "no step however short could be solved"
-    )
+def _over(state: State, ends: Ends, turns: int) -> bool:
+    """Whether one of the ends is reached."""
+    phi = state.pos[2]
+    turned = turns >= ends.turns > 0
+    return bool(turned or phi <= ends.low or phi >= ends.high or ends.t - state.t < SHORTEST)
 
 
-def _locate(model: Model, old: State, trial: Trial, watch: Callable[[State], float]) -> tuple[Trial, int]:
-    """The step that ends where ``watch`` turns positive, by the Illinois method on the step's length."""
-    low, f_low = 0.0, min(watch(old), 0.0)
-    high, f_high, best = trial.state.t - old.t, watch(trial.state), trial
-    width, n = high, 0
-    side = 0
-    while n < 30 and high - low > 1e-10 * width:
-        n += 1
-        h = high - f_high * (high - low) / (f_high - f_low) if f_high > f_low else (low + high) / 2
-        h = min(max(h, low + 0.001 * (high - low)), high - 0.001 * (high - low))
-        middle = attempt(model, old, h)
-        if middle is None:
-            break
-        value = watch(middle.state)
-        if value >= 0:
-            high, f_high, best = h, value, middle
-            if side == 1:
-                f_low /= 2
-            side = 1
-        else:
-            low, f_low = h, value
-            if side == -1:
-                f_high /= 2
-            side = -1
-        if 0 <= value < 1e-9:
-            break
-    return best, n
+def _stuck(state: State, why: str) -> str:
+    return f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g} (N = {state.normal_force:.4g}): {why}"

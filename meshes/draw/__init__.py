@@ -2,6 +2,6 @@
 
 ``style``    colours, names, symbols         ``display``  is there anything to draw with?
 ``shots``    what is shown at an instant     ``scales``   colours and sizes taken from the whole run
-``stage``    hoop, floor and arrows (VTK)    ``lens``     the contact, enlarged
-``patch``    pressure along the patch        ``sheet``    type, colour bar and curves around the stage
+``renderer`` hoop, floor and arrows (VTK)    ``lens``     the contact, enlarged
+``patch``    pressure along the patch        ``layout``   type, colour bar and curves around the view
 """

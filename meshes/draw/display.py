@@ -32,13 +32,13 @@ def probe() -> tuple[str, str | None]:
     """
     command = [sys.executable, "-c", _PROBE]
     try:
-        trial = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+        tried = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     except (OSError, subprocess.TimeoutExpired) as error:
         return "", f"VTK could not be tried out for rendering: {error}."
-    _, found, window = trial.stdout.strip().rpartition("drawn by ")
-    if trial.returncode == 0 and found:
+    _, found, window = tried.stdout.strip().rpartition("drawn by ")
+    if tried.returncode == 0 and found:
         return window, None
-    if "ModuleNotFoundError" in trial.stderr:
+    if "ModuleNotFoundError" in tried.stderr:
         return "", "pictures need pyvista, which is not installed: pip install pyvista."
     return "", (
         "VTK finds nothing to draw with: without a screen it needs EGL or OSMesa; on Debian or Ubuntu, "

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from . import style as looks
+from . import style
+from .renderer import VIEW_HEIGHT, Colours, Renderer
 from .shots import Shot
-from .stage import VIEW_HEIGHT, Colours, Stage
 
 Image = NDArray[np.uint8]
 
@@ -24,7 +24,7 @@ def enlargement(shot: Shot) -> int:
 
 
 class Lens:
-    """Draws the round enlargement into stage pictures.
+    """Draws the round enlargement into views of the hoop.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ class Lens:
         self.times, self.factor, self.scale = enlargement(first), factor, scale
         self.size = round(2 * _RADIUS * first.radius * scale)
         zoom = VIEW_HEIGHT / (2 * _RADIUS) * self.times
-        self.stage = Stage(first, (2 * self.size, 2 * self.size), zoom, colours, {}, above=_ABOVE_FLOOR)
+        self.renderer = Renderer(first, (2 * self.size, 2 * self.size), zoom, colours, {}, above=_ABOVE_FLOOR)
         x = np.arange(self.size) - (self.size - 1) / 2
         outside = np.hypot(x[:, None], x[None, :]) - self.size / 2
         self._inside = np.clip(-1.5 - outside, 0, 1)[..., None]
@@ -62,8 +62,8 @@ class Lens:
         column, row, caption
             What to print below the lens and where.
         """
-        self.stage.show(shot, self.factor, float(shot.centre[0]))
-        fine = self.stage.image().reshape(self.size, 2, self.size, 2, 3)
+        self.renderer.show(shot, self.factor, float(shot.centre[0]))
+        fine = self.renderer.image().reshape(self.size, 2, self.size, 2, 3)
         enlarged = fine.mean(axis=(1, 3))
         middle = floor - _HEIGHT * shot.radius * self.scale
         top, left = round(middle - self.size / 2), round(column - self.size / 2)
@@ -71,7 +71,7 @@ class Lens:
         columns = slice(max(left, 0), min(left + self.size, picture.shape[1]))
         part = (slice(rows.start - top, rows.stop - top), slice(columns.start - left, columns.stop - left))
         inside, border = self._inside[part], self._border[part]
-        rim = np.array([int(looks.FAINT[i : i + 2], 16) for i in (1, 3, 5)])
+        rim = np.array([int(style.FAINT[i : i + 2], 16) for i in (1, 3, 5)])
         under = picture[rows, columns]
         mixed = inside * enlarged[part] + border * rim + (1 - inside - border) * under
         picture[rows, columns] = mixed.round().astype(np.uint8)

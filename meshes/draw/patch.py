@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import style as looks
+from . import style
 from .shots import Shot
 
 Array = NDArray[np.float64]
@@ -59,24 +59,24 @@ class PatchPlot:
         for side in ("top", "right"):
             axes.spines[side].set_visible(False)
         for side in ("left", "bottom"):
-            axes.spines[side].set_color(looks.FAINT)
-        axes.tick_params(labelsize=0.75 * size, color=looks.FAINT, labelcolor=looks.INK, length=2, pad=1.5)
+            axes.spines[side].set_color(style.FAINT)
+        axes.tick_params(labelsize=0.75 * size, color=style.FAINT, labelcolor=style.INK, length=2, pad=1.5)
         axes.locator_params(nbins=4)
         axes.xaxis.set_major_formatter(lambda value, _: f"{value / 10.0**self.power_x:g}")
         axes.yaxis.set_major_formatter(lambda value, _: f"{value / 10.0**self.power:g}")
-        style: dict[str, Any] = {"fontsize": 0.75 * size, "color": looks.INK}
-        axes.set_xlabel(f"x − x_C  [{_ten(self.power_x)}{units['length']}]", labelpad=1, **style)
-        unit = f"[{_ten(self.power)}{looks.unit('pressure', units)}]"
-        axes.set_title(f"in the patch  {unit}", loc="left", pad=2 * size, **style)
+        small: dict[str, Any] = {"fontsize": 0.75 * size, "color": style.INK}
+        axes.set_xlabel(f"x − x_C  [{_ten(self.power_x)}{units['length']}]", labelpad=1, **small)
+        unit = f"[{_ten(self.power)}{style.unit('pressure', units)}]"
+        axes.set_title(f"in the patch  {unit}", loc="left", pad=2 * size, **small)
         where: dict[str, Any] = {"transform": axes.transAxes, "fontsize": 0.75 * size, "va": "bottom"}
-        axes.text(0.0, 1.02, "pressure", color=looks.NORMAL, **where)
-        axes.text(1.0, 1.02, "friction", color=looks.FRICTION, ha="right", **where)
-        axes.axhline(0, color=looks.FAINT, lw=0.6)
+        axes.text(0.0, 1.02, "pressure", color=style.NORMAL, **where)
+        axes.text(1.0, 1.02, "friction", color=style.FRICTION, ha="right", **where)
+        axes.axhline(0, color=style.FAINT, lw=0.6)
         nothing = np.zeros((1, 2))
         common: dict[str, Any] = {"animated": True, "closed": True, "lw": 0.09 * size}
         from matplotlib.patches import Polygon
 
-        fills = ((looks.NORMAL, 3), (looks.FRICTION, 4))
+        fills = ((style.NORMAL, 3), (style.FRICTION, 4))
         self._curves = [Polygon(nothing, facecolor=f"{c}55", edgecolor=c, zorder=z, **common) for c, z in fills]
         #: what is drawn anew in every picture
         self.moving: list[Any] = [axes.add_patch(curve) for curve in self._curves]

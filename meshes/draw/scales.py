@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..fields import Block
 from ..times import frame_times
 from .display import ViewError
-from .shots import Curves, Shot, Subject
+from .shots import Curves, Shot, Source
 
 Array = NDArray[np.float64]
 
@@ -43,12 +43,12 @@ def scalar(block: Block, field: str) -> Array:
     return value if value.ndim == 1 else np.asarray(np.linalg.norm(value, axis=1))
 
 
-def sampled(subject: Subject, count: int = 30) -> list[Shot]:
+def sampled(source: Source, count: int = 30) -> list[Shot]:
     """Shots spread over the whole run and dense in its pulses, to choose scales by."""
-    curves, (start, stop) = subject.curves, subject.span
+    curves, (start, stop) = source.curves, source.span
     if start == stop:
-        return [subject.shot(start)]
-    return [subject.shot(t) for t in frame_times(start, stop, count, curves.t, curves.normal_force)]
+        return [source.shot(start)]
+    return [source.shot(t) for t in frame_times(start, stop, count, curves.t, curves.normal_force)]
 
 
 def tidy_factor(shots: list[Shot], share: float = 0.06) -> float:

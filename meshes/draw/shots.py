@@ -63,7 +63,7 @@ class Curves:
         return None
 
 
-class Subject(Protocol):
+class Source(Protocol):
     """Anything that can be drawn."""
 
     @property
@@ -78,7 +78,7 @@ class Subject(Protocol):
 
 
 @dataclass(frozen=True)
-class SeriesSubject:
+class SeriesSource:
     """Fields of a flexible run; an instant shows the frame nearest to it."""
 
     series: Series
@@ -142,7 +142,7 @@ class SeriesSubject:
 
 
 @dataclass(frozen=True)
-class MotionSubject:
+class MotionSource:
     """A motion of a rigid hoop, or of any solver, drawn undeformed."""
 
     motion: Motion
@@ -224,6 +224,6 @@ class MotionSubject:
         )
 
 
-def subject_of(thing: Series | Motion) -> Subject:
-    """The subject of a series or a motion."""
-    return SeriesSubject(thing) if isinstance(thing, Series) else MotionSubject(thing)
+def source_of(thing: Series | Motion) -> Source:
+    """What a series or a motion gives to draw."""
+    return SeriesSource(thing) if isinstance(thing, Series) else MotionSource(thing)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from matplotlib.colors import Colormap
@@ -31,21 +31,29 @@ PHASES = {
     "impact": ("impact", "#f3d3d3"),
 }
 
-#: field -> what it is; the ones in SIGNED get a diverging scale about zero
-LABELS = {
-    "displacement": "displacement",
-    "velocity": "velocity",
-    "von_mises": "von Mises stress",
-    "hoop_stress": "hoop stress",
-    "bending_stress": "bending stress",
-    "stress xx": "stress σxx",
-    "stress yy": "stress σyy",
-    "stress xy": "stress σxy",
-    "energy_density": "strain energy density",
-    "pressure": "contact pressure",
-    "traction": "friction traction",
+
+class Field(NamedTuple):
+    """What a field is called in print, of which kind its unit is, and whether its scale diverges about zero."""
+
+    label: str
+    kind: str
+    signed: bool = False
+
+
+#: the fields of a flexible run, of the stress each component
+FIELDS = {
+    "displacement": Field("displacement", "length"),
+    "velocity": Field("velocity", "velocity"),
+    "von_mises": Field("von Mises stress", "stress"),
+    "hoop_stress": Field("hoop stress", "stress", signed=True),
+    "bending_stress": Field("bending stress", "stress", signed=True),
+    "stress xx": Field("stress σxx", "stress", signed=True),
+    "stress yy": Field("stress σyy", "stress", signed=True),
+    "stress xy": Field("stress σxy", "stress", signed=True),
+    "energy_density": Field("strain energy density", "energy_density"),
+    "pressure": Field("contact pressure", "stress"),
+    "traction": Field("friction traction", "stress"),
 }
-SIGNED = ("hoop_stress", "bending_stress", "stress xx", "stress yy", "stress xy")
 
 #: units of the paper's scaling
 UNITS = {
@@ -67,25 +75,27 @@ SI_UNITS = {
 
 
 def label(field: str) -> str:
-    """What to call a field in print."""
-    return LABELS.get(field, field.replace("_", " "))
+    """What to call a field in print; a field that is not ours goes by its own name."""
+    return FIELDS[field].label if field in FIELDS else field.replace("_", " ")
 
 
 def unit(field: str, units: dict[str, str]) -> str:
-    """Unit of a field: its own if ``units`` names it, or that of its kind."""
-    if field in units:
-        return units[field]
-    kind = {"displacement": "length", "velocity": "velocity", "energy_density": "energy_density"}.get(field)
-    if kind is None and (field in ("von_mises", "pressure", "traction") or "stress" in field):
-        kind = "stress"
-    return {**UNITS, **units}.get(kind or "", "")
+    """Unit of a field: its own if ``units`` names it, or that of its kind; a field that is not ours has none else."""
+    if field in units or field not in FIELDS:
+        return units.get(field, "")
+    return {**UNITS, **units}[FIELDS[field].kind]
+
+
+def signed(field: str) -> bool:
+    """Whether the scale of a field diverges about zero."""
+    return field in FIELDS and FIELDS[field].signed
 
 
 def colormap(field: str) -> Colormap:
     """A sequential map from steel to ember, or a diverging one with grey at zero; both show on white."""
     from matplotlib.colors import LinearSegmentedColormap
 
-    if field in SIGNED:
+    if signed(field):
         stops = ["#1d4e89", "#5f94c4", "#b9bec5", "#e08a5a", "#a12a1e"]
         return LinearSegmentedColormap.from_list("tension", stops)
     stops = ["#8fa3b8", "#9c9fb5", "#c99a8a", "#e8854a", "#cf3f2b", "#7a1230"]

@@ -4,6 +4,6 @@
 ``film``         pages in time as one file     ``interactive``  the window itself
 """
 
-from .pictures import ViewError, animate, picture, render, window
+from .pictures import Timing, ViewError, animate, picture, render, window
 
-__all__ = ["ViewError", "animate", "picture", "render", "window"]
+__all__ = ["Timing", "ViewError", "animate", "picture", "render", "window"]

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..draw import style as looks
+from ..draw import style
 from ..draw.display import ViewError
 
 Image = NDArray[np.uint8]
@@ -21,7 +21,7 @@ Writer = Callable[[Path, Iterator[Image], int, NDArray[np.float64]], None]
 
 
 @dataclass(frozen=True)
-class Kind:
+class Format:
     """A kind of file: how many pictures of which size it gets unless told, and what writes it."""
 
     frames: int
@@ -42,7 +42,7 @@ def write_gif(path: Path, pages: Iterator[Image], fps: int, times: NDArray[np.fl
     from PIL import Image as Pillow
 
     first = next(pages)
-    late = np.array([to_rgb(colour) for colour in (looks.FORCE, looks.SLIP, looks.PAPER)]) * 255
+    late = np.array([to_rgb(colour) for colour in (style.FORCE, style.SLIP, style.PAPER)]) * 255
     swatches = np.repeat(late.round().astype(np.uint8), first.shape[1] // 3, axis=0)
     model = first.copy()
     model[:16, : len(swatches)] = swatches
@@ -110,10 +110,10 @@ def write_html(path: Path, pages: Iterator[Image], fps: int, times: NDArray[np.f
     _whole(path, lambda part: part.write_text(content, encoding="utf-8"))
 
 
-KINDS = {
-    ".gif": Kind(60, (640, 480), write_gif),
-    ".mp4": Kind(150, (1280, 900), write_mp4),
-    ".html": Kind(60, (960, 720), write_html),
+FORMATS = {
+    ".gif": Format(60, (640, 480), write_gif),
+    ".mp4": Format(150, (1280, 900), write_mp4),
+    ".html": Format(60, (960, 720), write_html),
 }
 
 

@@ -1,4 +1,4 @@
-"""The window: a stage on the screen with a time slider and keys."""
+"""The window: a renderer on the screen with a time slider and keys."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from ..draw import style as looks
+from ..draw import style
+from ..draw.layout import Layout
+from ..draw.renderer import ABOVE_FLOOR, Colours, Renderer
 from ..draw.scales import field_names, limits, sampled
-from ..draw.sheet import Sheet
-from ..draw.stage import ABOVE_FLOOR, Colours, Stage
 from .setting import Setting
 
 _HELP = "space plays, left and right step, + and - change the deformation, c the colours, q quits"
@@ -19,7 +19,7 @@ _STEPS = 200
 class Window:
     """What the slider and the keys act on; the view follows the hoop.
 
-    The text, the colour bar and the curves are the same sheet as in a picture, laid over the stage.
+    The text, the colour bar and the curves are the same layout as in a picture, laid over the view.
 
     Parameters
     ----------
@@ -33,21 +33,21 @@ class Window:
 
     def __init__(self, chosen: Setting, off_screen: bool = False, size: tuple[int, int] = (1280, 900)) -> None:
         self.setting, self.size = chosen, size
-        self.factor, self.colours, self.span = chosen.factor, chosen.colours, chosen.subject.span
+        self.factor, self.colours, self.span = chosen.factor, chosen.colours, chosen.source.span
         self.time, self.playing = self.span[0], False
         self.fields = field_names(chosen.first.ring)
         self._lay_out()
-        zoom = chosen.zoom * self.sheet.stage_box[3] / size[1]
-        self.stage = Stage(chosen.first, size, zoom, chosen.colours, chosen.largest, off_screen)
-        self.plotter: Any = self.stage.plotter
+        zoom = chosen.zoom * self.layout.view_box[3] / size[1]
+        self.renderer = Renderer(chosen.first, size, zoom, chosen.colours, chosen.largest, off_screen)
+        self.plotter: Any = self.renderer.plotter
         self.plotter.title = "hoop-pulse"
-        self._overlay = Overlay(self.plotter, size, self.sheet.stage_box)
-        left, right = (x / size[0] for x in self.sheet.time_axis)
-        _, top, _, height = self.sheet.stage_box
+        self._overlay = Overlay(self.plotter, size, self.layout.view_box)
+        left, right = (x / size[0] for x in self.layout.time_axis)
+        _, top, _, height = self.layout.view_box
         y = 1 - (top + (1 + 2 * ABOVE_FLOOR) / 3 * height) / size[1]  # on the floor
         self.slider = self.plotter.add_slider_widget(
             self.go, list(self.span), value=self.time, pointa=(left, y), pointb=(right, y),
-            color=looks.NORMAL, slider_width=0.014, tube_width=0.002, interaction_event="always",
+            color=style.NORMAL, slider_width=0.014, tube_width=0.002, interaction_event="always",
         )  # fmt: skip
         knob = self.slider.GetRepresentation()
         knob.SetSliderLength(0.008)
@@ -57,8 +57,8 @@ class Window:
             ("space", self.play),
             ("Right", lambda: self.step(1)),
             ("Left", lambda: self.step(-1)),
-            ("plus", lambda: self.stretch(2.0)),
-            ("minus", lambda: self.stretch(0.5)),
+            ("plus", lambda: self.exaggerate(2.0)),
+            ("minus", lambda: self.exaggerate(0.5)),
             ("c", self.next_field),
         ):
             self.plotter.clear_events_for_key(key, raise_on_missing=False)
@@ -73,15 +73,15 @@ class Window:
     def go(self, time: float) -> None:
         """Show the instant ``time``."""
         self.time = float(np.clip(time, *self.span))
-        shot = self.setting.subject.shot(self.time)
-        self.stage.show(shot, self.factor, float(shot.centre[0]))
-        # from the stage's own framing to that of the upper part of the window
-        camera, (_, top, _, height) = self.plotter.camera, self.sheet.stage_box
+        shot = self.setting.source.shot(self.time)
+        self.renderer.show(shot, self.factor, float(shot.centre[0]))
+        # from the renderer's own framing to that of the upper part of the window
+        camera, (_, top, _, height) = self.plotter.camera, self.layout.view_box
         floor = (top + ABOVE_FLOOR * height) / self.size[1]
-        y = self.stage.height * (floor - 0.5)
+        y = self.renderer.height * (floor - 0.5)
         camera.position = (camera.position[0], y, camera.position[2])
         camera.focal_point = (camera.focal_point[0], y, 0.0)
-        self._overlay.show(self.sheet.fill(self._paper, shot, self.factor))
+        self._overlay.show(self.layout.fill(self._paper, shot, self.factor))
         self.plotter.render()
 
     def play(self) -> None:
@@ -95,7 +95,7 @@ class Window:
         self.slider.GetRepresentation().SetValue(time)
         self.go(time)
 
-    def stretch(self, ratio: float) -> None:
+    def exaggerate(self, ratio: float) -> None:
         """Change the display factor."""
         self.factor *= ratio
         self.go(self.time)
@@ -105,9 +105,9 @@ class Window:
         if self.colours is None:
             return
         field = self.fields[(self.fields.index(self.colours.field) + 1) % len(self.fields)]
-        shots = sampled(self.setting.subject, 12)
-        self.colours = Colours(field, *limits(shots, field, field in looks.SIGNED))
-        self.stage.paint(self.colours)
+        shots = sampled(self.setting.source, 12)
+        self.colours = Colours(field, *limits(shots, field, style.signed(field)))
+        self.renderer.paint(self.colours)
         self._lay_out()
         self.go(self.time)
 
@@ -116,14 +116,14 @@ class Window:
             self.step(1)
 
     def _lay_out(self) -> None:
-        subject = self.setting.subject
-        self.sheet = Sheet(self.size, subject.curves, self.span, self.colours, subject.units, subject.title)
-        self.sheet.note(_HELP)
-        self._paper = np.full((*self.sheet.stage_box[3:1:-1], 3), 255, dtype=np.uint8)
+        source = self.setting.source
+        self.layout = Layout(self.size, source.curves, self.span, self.colours, source.units, source.title)
+        self.layout.note(_HELP)
+        self._paper = np.full((*self.layout.view_box[3:1:-1], 3), 255, dtype=np.uint8)
 
 
 class Overlay:
-    """A page laid over the whole window, transparent where it is white and the stage lies under it."""
+    """A page laid over the whole window, transparent where it is white and the view lies under it."""
 
     def __init__(self, plotter: Any, size: tuple[int, int], box: tuple[int, int, int, int]) -> None:
         import pyvista
@@ -136,8 +136,8 @@ class Overlay:
 
         width, height = size
         left, top, across, down = box
-        self._stage = np.zeros((height, width, 1), dtype=bool)
-        self._stage[top : top + down, left : left + across] = True
+        self._view = np.zeros((height, width, 1), dtype=bool)
+        self._view[top : top + down, left : left + across] = True
         self._image = pyvista.ImageData(dimensions=(width, height, 1))
         self._image.point_data["page"] = np.zeros((width * height, 4), dtype=np.uint8)
         corners = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], dtype=float)
@@ -158,7 +158,7 @@ class Overlay:
 
     def show(self, page: Any) -> None:
         """Lay ``page`` (height, width, 3) over the window."""
-        clear = (page == 255).all(axis=2, keepdims=True) & self._stage
+        clear = (page == 255).all(axis=2, keepdims=True) & self._view
         coloured = np.concatenate([page, np.where(clear, 0, 255).astype(np.uint8)], axis=2)
         self._image.point_data["page"] = coloured[::-1].reshape(-1, 4)
         self._image.point_data.active_scalars_name = "page"

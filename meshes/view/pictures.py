@@ -3,9 +3,9 @@
 ::
 
     from meshes import read
-    from meshes.view import picture, animate, window
+    from meshes.view import animate, picture
 
-    picture(read("out"), "pulse.png", time=1.8, field="von_mises")
+    picture(read("out"), "pulse.png", time=1.8, field="hoop_stress")
     animate(motion, "rolling.gif")
 
 pyvista and matplotlib are loaded when something is drawn and not before.
@@ -14,6 +14,7 @@ pyvista and matplotlib are loaded when something is drawn and not before.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -23,10 +24,10 @@ from numpy.typing import NDArray
 from rigid import Motion
 
 from ..draw.display import ViewError, require_renderer, require_screen
+from ..draw.layout import Layout
 from ..draw.lens import Lens, enlargement
-from ..draw.sheet import Sheet
-from ..draw.shots import Shot, Subject
-from ..draw.stage import ABOVE_FLOOR, Stage
+from ..draw.renderer import ABOVE_FLOOR, Renderer
+from ..draw.shots import Shot, Source
 from ..series import Series
 from ..times import frame_times
 from . import film
@@ -35,24 +36,60 @@ from .setting import Setting, setting
 Image = NDArray[np.uint8]
 Progress = Callable[[int, int], None]
 
-__all__ = ["ViewError", "animate", "picture", "render", "window"]
+__all__ = ["Timing", "ViewError", "animate", "picture", "render", "window"]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Timing:
+    """Which instants of a run an animation shows, and how fast.
+
+    Parameters
+    ----------
+    frames : int, optional
+        Number of pictures; 60 for a gif or a page, 150 for a film.
+    fps : int
+        Pictures per second.
+    start, stop : float, optional
+        Stretch of time; the whole run by default.
+    pace : {"force", "time"}
+        "time" runs evenly in time; "force" spends half of its pictures where the normal force changes, so
+        that a pulse is seen in slow motion.
+
+    Raises
+    ------
+    ViewError
+        Fewer than two pictures or one per second, or another pace.
+    """
+
+    frames: int | None = None
+    fps: int = 20
+    start: float | None = None
+    stop: float | None = None
+    pace: str = "force"
+
+    def __post_init__(self) -> None:
+        if (self.frames is not None and self.frames < 2) or self.fps < 1:
+            count = "any number of" if self.frames is None else self.frames
+            raise ViewError(f"{count} frames at {self.fps} per second are no animation: it takes 2 at 1 per second.")
+        if self.pace not in ("force", "time"):
+            raise ViewError(f"pace = {self.pace!r} is not possible: it is 'force' or 'time'.")
 
 
 class Camera:
-    """Draws the pages of one setting at one size, from stage pictures ``oversampling`` times as fine."""
+    """Draws the pages of one setting at one size, from views ``oversampling`` times as fine."""
 
     def __init__(self, chosen: Setting, size: tuple[int, int], oversampling: int = 2) -> None:
         require_renderer()
         self.setting, self.oversampling = chosen, oversampling
-        subject = chosen.subject
+        source = chosen.source
         patches: tuple[Shot, ...] = chosen.patches if chosen.zoom == 1 else ()
-        self.sheet = Sheet(size, subject.curves, subject.span, chosen.colours, subject.units, subject.title, patches)
-        _, _, width, height = self.sheet.stage_box
+        self.layout = Layout(size, source.curves, source.span, chosen.colours, source.units, source.title, patches)
+        _, _, width, height = self.layout.view_box
         pixels = (self.oversampling * width, self.oversampling * height)
-        self.stage = Stage(chosen.first, pixels, chosen.zoom, chosen.colours, chosen.largest)
-        self.height = self.stage.height
+        self.renderer = Renderer(chosen.first, pixels, chosen.zoom, chosen.colours, chosen.largest)
+        self.height = self.renderer.height
         # where the hoop may be: left of the colour bar, right of the patch
-        right, left = self.sheet.covered, self.sheet.aside
+        right, left = self.layout.covered, self.layout.aside
         self.width = self.height * (width - right - left) / height
         self.aside = self.height * (right - left) / height / 2
         self.scale = height / self.height
@@ -64,16 +101,16 @@ class Camera:
         return self
 
     def __exit__(self, *_: object) -> None:
-        self.stage.close()
+        self.renderer.close()
         if self.lens is not None:
-            self.lens.stage.close()
+            self.lens.renderer.close()
 
     def page(self, time: float) -> Image:
         """The page at ``time`` as (height, width, 3) bytes."""
-        shot = self.setting.subject.shot(time)
+        shot = self.setting.source.shot(time)
         middle = self._middle(shot)
-        self.stage.show(shot, self.setting.factor, middle)
-        fine, more = self.stage.image(), self.oversampling
+        self.renderer.show(shot, self.setting.factor, middle)
+        fine, more = self.renderer.image(), self.oversampling
         total = np.zeros((fine.shape[0] // more, fine.shape[1] // more, 3), dtype=np.uint16)
         for i in range(more):
             for j in range(more):
@@ -82,12 +119,12 @@ class Camera:
         if self.lens is not None and self.lens.fits(shot):
             column = drawn.shape[1] / 2 + (float(shot.centre[0]) - middle) * self.scale
             caption = self.lens.draw(drawn, shot, column, ABOVE_FLOOR * drawn.shape[0])
-        return self.sheet.fill(drawn, shot, self.setting.factor, caption)
+        return self.layout.fill(drawn, shot, self.setting.factor, caption)
 
     def _middle(self, shot: Shot) -> float:
         """The view stands still if the whole run fits in it, or else goes with the hoop."""
         left, right = self.setting.reach
-        if self.sheet.aside:  # nothing of the legend is in the way
+        if self.layout.aside:  # nothing of the legend is in the way
             left += 0.5 * self.setting.first.radius
         if self.setting.zoom > 1:
             return float(shot.centre[0]) + self.aside
@@ -107,9 +144,9 @@ def render(
 ) -> Image:
     """The picture of one instant as (height, width, 3) bytes; see :func:`picture`."""
     chosen = setting(thing, field, factor, zoom)
-    start, stop = chosen.subject.span
+    start, stop = chosen.source.span
     if time is None:
-        time = _liveliest(chosen.subject)
+        time = _liveliest(chosen.source)
     if not start <= time <= stop:
         raise ViewError(f"time = {time!r} is not possible: the run goes from {start:g} to {stop:g}.")
     with Camera(chosen, size, oversampling=3) as camera:
@@ -162,11 +199,7 @@ def animate(
     field: str | None = None,
     factor: float | None = None,
     zoom: float = 1.0,
-    frames: int | None = None,
-    fps: int = 20,
-    start: float | None = None,
-    stop: float | None = None,
-    pace: str = "force",
+    timing: Timing | None = None,
     size: tuple[int, int] | None = None,
     progress: Progress | None = None,
 ) -> None:
@@ -180,15 +213,8 @@ def animate(
         As for :func:`picture`.
     path : path
         The suffix chooses the kind.
-    frames : int, optional
-        Number of pictures; 60 for a gif or a page, 150 for a film.
-    fps : int
-        Pictures per second.
-    start, stop : float, optional
-        Stretch of time; the whole run by default.
-    pace : {"force", "time"}
-        "time" runs evenly in time; "force" spends half of its pictures where the normal force changes, so
-        that a pulse is seen in slow motion.
+    timing : Timing, optional
+        Which instants become how many pictures, and how fast they follow each other.
     size : (width, height), optional
         In pixels; 640 x 480 for a gif, 960 x 720 for a page, 1280 x 900 for a film.
     progress : callable, optional
@@ -200,32 +226,21 @@ def animate(
         As for :func:`picture`, and for another suffix.
     """
     path = Path(path)
-    kind = film.KINDS.get(path.suffix.lower())
+    kind = film.FORMATS.get(path.suffix.lower())
     if kind is None:
         raise ViewError(f"{path} cannot be an animation: its name must end in .gif, .mp4 or .html.")
-    count = kind.frames if frames is None else frames
-    if count < 2 or fps < 1:
-        raise ViewError(f"{count} frames at {fps} per second are no animation: it takes 2 at 1 per second.")
+    timing = timing or Timing()
     chosen = setting(thing, field, factor, zoom)
-    first, last = chosen.subject.span
-    start, stop = first if start is None else start, last if stop is None else stop
-    if not first <= start < stop <= last:
-        raise ViewError(f"{start!r} to {stop!r} is not possible: the run goes from {first:g} to {last:g}.")
-    times = np.linspace(start, stop, count)
-    if pace == "force":
-        curves = chosen.subject.curves
-        times = frame_times(start, stop, count, curves.t, np.cbrt(curves.normal_force))
-    elif pace != "time":
-        raise ViewError(f"pace = {pace!r} is not possible: it is 'force' or 'time'.")
+    times = _instants(chosen.source, timing, kind.frames)
 
     def pages() -> Iterator[Image]:
         with Camera(chosen, size or kind.size) as camera:
             for done, time in enumerate(times, 1):
                 yield camera.page(float(time))
                 if progress is not None:
-                    progress(done, count)
+                    progress(done, len(times))
 
-    kind.write(path, pages(), fps, times)
+    kind.write(path, pages(), timing.fps, times)
 
 
 def window(thing: Series | Motion, field: str | None = None, factor: float | None = None, zoom: float = 1.0) -> None:
@@ -240,14 +255,26 @@ def window(thing: Series | Motion, field: str | None = None, factor: float | Non
     from .interactive import Window
 
     chosen = setting(thing, field, factor, zoom)
-    if chosen.subject.span[0] == chosen.subject.span[1]:
+    if chosen.source.span[0] == chosen.source.span[1]:
         raise ViewError("a window needs more than one frame: ask for a picture (--png).")
     Window(chosen).open()
 
 
-def _liveliest(subject: Subject) -> float:
-    curves = subject.curves
+def _instants(source: Source, timing: Timing, usual: int) -> NDArray[np.float64]:
+    """The instants of an animation, ``usual`` in number unless told."""
+    count = usual if timing.frames is None else timing.frames
+    first, last = source.span
+    start, stop = first if timing.start is None else timing.start, last if timing.stop is None else timing.stop
+    if not first <= start < stop <= last:
+        raise ViewError(f"{start!r} to {stop!r} is not possible: the run goes from {first:g} to {last:g}.")
+    if timing.pace == "time":
+        return np.linspace(start, stop, count)
+    return frame_times(start, stop, count, source.curves.t, np.cbrt(source.curves.normal_force))
+
+
+def _liveliest(source: Source) -> float:
+    curves = source.curves
     if not len(curves.t):
-        return subject.span[0]
+        return source.span[0]
     best: Any = curves.t[int(np.nanargmax(curves.normal_force))]
-    return float(np.clip(best, *subject.span))
+    return float(np.clip(best, *source.span))

@@ -8,13 +8,13 @@ import numpy as np
 
 from rigid import Motion
 
-from ..draw import style as looks
+from ..draw import style
 from ..draw.display import ViewError
 from ..draw.lens import enlargement
 from ..draw.patch import patch_of
+from ..draw.renderer import Colours
 from ..draw.scales import field_names, limits, sampled, scale_of, tidy_factor
-from ..draw.shots import Shot, Subject, subject_of
-from ..draw.stage import Colours
+from ..draw.shots import Shot, Source, source_of
 from ..series import Series
 
 
@@ -22,7 +22,7 @@ from ..series import Series
 class Setting:
     """Everything about a view that stays the same from one instant to the next."""
 
-    subject: Subject
+    source: Source
     first: Shot
     colours: Colours | None
     factor: float
@@ -49,20 +49,20 @@ def setting(
         raise ViewError(f"factor = {factor!r} is not possible: it must be a number from 0.")
     if not (np.isfinite(zoom) and zoom >= 1):
         raise ViewError(f"zoom = {zoom!r} is not possible: it must be a number from 1.")
-    subject = subject_of(thing)
-    shots = sampled(subject)
+    source = source_of(thing)
+    shots = sampled(source)
     first = shots[0]
     names = field_names(first.ring)
     chosen = field or (names[0] if names else None)
     colours = None
     if chosen is not None:
-        colours = Colours(chosen, *limits(shots, chosen, chosen in looks.SIGNED))
+        colours = Colours(chosen, *limits(shots, chosen, style.signed(chosen)))
     lens_factor = tidy_factor(shots, 0.06 / enlargement(first)) if factor is None else factor
     if factor is None:
         stored = first.ring.field_data.get("display_factor")
         factor = tidy_factor(shots, 0.06 / zoom) if stored is None or zoom > 1 else float(stored[0])
     x = [float(shot.centre[0]) for shot in shots]
     reach = (min(x) - 1.7 * first.radius, max(x) + 1.2 * first.radius)  # on the left there is text
-    largest = dict(scale_of(subject.curves, shots))
+    largest = dict(scale_of(source.curves, shots))
     patches = tuple(shot for shot in shots if len(patch_of(shot)[0]))
-    return Setting(subject, first, colours, factor, largest, reach, zoom, lens_factor, patches)
+    return Setting(source, first, colours, factor, largest, reach, zoom, lens_factor, patches)

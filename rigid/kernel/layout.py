@@ -20,14 +20,21 @@ MODE, LAST_KIND, TURNS_DONE, STEPS, RECORDS, PULSES_DONE, PERIOD, STALLS, HOPS =
 P_OPEN, P_CROSSED, P_T, P_ANGLE, P_TOP, P_WHOLE, P_XDOT, P_YDOT, P_H, P_ENERGY, P_PEAK, P_T_BOTTOM = range(20, 32)
 LOSSLESS_TURNS, SLIDES_DONE, LAST_ENERGY, LAST_TURNS, PHASE_T, SLIP_SCALE, PULL, P_CUT = range(32, 40)
 # What a motion without loss is compared with when it comes round: the event (0: none yet), the state there, and how
-# many turns, pulses and records there were (see rigid.cycle). RECORDED counts all records, RECORDS those on the tape.
+# many turns, pulses and records there were (see rigid.record.cycle). RECORDED counts all records, RECORDS those in
+# the log.
 A_EVENT, A_T, A_ANGLE, A_WHOLE, A_OMEGA, A_XDOT, A_X, A_TURNS, A_PULSES, A_RECORDED, RECORDED = range(40, 51)
 STATE = 51
+
+# What a phase works in: Taylor coefficients of as many quantities, for names see rigid.phases.slipping; a rolling phase
+# keeps its polynomials there.
+ORDER = 24
+SERIES = 13
+S_SIN, S_H, S_OMEGA, S_CO, S_P, S_D, S_B, S_YDOT, S_SLIP, S_T, S_N1, S_PLUS, S_MINUS = range(SERIES)
 
 # Kinds of contact; CHOOSE stands for "find out".
 CHOOSE, ROLL, SKID, SPIN, FLIGHT, SKIM, IMPACT = range(7)
 
-# Records on the tape: a phase (tag = its kind) or END carries the state, a TURN the state and its energy, a
+# Records of the event log: a phase (tag = its kind) or END carries the state, a TURN the state and its energy, a
 # PULSE its measures, a REPEAT what comes again and how often.
 WIDTH = 18
 TURN_ENERGY = 12  # where in a TURN
@@ -38,6 +45,7 @@ TURN, PULSE, END, REPEAT = 10, 11, 12, 13
 R_T, R_PERIOD, R_WAY, R_WHOLE, R_COUNT, R_TURNS, R_PULSES, R_RECORDS = range(1, 9)
 
 # Why a kernel returns.
+PHASE_OVER = -1
 (
     MORE,
     TURNS_REACHED,

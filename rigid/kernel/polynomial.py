@@ -160,10 +160,10 @@ def first_crossing(c, n, length, sign):
     lead = 0
     while lead < n and c[lead] == 0.0:
         lead += 1
-    rest = 0.0
+    tail = 0.0
     for i in range(n, lead, -1):
-        rest = rest * length + abs(c[i])
-    if sign * c[lead] > rest * length:
+        tail = tail * length + abs(c[i])
+    if sign * c[lead] > tail * length:
         return -1.0
     if sign * c[lead] < 0:
         return 0.0

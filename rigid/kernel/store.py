@@ -156,7 +156,7 @@ def home(name: str, stamp: str) -> Path:
         for other in (shared_cache(), *([_wanted_cache()] if trouble else [])):
             _copy(other / machine() / place.name, place)
         if not place.is_dir():
-            place.mkdir(parents=True)
+            place.mkdir(parents=True, exist_ok=True)  # another process may be as far
             prune(cache_folder)
     with contextlib.suppress(OSError):
         os.utime(place)

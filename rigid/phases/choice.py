@@ -1,6 +1,6 @@
 """The phase machine: which phase comes next, and each phase run to its end.
 
-``entry_run`` advances a state until its tape is full, its allowance of work is spent, or the motion is over;
+``entry_run`` advances a state until its event log is full, its allowance of work is spent, or the motion is over;
 it can be called again to go on. Rules where Coulomb's law leaves a choice (derived in README.md of this package):
 
 * contact point at rest: roll if |F| <= mu_s N with N >= 0; else the slip starts in the direction in which the
@@ -19,9 +19,9 @@ it can be called again to go on. Rules where Coulomb's law leaves a choice (deri
 # mypy: allow-untyped-defs
 from __future__ import annotations
 
-from math import inf
+from math import floor, inf, pi
 
-from ..kernel.angle import trig
+from ..kernel.angle import PI_LOW, chart, trig
 from ..kernel.compile import kernel
 from ..kernel.layout import (  # fmt: skip
     A_EVENT,
@@ -43,6 +43,7 @@ from ..kernel.layout import (  # fmt: skip
     MU_S,
     OMEGA,
     ONE_MINUS_E,
+    PHASE_OVER,
     PULL,
     PULSE_OVER,
     RECORDS,
@@ -65,6 +66,7 @@ from ..kernel.layout import (  # fmt: skip
     TURNS_REACHED,
     UN,
     UNTIL,
+    WHOLE,
     WIDTH,
     WORK_BOUND,
     XDOT,
@@ -72,29 +74,47 @@ from ..kernel.layout import (  # fmt: skip
     T,
 )
 from ..record.cycle import NEVER
-from ..record.log import ROOM, begin, turn
+from ..record.events import ROOM, begin, turn
 from ..record.pulse import energy, released, watch
 from .flight import fly, lifts, settle, touch_down
 from .impact import strike
 from .pointmass import choose_point_mass, roll_point_mass, skim
-from .rolling import TIE, rolling_forces
-from .rolling_phase import PHASE_OVER, roll
+from .rolling.closed_form import TIE, rolling_forces
+from .rolling.phase import roll
 from .slipping import JAM, denominator
 from .slipping_phase import slide
 
+# phi0 this close to a multiple of pi, relatively, means that multiple: no float but 0 is one itself
+LEVEL = 2.3e-16
+NOTHING_AT_ALL = 1e-140  # an angle or a velocity whose square would underflow
 SLOWEST_HOP = 1e-6
 MOST_STALLS = 50.0
 SLIPS, LEAST_LOSS = 100.0, 1e-4
 
 
 @kernel
-def choose_slip(par, state, tape):
+def release_from(state, phi0, omega0, slip0):
+    """The state at t = 0; 0 for what is no more than the round-off of its unit."""
+    for i in range(len(state)):
+        state[i] = 0.0
+    turns = float(floor(phi0 / (2 * pi) + 0.5))
+    a, top, whole = chart((phi0 - turns * (2 * pi)) - turns * (2 * PI_LOW), 1.0, turns)
+    if a != phi0 and abs(a) <= LEVEL * max(1.0, abs(phi0)):
+        a = 0.0
+    state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP] = a, top, whole, omega0, slip0
+    for i in (ANGLE, OMEGA, SLIP):
+        if abs(state[i]) < NOTHING_AT_ALL:
+            state[i] = 0.0
+
+
+@kernel
+def choose_slip(par, state, events):
     """Slip, flight or a jam, where rolling is out of the question."""
     a, top, omega = state[ANGLE], state[TOP], state[OMEGA]
     s, c, h, _ = trig(a, top)
     e, gyr, v = par[ECC], par[GYR], state[SLIP]
     if lifts(e, omega, s, c):
-        begin(par, state, FLIGHT, tape)
+        begin(par, state, FLIGHT, events)
         return
     pull = state[PULL]
     state[PULL] = 0.0
@@ -110,38 +130,38 @@ def choose_slip(par, state, tape):
         v = e * s * omega * omega - arm * e * s * n / gyr
     sign = 1.0 if v > 0 else -1.0
     if denominator(par, par[MU] * sign, a, top) > JAM * gyr:
-        begin(par, state, SKID if sign > 0 else SPIN, tape)
+        begin(par, state, SKID if sign > 0 else SPIN, events)
     else:
         state[MODE] = IMPACT
 
 
 @kernel
-def choose(par, state, tape):
+def choose(par, state, events):
     """What the contact does from here on."""
     if state[LAST_KIND] == CHOOSE:
         released(par, state)
     a, top, omega = state[ANGLE], state[TOP], state[OMEGA]
     if state[GAP] > 0.0 or state[UN] > 0.0:
-        begin(par, state, FLIGHT, tape)
+        begin(par, state, FLIGHT, events)
         return
     state[GAP] = 0.0
     state[UN] = 0.0
     if par[GYR] == 0.0:
-        choose_point_mass(par, state, tape)
+        choose_point_mass(par, state, events)
         return
     if state[SLIP] == 0.0:
         n, f = rolling_forces(par, omega, a, top)
         if n >= 0.0 and abs(f) <= par[MU_S] * n * (1 + TIE):
-            begin(par, state, ROLL, tape)
+            begin(par, state, ROLL, events)
             return
-    choose_slip(par, state, tape)
+    choose_slip(par, state, events)
 
 
 @kernel
-def soar(par, state, tape):
+def soar(par, state, events):
     """Fly to the next touch-down and strike the floor."""
     state[A_EVENT] = NEVER  # whatever came round does so no more
-    if watch(par, state, 0.0, tape) and par[UNTIL] == FIRST_PULSE:
+    if watch(par, state, 0.0, events) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
     time = touch_down(par[ECC], state[GAP], state[UN], state[OMEGA], state[ANGLE], state[TOP])
     if state[T] + time >= par[T_END]:
@@ -160,16 +180,16 @@ def soar(par, state, tape):
 
 
 @kernel
-def hit(par, state, tape):
+def hit(par, state, events):
     """An impact, and what follows it: a hop or contact."""
-    begin(par, state, IMPACT, tape)
+    begin(par, state, IMPACT, events)
     omega, slip, un, xdot, ydot = state[OMEGA], state[SLIP], state[UN], state[XDOT], state[YDOT]
     reverses = strike(par, state, par[RESTITUTION])
     if state[UN] <= SLOWEST_HOP:
         state[OMEGA], state[SLIP], state[UN], state[XDOT], state[YDOT] = omega, slip, un, xdot, ydot
         reverses = strike(par, state, 0.0)
         state[UN] = 0.0
-    if reverses and turn(par, state, tape):
+    if reverses and turn(par, state, events):
         return TURNS_REACHED
     return PHASE_OVER
 
@@ -194,12 +214,12 @@ def settles(par, state):
 
 
 @kernel
-def entry_run(par, state, work, tape):
-    """Run until the tape is full (MORE), the allowance of steps is spent (WORK_BOUND) or the motion is
+def entry_run(par, state, work, events):
+    """Run until the event log is full (MORE), the allowance of steps is spent (WORK_BOUND) or the motion is
     over.
     """
     while True:
-        if state[RECORDS] * WIDTH + ROOM * WIDTH > len(tape):
+        if state[RECORDS] * WIDTH + ROOM * WIDTH > len(events):
             return MORE
         if state[STEPS] <= 0.0:
             return WORK_BOUND
@@ -208,30 +228,30 @@ def entry_run(par, state, work, tape):
         code = PHASE_OVER
         before, angle, omega = state[T], state[ANGLE], state[OMEGA]
         if mode == CHOOSE:
-            choose(par, state, tape)
+            choose(par, state, events)
             continue
         if mode == ROLL:
             if par[GYR] == 0.0:
-                code = roll_point_mass(par, state, tape, par[T_END])
+                code = roll_point_mass(par, state, events, par[T_END])
             else:
-                code = roll(par, state, work, tape)
+                code = roll(par, state, work, events)
                 if code == PHASE_OVER:
-                    choose_slip(par, state, tape)
+                    choose_slip(par, state, events)
         elif mode in (SKID, SPIN):
             if settles(par, state):
                 return SLIDES if par[MU] == 0.0 else SETTLES
-            code = slide(par, state, work, tape)
+            code = slide(par, state, work, events)
             if state[MODE] == FLIGHT:
-                begin(par, state, FLIGHT, tape)
+                begin(par, state, FLIGHT, events)
         elif mode == FLIGHT:
-            code = soar(par, state, tape)
+            code = soar(par, state, events)
             if code == PHASE_OVER:
                 state[MODE] = IMPACT
                 continue
         elif mode == IMPACT:
-            code = hit(par, state, tape)
+            code = hit(par, state, events)
         elif mode == SKIM:
-            code = skim(par, state, tape)
+            code = skim(par, state, events)
         if code != PHASE_OVER:
             return code
         # a phase of a tiny disk may be shorter than t resolves: one that moved counts less than one that did not

@@ -5,7 +5,7 @@ stepping over it.
 # mypy: allow-untyped-defs
 from __future__ import annotations
 
-from math import pi, sin, sqrt
+from math import cos, inf, pi, sin, sqrt
 
 from ..kernel.angle import chart, trig
 from ..kernel.compile import kernel
@@ -48,6 +48,7 @@ def touch_down(e, gap, un, omega, a, top):
     s, c, _, _ = trig(a, top)
     w = omega * omega
     bound = 1 + e * w
+    jolt = e * w * abs(omega)  # no less than |gap'''|
     time = 0.0
     if gap <= 0.0 and un <= 0.0:
         curve = e * c * w - 1
@@ -76,6 +77,17 @@ def touch_down(e, gap, un, omega, a, top):
             break
         root = sqrt(rate * rate + 2 * bound * max(y, 0.0))
         step = (rate + root) / bound if rate > 0 else 2 * y / (root - rate)
+        if y > 0.0:
+            # near the top, where the rotation all but carries the hoop, gap'' is far below its bound, and steps by that
+            # would be without number: here gap falls by a third of itself at most by each of its derivatives
+            safe = (2 * y / jolt) ** (1 / 3) if jolt > 0.0 else inf
+            curve = e * w * (c * cos(omega * time) - s * sin(omega * time)) - 1
+            if rate < 0.0:
+                safe = min(safe, -y / (3 * rate))
+            if curve < 0.0:
+                safe = min(safe, sqrt(-2 * y / (3 * curve)))
+            if safe < inf:
+                step = max(step, safe)
         if not step > 4e-16 * time:
             break
         time += step

@@ -19,6 +19,7 @@ from math import inf, sqrt
 from ..kernel.angle import trig
 from ..kernel.compile import kernel
 from ..kernel.layout import ANGLE, ECC, GYR, MU, MU_S, OMEGA, ONE_MINUS_E, SLIP, TOP, UN, XDOT, YDOT
+from .slipping import JAM
 
 
 @kernel
@@ -42,8 +43,9 @@ def strike(par, state, restitution):
         # while it sticks, es - friction arm = es K/(K + arm^2), written so that a small K keeps its digits
         spin_rate = es / (gyr + arm * arm) if stick else (es - friction * arm) / gyr
         un_rate = 1.0 + es * spin_rate
-        if jammed and v != 0.0 and un_rate * gyr > -4e-16 * abs(es) * (abs(es) + abs(friction * arm)):
-            # D is zero to round-off, whatever its sign
+        noise = 4e-16 * abs(es) * (abs(es) + abs(friction * arm))
+        if jammed and v != 0.0 and -noise < un_rate * gyr <= max(noise, JAM * gyr):
+            # D is zero to round-off, whatever its sign; where D > 0 a contact point that grazes the floor is not jammed
             un_rate, spin_rate = -1e-30, -1 / es
         along_rate = arm * spin_rate if stick else friction
         v_rate = 0.0 if stick else friction - arm * spin_rate

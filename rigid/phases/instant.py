@@ -15,7 +15,11 @@ from ..kernel.layout import (  # fmt: skip
     MOVING,
     MU,
     OMEGA,
+    ORDER,
     ROLL,
+    S_D,
+    S_P,
+    S_T,
     SKID,
     SKIM,
     SLIP,
@@ -33,9 +37,9 @@ from ..kernel.polynomial import polish, value
 from ..record.pulse import energy
 from .flight import fly
 from .pointmass import drop, roll_point_mass, skimming_acceleration
-from .rolling import rolling_acceleration, rolling_forces
-from .rolling_phase import roll_on
-from .slipping import JAM, ORDER, S_D, S_P, S_T, normal_force, slipping_acceleration
+from .rolling.closed_form import rolling_acceleration, rolling_forces
+from .rolling.phase import roll_on
+from .slipping import JAM, normal_force, slipping_acceleration
 from .slipping_phase import NOTHING_YET, carry, end_of_slip, step
 
 MOST_STEPS = 400_000  # in one phase: beyond the work bound of the motion itself
@@ -53,8 +57,8 @@ def write_state(par, state, normal, friction, alpha, out, i):
 
 
 @kernel
-def entry_sample(par, phases, owner, times, out, work, state, tape):
-    """Rows of ``out`` for increasing ``times``; ``phases`` are records of the tape, of which ``owner`` says by
+def entry_sample(par, phases, owner, times, out, work, state, events):
+    """Rows of ``out`` for increasing ``times``; ``phases`` are records of the event log, of which ``owner`` says by
     number which one each time belongs to.
     """
     i = 0
@@ -113,7 +117,7 @@ def entry_sample(par, phases, owner, times, out, work, state, tape):
                 normal, friction = rolling_forces(par, state[OMEGA], state[ANGLE], state[TOP])
                 alpha = rolling_acceleration(par[ZETA], state[OMEGA], state[ANGLE], state[TOP])
             elif kind == ROLL:
-                roll_point_mass(par, state, tape, start + time)
+                roll_point_mass(par, state, events, start + time)
                 s, _, h, _ = trig(state[ANGLE], state[TOP])
                 w = state[OMEGA] * state[OMEGA]
                 normal = h - 0.5 * (h + w * h)

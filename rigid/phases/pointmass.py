@@ -1,8 +1,8 @@
 """The point mass on a massless hoop (k = 0, m_h = 0, r = 1), in closed form.
 
 Rolling, sin(phi/2) obeys S'' = S/4, so from rest sin(phi/2) = sin(phi0/2) cosh(t/2), with
-N = 2 cos^2(phi/2) - G/2 and F/N = tan(phi/2), G as in :mod:`rigid.phases.rolling`. Where mu_s cannot hold that, the
-hoop skims: the mass falls freely, N = F = 0, until it hits the floor, where the motion ends.
+N = 2 cos^2(phi/2) - G/2 and F/N = tan(phi/2), G as in :mod:`rigid.phases.rolling.closed_form`. Where
+mu_s cannot hold that, the hoop skims: the mass falls freely, N = F = 0, until it hits the floor, where the motion ends.
 """
 
 # mypy: allow-untyped-defs
@@ -21,6 +21,7 @@ from ..kernel.layout import (  # fmt: skip
     MU_S,
     OMEGA,
     PERIOD,
+    PHASE_OVER,
     PULSE_OVER,
     RESTS,
     ROLL,
@@ -36,14 +37,13 @@ from ..kernel.layout import (  # fmt: skip
     XDOT,
     T,
 )
-from ..record.log import begin, turn
+from ..record.events import begin, turn
 from ..record.pulse import watch
-from .rolling import TIE
-from .rolling_phase import PHASE_OVER
+from .rolling.closed_form import TIE
 
 
 @kernel
-def choose_point_mass(par, state, tape):
+def choose_point_mass(par, state, events):
     """A point mass on a massless hoop rolls while |tan(phi/2)| <= mu_s and N >= 0, else the hoop skims, N =
     F = 0.
     """
@@ -51,9 +51,9 @@ def choose_point_mass(par, state, tape):
     g = h + state[OMEGA] * state[OMEGA] * h
     holds = h >= 0.5 * g * (1 - TIE) and abs(s) <= par[MU_S] * h * (1 + TIE)
     if state[SLIP] == 0.0 and holds and h > 0.0:
-        begin(par, state, ROLL, tape)
+        begin(par, state, ROLL, events)
     else:
-        begin(par, state, SKIM, tape)
+        begin(par, state, SKIM, events)
 
 
 @kernel
@@ -69,9 +69,9 @@ def set_from_top(state, sine, right_of_top, cosine2):
 
 
 @kernel
-def roll_point_mass(par, state, tape, t_end):
+def roll_point_mass(par, state, events, t_end):
     """Roll to the turn, to where the hoop begins to skim, or to the time ``t_end``."""
-    if watch(par, state, 0.0, tape) and par[UNTIL] == FIRST_PULSE:
+    if watch(par, state, 0.0, events) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
     _s, _, h, low = trig(state[ANGLE], state[TOP])
     omega = state[OMEGA]
@@ -117,17 +117,17 @@ def roll_point_mass(par, state, tape, t_end):
     if reason == PHASE_OVER:
         if turn_at < time:
             state[OMEGA] = 0.0
-            return TURNS_REACHED if turn(par, state, tape) else PHASE_OVER
-        begin(par, state, SKIM, tape)
+            return TURNS_REACHED if turn(par, state, events) else PHASE_OVER
+        begin(par, state, SKIM, events)
     return reason
 
 
 @kernel
-def skim(par, state, tape):
+def skim(par, state, events):
     """The point mass in free fall, the massless hoop skimming under it without a force, to the turn or to
     the floor.
     """
-    if watch(par, state, 0.0, tape) and par[UNTIL] == FIRST_PULSE:
+    if watch(par, state, 0.0, events) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
     a, top, omega = state[ANGLE], state[TOP], state[OMEGA]
     s, _c, h, low = trig(a, top)
@@ -149,7 +149,7 @@ def skim(par, state, tape):
     drop(state, time)
     if reason == PHASE_OVER:
         state[OMEGA] = 0.0
-        if turn(par, state, tape):
+        if turn(par, state, events):
             return TURNS_REACHED
     elif reason == TIME_REACHED:
         state[T] = par[T_END]

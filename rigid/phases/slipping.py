@@ -19,13 +19,26 @@ from math import exp, log
 
 from ..kernel.angle import trig
 from ..kernel.compile import kernel
-from ..kernel.layout import ECC, GYR, ONE_MINUS_E
+from ..kernel.layout import (
+    ECC,
+    GYR,
+    ONE_MINUS_E,
+    ORDER,
+    S_B,
+    S_CO,
+    S_D,
+    S_H,
+    S_N1,
+    S_OMEGA,
+    S_P,
+    S_SIN,
+    S_SLIP,
+    S_T,
+    S_YDOT,
+)
 
-ORDER = 24
 TOLERANCE = -34.0  # log of the neglected term over the leading one: below round-off
 JAM = 1e-13  # D/K below which the contact is jammed: D is then round-off of its terms
-SERIES = 13  # arrays of a workspace; their names are the indices below
-S_SIN, S_H, S_OMEGA, S_CO, S_P, S_D, S_B, S_YDOT, S_SLIP, S_T, S_N1, S_PLUS, S_MINUS = range(SERIES)
 
 
 @kernel
@@ -40,13 +53,14 @@ def known_p(p, terms, carried):
 
 
 @kernel
-def series(par, mu_hat, s, c, h, omega, slip, p_known, work):
-    """Taylor coefficients in tau of one step from sin phi, cos phi, 1 + cos phi, phidot and the slip velocity, and
-    the length over which they are exact to round-off.
+def series(par, mu_hat, angle, omega, slip, p_known, work):
+    """Taylor coefficients in tau of one step from the angle (as :func:`rigid.kernel.angle.trig` gives it), phidot and
+    the slip velocity, and the length over which they are exact to round-off.
 
     ``work`` holds, by index: sin phi, 1 + cos phi, phidot, phidot cos phi, P, D, b, ydot_G, slip velocity,
     time from the start of the step, and N - 1 times D.
     """
+    s, c, h, _ = angle
     e, one_minus_e, gyr = par[ECC], par[ONE_MINUS_E], par[GYR]
     sn, hh, om, co, pp, dd = work[S_SIN], work[S_H], work[S_OMEGA], work[S_CO], work[S_P], work[S_D]
     bb, yd, vv, tt, n1 = work[S_B], work[S_YDOT], work[S_SLIP], work[S_T], work[S_N1]

@@ -28,11 +28,23 @@ from ..kernel.layout import (  # fmt: skip
     MU,
     OMEGA,
     ONE_MINUS_E,
+    ORDER,
     P_OPEN,
     P_PEAK,
+    PHASE_OVER,
     PULSE_OVER,
     RECORDS,
     REST,
+    S_B,
+    S_D,
+    S_H,
+    S_N1,
+    S_OMEGA,
+    S_P,
+    S_SIN,
+    S_SLIP,
+    S_T,
+    S_YDOT,
     SKID,
     SLIDES,
     SLIP,
@@ -54,25 +66,9 @@ from ..kernel.layout import (  # fmt: skip
 )
 from ..kernel.polynomial import first_crossing, value, value_and_slope
 from ..record.cycle import AT_PASS, AT_TURN, comes_round
-from ..record.log import ROOM, turn
+from ..record.events import ROOM, turn
 from ..record.pulse import cross_bottom, watch
-from .rolling_phase import PHASE_OVER
-from .slipping import (
-    JAM,
-    ORDER,
-    S_B,
-    S_D,
-    S_H,
-    S_N1,
-    S_OMEGA,
-    S_P,
-    S_SIN,
-    S_SLIP,
-    S_T,
-    S_YDOT,
-    normal_force,
-    series,
-)
+from .slipping import JAM, normal_force, series
 
 # what a step is cut at
 NOTHING_YET, STOPS, LIFTS, TIME_IS_UP, TURNS_BACK, AT_BOTTOM, AT_WEIGHT = range(7)
@@ -149,9 +145,9 @@ def slip_now(par, state, h):
 @kernel
 def step(par, state, mu_hat, p_known, work):
     """The series of the next step, and how far it is good."""
-    s, c, h, _ = trig(state[ANGLE], state[TOP])
-    slip = slip_now(par, state, h)
-    length = series(par, mu_hat, s, c, h, state[OMEGA], slip, p_known, work)
+    angle = trig(state[ANGLE], state[TOP])
+    slip = slip_now(par, state, angle[2])
+    length = series(par, mu_hat, angle, state[OMEGA], slip, p_known, work)
     b, v, om = work[S_B], work[S_SLIP], work[S_OMEGA]
     if v[0] == 0.0:
         # a slip that starts with mu_s = mu starts with no acceleration either, up to the round-off of its
@@ -180,20 +176,50 @@ def end_of_slip(work, length, sign):
 
 
 @kernel
-def slide(par, state, work, tape):
+def next_event(par, state, work, length, at_edge):
+    """(how far, event): the first thing that happens within a step of the length ``length``."""
+    om, n1, tt = work[S_OMEGA], work[S_N1], work[S_T]
+    length, event = end_of_slip(work, length, 1.0 if state[MODE] == SKID else -1.0)
+    left = par[T_END] - state[T]
+    if left < value(tt, ORDER, length):
+        tt[0] = -left
+        x = first_crossing(tt, ORDER, length, -1.0)
+        tt[0] = 0.0
+        if x >= 0:
+            length, event = x, TIME_IS_UP
+    heading = om[0] if om[0] != 0.0 else om[1]
+    x = first_crossing(om, ORDER, length, 1.0 if heading > 0 else -1.0)
+    if x > 0:
+        length, event = x, TURNS_BACK
+    if state[TOP] == 0.0:
+        a = state[ANGLE]
+        # sin phi has the sign of -a
+        side = a if a != 0.0 else heading
+        x = first_crossing(work[S_SIN], ORDER, length, -1.0 if side > 0 else 1.0)
+        if x > 0:
+            length, event = x, AT_BOTTOM
+    if at_edge:
+        n1[0] = 0.0
+    x = first_crossing(n1, ORDER, length, 1.0 if state[P_OPEN] != 0.0 else -1.0)
+    if x > 0 or (x == 0.0 and not at_edge):
+        length, event = x, AT_WEIGHT
+    return length, event
+
+
+@kernel
+def slide(par, state, work, events):
     """Slip until the contact point rests or lifts, or the run is over."""
-    sign = 1.0 if state[MODE] == SKID else -1.0
-    mu_hat = par[MU] * sign
+    mu_hat = par[MU] if state[MODE] == SKID else -par[MU]
     gyr = par[GYR]
     at_edge = False
     p_known = inf
     state[LOSSLESS_TURNS], whirled = 0.0, 0
     state[SLIP_SCALE] = 0.0
     n = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
-    if watch(par, state, n, tape) and par[UNTIL] == FIRST_PULSE:
+    if watch(par, state, n, events) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
     while True:
-        if state[RECORDS] * WIDTH + ROOM * WIDTH > len(tape):
+        if state[RECORDS] * WIDTH + ROOM * WIDTH > len(events):
             return MORE
         if state[STEPS] <= 0.0:
             return WORK_BOUND
@@ -202,31 +228,8 @@ def slide(par, state, work, tape):
         if work[S_D][0] <= JAM * gyr:
             state[MODE] = IMPACT
             return PHASE_OVER
-        om, n1, tt = work[S_OMEGA], work[S_N1], work[S_T]
-        length, event = end_of_slip(work, length, sign)
-        if par[T_END] - state[T] < value(tt, ORDER, length):
-            left = par[T_END] - state[T]
-            tt[0] = -left
-            x = first_crossing(tt, ORDER, length, -1.0)
-            tt[0] = 0.0
-            if x >= 0:
-                length, event = x, TIME_IS_UP
-        heading = om[0] if om[0] != 0.0 else om[1]
-        x = first_crossing(om, ORDER, length, 1.0 if heading > 0 else -1.0)
-        if x > 0:
-            length, event = x, TURNS_BACK
-        if state[TOP] == 0.0:
-            a = state[ANGLE]
-            # sin phi has the sign of -a
-            side = a if a != 0.0 else heading
-            x = first_crossing(work[S_SIN], ORDER, length, -1.0 if side > 0 else 1.0)
-            if x > 0:
-                length, event = x, AT_BOTTOM
-        if at_edge:
-            n1[0] = 0.0
-        x = first_crossing(n1, ORDER, length, 1.0 if state[P_OPEN] != 0.0 else -1.0)
-        if x > 0 or (x == 0.0 and not at_edge):
-            length, event = x, AT_WEIGHT
+        turning = work[S_OMEGA][0] != 0.0
+        length, event = next_event(par, state, work, length, at_edge)
         at_edge = False
         if state[P_OPEN] != 0.0:
             state[P_PEAK] = max(state[P_PEAK], peak_force(gyr, work, length))
@@ -236,13 +239,13 @@ def slide(par, state, work, tape):
         if event == STOPS:
             state[SLIP] = 0.0
         # without friction the slip stops where the hoop turns, to the last digit
-        if event == TURNS_BACK or (state[OMEGA] == 0.0 and om[0] != 0.0):
+        if event == TURNS_BACK or (state[OMEGA] == 0.0 and turning):
             state[OMEGA] = 0.0
             state[LOSSLESS_TURNS] += 1.0
             whirled = 0
-            if turn(par, state, tape):
+            if turn(par, state, events):
                 return TURNS_REACHED
-            if par[MU] == 0.0 and comes_round(par, state, AT_TURN, tape) and par[UNTIL] == REST:
+            if par[MU] == 0.0 and comes_round(par, state, AT_TURN, events) and par[UNTIL] == REST:
                 return SLIDES
         if event == STOPS:
             return PHASE_OVER
@@ -261,13 +264,13 @@ def slide(par, state, work, tape):
             cross_bottom(state)
         elif event == AT_WEIGHT:
             at_edge = True
-            if watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, tape):
+            if watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, events):
                 if par[UNTIL] == FIRST_PULSE:
                     return PULSE_OVER
                 if (
                     par[MU] == 0.0
                     and par[TURNS] == inf
-                    and comes_round(par, state, AT_PASS, tape)
+                    and comes_round(par, state, AT_PASS, events)
                     and par[UNTIL] == REST
                 ):
                     return SLIDES

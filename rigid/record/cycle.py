@@ -53,9 +53,9 @@ MOST_REPEATS = 1e6
 
 
 @kernel
-def comes_round(par, state, event, tape):
+def comes_round(par, state, event, events):
     """Whether the motion is where it was a period ago. If so, all whole periods but the last are passed over at once:
-    the tape gets a REPEAT in their place.
+    the events gets a REPEAT in their place.
     """
     known = state[A_EVENT]
     if known == DONE or (known == AT_TURN and event == AT_PASS):
@@ -69,7 +69,7 @@ def comes_round(par, state, event, tape):
     close = close and abs(state[XDOT] - state[A_XDOT]) <= SAME * (1 + abs(state[XDOT]))
     round_again = known == event and turns == (2.0 if event == AT_TURN else 0.0) and close
     if round_again:
-        repeat(par, state, tape)
+        repeat(par, state, events)
     if state[A_EVENT] != DONE:
         state[A_EVENT] = event
         state[A_T], state[A_ANGLE], state[A_WHOLE], state[A_OMEGA], state[A_XDOT], state[A_X] = (
@@ -82,7 +82,7 @@ def comes_round(par, state, event, tape):
 
 
 @kernel
-def repeat(par, state, tape):
+def repeat(par, state, events):
     """Go on by as many whole periods as leave one or two turns, or one period and a part, to the end of the run."""
     period, way, whole = state[T] - state[A_T], state[X_C] - state[A_X], state[WHOLE] - state[A_WHOLE]
     turns, pulses = state[TURNS_DONE] - state[A_TURNS], state[PULSES_DONE] - state[A_PULSES]
@@ -94,10 +94,10 @@ def repeat(par, state, tape):
     if count < 1.0:
         return
     r = int(state[RECORDS]) * WIDTH
-    tape[r] = REPEAT
-    tape[r + R_T], tape[r + R_PERIOD], tape[r + R_WAY], tape[r + R_WHOLE] = state[T], period, way, whole
-    tape[r + R_COUNT], tape[r + R_TURNS], tape[r + R_PULSES] = count, turns, pulses
-    tape[r + R_RECORDS] = state[RECORDED] - state[A_RECORDED]
+    events[r] = REPEAT
+    events[r + R_T], events[r + R_PERIOD], events[r + R_WAY], events[r + R_WHOLE] = state[T], period, way, whole
+    events[r + R_COUNT], events[r + R_TURNS], events[r + R_PULSES] = count, turns, pulses
+    events[r + R_RECORDS] = state[RECORDED] - state[A_RECORDED]
     state[RECORDS] += 1
     state[T] += count * period
     state[PHASE_T] += count * period

@@ -80,7 +80,7 @@ def energy(par, state):
 
 
 @kernel
-def watch(par, state, normal_force, tape):
+def watch(par, state, normal_force, events):
     """Open or close the pulse at the present state, N being the force from here on; True if one was closed
     and counted.
     """
@@ -92,7 +92,7 @@ def watch(par, state, normal_force, tape):
                 state[P_CUT] = 1.0
         state[P_PEAK] = max(state[P_PEAK], normal_force)
         return False
-    return close_pulse(par, state, tape)
+    return close_pulse(par, state, events)
 
 
 @kernel
@@ -120,8 +120,8 @@ def cross_bottom(state):
 
 
 @kernel
-def close_pulse(par, state, tape):
-    """End the stretch; True if it was a pulse over the bottom, which is then on the tape and counted."""
+def close_pulse(par, state, events):
+    """End the stretch; True if it was a pulse over the bottom, which is then in the event log and counted."""
     if state[P_OPEN] == 0.0:
         return False
     state[P_OPEN] = 0.0
@@ -129,52 +129,52 @@ def close_pulse(par, state, tape):
         # released below the hoop's centre and on the way up: what is left of a pulse
         rising = state[TOP] != 0.0 or state[P_ANGLE] * (state[ANGLE] - state[P_ANGLE]) >= 0.0
         if state[P_CUT] != 0.0 and state[P_TOP] == 0.0 and rising:
-            write_pulse(par, state, tape)
+            write_pulse(par, state, events)
         return False
-    write_pulse(par, state, tape)
+    write_pulse(par, state, events)
     state[PULSES_DONE] += 1
     return True
 
 
 @kernel
-def cut_pulse(par, state, tape):
-    """At the end of a run: put the pulse in which it ends on the tape."""
+def cut_pulse(par, state, events):
+    """At the end of a run: put the pulse in which it ends into the event log."""
     falling = state[TOP] == 0.0 and state[ANGLE] * state[OMEGA] < 0.0
     if state[P_OPEN] != 0.0 and (state[P_CROSSED] != 0.0 or falling):
         state[P_CUT] = 1.0
-        write_pulse(par, state, tape)
+        write_pulse(par, state, events)
     state[P_OPEN] = 0.0
 
 
 @kernel
-def write_pulse(par, state, tape):
+def write_pulse(par, state, events):
     """The measures of the stretch that ends here."""
     x, y = velocity_of_g(par, state)
     _, _, h, _ = trig(state[ANGLE], state[TOP])
     e, y0 = par[ECC], state[P_YDOT]
     normal = y - y0 + (state[T] - state[P_T])
     r = int(state[RECORDS]) * WIDTH
-    tape[r] = PULSE
-    tape[r + 1], tape[r + 2], tape[r + 3], tape[r + 4] = (
+    events[r] = PULSE
+    events[r + 1], events[r + 2], events[r + 3], events[r + 4] = (
         state[P_T],
         state[P_ANGLE],
         state[P_TOP],
         state[P_WHOLE],
     )
-    tape[r + 5], tape[r + 6], tape[r + 7], tape[r + 8] = state[T], state[ANGLE], state[TOP], state[WHOLE]
-    tape[r + 9] = normal
-    tape[r + 10] = x - state[P_XDOT]
-    tape[r + 11] = state[P_ENERGY] - energy(par, state)
-    tape[r + 12] = state[P_PEAK]
+    events[r + 5], events[r + 6], events[r + 7], events[r + 8] = state[T], state[ANGLE], state[TOP], state[WHOLE]
+    events[r + 9] = normal
+    events[r + 10] = x - state[P_XDOT]
+    events[r + 11] = state[P_ENERGY] - energy(par, state)
+    events[r + 12] = state[P_PEAK]
     if state[P_CUT] != 0.0:
-        tape[r + 13] = tape[r + 14] = tape[r + 15] = nan
+        events[r + 13] = events[r + 14] = events[r + 15] = nan
     else:
         compression = -y0 + (state[P_T_BOTTOM] - state[P_T])
         work_in = -0.5 * y0 * y0 - e * state[P_H]
         work_out = 0.5 * y * y + e * h
-        tape[r + 13] = -y / y0 if y0 != 0 else 0.0
-        tape[r + 14] = (normal - compression) / compression if compression > 0 else 0.0
-        tape[r + 15] = sqrt(work_out / -work_in) if work_in < 0 else 0.0
-    tape[r + PULSE_CUT] = state[P_CUT]
+        events[r + 13] = -y / y0 if y0 != 0 else 0.0
+        events[r + 14] = (normal - compression) / compression if compression > 0 else 0.0
+        events[r + 15] = sqrt(work_out / -work_in) if work_in < 0 else 0.0
+    events[r + PULSE_CUT] = state[P_CUT]
     state[RECORDS] += 1
     state[RECORDED] += 1

@@ -54,15 +54,16 @@ def _long_run(steps: int) -> Contestant:
     """A flexible run of so many steps without history."""
     from flexible.handover import hand_over
     from flexible.models.reduced import ReducedHoop
-    from flexible.time.adaptive import march
+    from flexible.time.adaptive import Limits, march
+    from flexible.time.events import Ends
 
     scene = reference.scene_b(1e-3)
     scene = scene.replace(release=Release(2.9, 0.0), run={"t_end": 20.0}, solve={"start": "equilibrium"})
 
     def run() -> None:
         hoop = ReducedHoop(scene)
-        state = hand_over(hoop, simulate(scene), 0.0, scene.contact.law)
-        march(hoop, state, lambda now: -1.0, scene.solve.rtol, max_steps=steps)
+        state = hand_over(hoop, simulate(scene), 0.0)
+        march(hoop, state, Ends(), scene.solve.rtol, Limits(most=steps))
 
     return _sized(STEPS, steps, run)
 

@@ -30,7 +30,7 @@ def _forget_rings() -> None:
 
 
 def _fields(scene: Scene) -> None:
-    from flexible.output.fields import write_fields
+    from flexible import write_fields
 
     motion = flexible.simulate(scene, history=True)
     with TemporaryDirectory() as folder:

@@ -76,8 +76,8 @@ def write_fields(motion: Motion, out: Path, progress: Callable[[float], None], *
     StudyError
         No such instants, or a folder that cannot be written to.
     """
-    from flexible.motion import FlexibleMotion
-    from flexible.output.fields import write_fields as write
+    from flexible import FlexibleMotion
+    from flexible import write_fields as write
     from meshes import SeriesError
 
     if not isinstance(motion, FlexibleMotion):

@@ -1,4 +1,4 @@
-"""`hoop study ...`: the limit of stiffness, and sweeps."""
+"""`hoop study ...`: the limit of stiffness, observed and solved, and sweeps."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rigid import load_scene
+from rigid.elastic import LAWS
 
 from ..running.files import folder, to_json, write_text
 
@@ -54,12 +55,12 @@ def study() -> None:
 @click.option("--low", type=float, metavar="S", help="Softest rung; by default 1e-2 of the scene's own stiffness.")
 @click.option("--high", type=float, metavar="S", help="Stiffest rung; by default 1e4 of it.")
 @click.option("--count", type=int, default=9, metavar="N", help="Number of rungs, 9 by default.")
-@click.option("--law", type=click.Choice(["patch", "brush"]), help="Contact law, in place of the scene's.")
+@click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--rate",
     type=float,
     metavar="P",
-    help="Rate of the extrapolation where it is known (1/3 is 0.3333); by default it is fitted.",
+    help="Rate of the extrapolation (1/3 is 0.3333), in place of the contact law's own or a fitted one.",
 )
 @click.option(
     "--damping",
@@ -103,8 +104,8 @@ def stiffness(
     from ..stiffness.study import stiffness_study
 
     described = load_scene(scene)
-    if law is not None:
-        described = described.replace(contact={"law": law})
+    contact = {"law": law, "damping": damping}
+    described = described.replace(contact={key: value for key, value in contact.items() if value is not None})
     ladder = Ladder.around(described, along, low, high, count)
     solver(solver_name)
     target = folder(out) if out is not None else None
@@ -113,7 +114,6 @@ def stiffness(
             described,
             ladder,
             solver=solver_name,
-            damping=damping,
             all_pulses=all_pulses,
             exponent=rate,
             pool=place,
@@ -138,6 +138,77 @@ def stiffness(
             write_first_pulse(found.scene, target, progress)
     if found.failures:
         ctx.exit(1)
+
+
+@study.command()
+@click.argument("scene")
+@as_json
+@click.option(
+    "--out", type=click.Path(path_type=Path), metavar="DIR", help="Write limit.json, figures and report.html here."
+)
+@click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
+@click.option(
+    "--damping",
+    type=click.FloatRange(0),
+    metavar="D",
+    help="Damping ratio of the patch under the hoop's own weight; by default the scene's own, 0 included.",
+)
+@click.option(
+    "--flexible",
+    "foundations",
+    type=click.FloatRange(0, min_open=True),
+    multiple=True,
+    metavar="S",
+    help="Observe the flexible solver at this foundation too; may be given several times.",
+)
+@click.option("--map", "mapped", is_flag=True, help="J_F/J_N over damping ratio and foundation too; a minute or two.")
+@workers
+@scheduler
+@click.pass_obj
+def limit(
+    line: str,
+    scene: str,
+    as_json: bool,
+    out: Path | None,
+    law: str | None,
+    damping: float | None,
+    foundations: tuple[float, ...],
+    mapped: bool,
+    workers: int | None,
+    scheduler: str | None,
+) -> None:
+    """The limit of infinite stiffness solved, not fitted: events, critical damping, and how fast a pulse gets there."""
+    from ..limit.damping import damping_map
+    from ..limit.study import limit_study
+    from ..limit.summary import limit_sheets, map_sheet
+    from ..running.progress import bar
+    from ..running.workers import pool
+
+    described = load_scene(scene)
+    if law is not None:
+        described = described.replace(contact={"law": law})
+    target = folder(out) if out is not None else None
+    with bar("inner problems") as progress, pool(workers, scheduler) as place:
+        found = limit_study(described, damping=damping, flexible=foundations, pool=place, out=target, progress=progress)
+        spots = damping_map(found.scene) if mapped else []
+    told = found.to_dict() | ({"map": [spot.to_dict() for spot in spots]} if mapped else {})
+    if target is not None:
+        from ..limit.figures import damping_figure, of_limit
+        from ..limit.report import limit_report
+        from ..plots.style import save
+
+        write_text(target / "limit.json", to_json(told))
+        drawn = of_limit(found) | ({"damping": damping_figure(spots)} if mapped else {})
+        images = {name: save(figure, target / f"{name}.png") for name, figure in drawn.items()}
+        limit_report(found, (map_sheet(spots),) if mapped else (), images, line, target / "report.html")
+    if as_json:
+        click.echo(to_json(told))
+        return
+    from .tables import show
+
+    show(*limit_sheets(found), *([map_sheet(spots)] if mapped else []))
+    if target is not None:
+        click.echo(f"Figures and limit.json are in {target}; open {target / 'report.html'}.")
 
 
 def _write_study(found: StiffnessStudy, target: Path, line: str, progress: Callable[[float], None]) -> None:

@@ -12,8 +12,8 @@ from rich.console import Console
 
 from rigid import Motion, Scene, scene_from_dict
 
-from ..plots.sheet import Column, Sheet
-from ..running.measures import MEASURES, measures, phase_sequence, unit_in
+from ..plots.sheet import Column, Sheet, number
+from ..running.measures import MEASURES, Unit, measures, phase_sequence
 from ..stiffness.summary import (
     LIMIT_HEADING,
     case_cells,
@@ -21,7 +21,7 @@ from ..stiffness.summary import (
     damping_sentence,
     law_sentence,
     limit_rows,
-    number,
+    prediction_sentence,
     rigid_cells,
     shortened,
     verdict,
@@ -54,9 +54,9 @@ def show(*things: Any) -> None:
 
 def motion_tables(motion: Motion) -> list[Any]:
     """Phases, turns and pulses of a motion, and why it ended."""
-    time = f"[{unit_in('sqrt(R/g)', motion.scene)}]"
-    speed = f"[{unit_in('sqrt(gR)', motion.scene)}]"
-    energy = f"[{unit_in('mgR', motion.scene)}]"
+    time = f"[{Unit.TIME.label(motion.scene)}]"
+    speed = f"[{Unit.VELOCITY.label(motion.scene)}]"
+    energy = f"[{Unit.ENERGY.label(motion.scene)}]"
     phases = motion.phases
     shown: list[Any] = [
         Sheet(
@@ -128,7 +128,8 @@ def study_tables(study: StiffnessStudy) -> list[Any]:
     failed = [f"Foundation {number(r.contact_stiffness, 3)} failed: {r.outcome.failure}" for r in study.failures]
     loose = any(not r.outcome.resolved for r in study.rungs if not r.outcome.failure)
     star = ["* The numerical error is more than a tenth of the distance to the rigid hoop."] if loose else []
-    return [ladder, *star, *failed, limits, law_sentence(study), damping_sentence(study), verdict(study)]
+    foreseen = [prediction_sentence(study)] if study.prediction is not None else []
+    return [ladder, *star, *failed, limits, *foreseen, law_sentence(study), damping_sentence(study), verdict(study)]
 
 
 def sweep_tables(sweep: SweepTable, most: int = 40) -> list[Any]:

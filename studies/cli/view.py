@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from rigid import load_scene
+from rigid import Motion, load_scene
 
 from ..running.files import StudyError
+
+if TYPE_CHECKING:
+    from meshes import Series
 
 FILE = click.Path(path_type=Path, dir_okay=False)
 
@@ -68,7 +71,7 @@ def view(
         raise StudyError("--time needs --png FILE: it is the instant that is drawn.")
 
     from meshes import SeriesError
-    from meshes.view.pictures import ViewError, animate, picture, window
+    from meshes.view import Timing, ViewError, animate, picture, window
 
     from ..running.progress import bar
 
@@ -79,7 +82,7 @@ def view(
             picture(thing, png, time, **look)
         for file in films:
             with bar(file.name) as told:
-                animate(thing, file, progress=partial(_fraction, told), **look, **pacing)
+                animate(thing, file, **look, timing=Timing(**pacing), progress=partial(_fraction, told))
         if png is None and not films:
             window(thing, **look)
     except (ViewError, SeriesError) as error:
@@ -90,7 +93,7 @@ def _fraction(told: Callable[[float], None], done: int, total: int) -> None:
     told(done / max(total, 1))
 
 
-def _thing(path: str) -> Any:
+def _thing(path: str) -> Series | Motion:
     """The field series at ``path``, or the rigid motion of the scene that it names."""
     place = Path(path)
     if place.is_dir() or place.suffix in (".pvd", ".vtu", ".vtk", ".vtp"):

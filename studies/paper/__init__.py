@@ -1,7 +1,7 @@
 """The paper again: V. A. Lubarda, J. Mech. Mater. Struct. 4(6), 2009, its figures 2 to 12 and every number it prints.
 
 ``panels``    what a figure is made of, as data; ``figures`` the paper's, one record each
-``sampling``  their curves as numbers; ``drawing`` on the sheet and as CSV; ``extra`` two figures of our own
+``sampling``  their curves as numbers; ``drawing`` as pictures and as CSV; ``extra`` two figures of our own
 ``numbers``   the printed numbers beside ours; ``seen`` what the text says of its figures, looked for in ours
 ``closing``   both as one table
 """

@@ -38,7 +38,8 @@ def summary(verdicts: Sequence[Verdict]) -> str:
     compared = [verdict.agrees for verdict in verdicts if verdict.agrees is not None]
     agree = sum(compared)
     rest = len(compared) - agree
-    return f"{agree} of {len(compared)} agree" + (f"; for the other {rest} the reasons are:" if rest else ".")
+    told = f"{agree} of {len(compared)} agree, numbers to one unit of the last digit that the paper prints or cuts off"
+    return told + (f"; for the other {rest} the reasons are:" if rest else ".")
 
 
 def screen(verdicts: Sequence[Verdict]) -> list[Table | str]:

@@ -10,7 +10,7 @@ from typing import Any
 
 import matplotlib
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure as Sheet
+from matplotlib.figure import Figure as Drawing
 
 from ..plots.style import STYLE
 from ..running.files import write_text, write_whole
@@ -43,23 +43,23 @@ def draw_panel(axes: Any, panel: Panel, curves: Sequence[Line], legend: str = ""
         axes.legend(title=legend, handlelength=3.2)
 
 
-def two_panels(title: str) -> Sheet:
-    """A sheet with two empty axes, at the same places in every figure."""
-    sheet = Sheet(figsize=(10.0, 4.2))
-    FigureCanvasAgg(sheet)
-    sheet.subplots(1, 2)
-    sheet.subplots_adjust(left=0.085, right=0.985, bottom=0.13, top=0.9, wspace=0.22)
-    sheet.suptitle(title, fontsize="medium", x=0.01, ha="left")
-    return sheet
+def two_panels(title: str) -> Drawing:
+    """Two empty axes, at the same places in every figure."""
+    drawing = Drawing(figsize=(10.0, 4.2))
+    FigureCanvasAgg(drawing)
+    drawing.subplots(1, 2)
+    drawing.subplots_adjust(left=0.085, right=0.985, bottom=0.13, top=0.9, wspace=0.22)
+    drawing.suptitle(title, fontsize="medium", x=0.01, ha="left")
+    return drawing
 
 
-def draw(figure: Figure, left: Sequence[Line], right: Sequence[Line]) -> Sheet:
+def draw(figure: Figure, left: Sequence[Line], right: Sequence[Line]) -> Drawing:
     """A figure with its two panels."""
     with matplotlib.rc_context(LOOK):
-        sheet = two_panels(f"{figure.number}.  {figure.caption}")
-        for axes, panel, curves in zip(sheet.axes, figure.panels.values(), (left, right), strict=True):
+        drawing = two_panels(f"{figure.number}.  {figure.caption}")
+        for axes, panel, curves in zip(drawing.axes, figure.panels.values(), (left, right), strict=True):
             draw_panel(axes, panel, curves, figure.legend)
-    return sheet
+    return drawing
 
 
 def panel_csv(panel: Panel, curves: Sequence[Line], legend: str = "") -> str:
@@ -74,18 +74,18 @@ def panel_csv(panel: Panel, curves: Sequence[Line], legend: str = "") -> str:
     return rows_to_csv(header, rows)
 
 
-def save_sheet(sheet: Sheet, out: Path, name: str, formats: Sequence[str]) -> None:
-    """Write a drawn sheet in every format asked for."""
+def save_drawing(drawing: Drawing, out: Path, name: str, formats: Sequence[str]) -> None:
+    """Write a drawing in every format asked for."""
     with matplotlib.rc_context(LOOK):
         for suffix in formats:
             # a date would make every file another one
             options: Any = {"format": suffix, "dpi": 160, "metadata": {"Date": None} if suffix == "svg" else None}
-            write_whole(out / f"{name}.{suffix}", partial(sheet.savefig, **options))
+            write_whole(out / f"{name}.{suffix}", partial(drawing.savefig, **options))
 
 
 def write_figure(figure: Figure, out: Path, formats: Sequence[str]) -> None:
     """``figure-NN.png`` or ``.svg``, and ``figure-NN-left.csv`` and ``-right.csv`` beside it."""
     curves = {side: lines(figure, side) for side in figure.panels}
-    save_sheet(draw(figure, **curves), out, figure.name, formats)
+    save_drawing(draw(figure, **curves), out, figure.name, formats)
     for side, panel in figure.panels.items():
         write_text(out / f"{figure.name}-{side}.csv", panel_csv(panel, curves[side], figure.legend))

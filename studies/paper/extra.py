@@ -9,14 +9,13 @@ from typing import Any
 
 import matplotlib
 import numpy as np
-from matplotlib.figure import Figure as Sheet
+from matplotlib.figure import Figure as Drawing
 
-from rigid import Hoop
-from rigid.thresholds import inception_mu_s
+from rigid import Hoop, inception_mu_s
 
 from ..running.files import write_text
 from ..running.history import rows_to_csv
-from .drawing import LOOK, draw_panel, panel_csv, save_sheet, two_panels
+from .drawing import LOOK, draw_panel, panel_csv, save_drawing, two_panels
 from .figures import FIGURE_10, FIGURE_11
 from .panels import Panel, Part
 from .sampling import line
@@ -36,8 +35,8 @@ CAPTIONS = {
 def _write_inception(out: Path, formats: Sequence[str]) -> None:
     name, columns = "extra-inception", ["hoop", "phi0 [deg]", "mu_s"]
     with matplotlib.rc_context(LOOK):
-        sheet: Sheet = two_panels(f"Extra.  {CAPTIONS[name]}")
-        for axes, side, last, top in zip(sheet.axes, ("left", "right"), (179.5, 20.0), (2.0, 0.2), strict=True):
+        drawing: Drawing = two_panels(f"Extra.  {CAPTIONS[name]}")
+        for axes, side, last, top in zip(drawing.axes, ("left", "right"), (179.5, 20.0), (2.0, 0.2), strict=True):
             angles = np.linspace(0.5, last, 400)
             rows: list[tuple[Any, ...]] = []
             for label, (hoop, style) in HOOPS.items():
@@ -47,18 +46,18 @@ def _write_inception(out: Path, formats: Sequence[str]) -> None:
             axes.set(xlabel=r"$\varphi_0$, degrees", ylabel=r"$\mu_s$ at inception", xlim=(0, last), ylim=(0, top))
             axes.legend(handlelength=3.2)
             write_text(out / f"{name}-{side}.csv", rows_to_csv(columns, rows))
-    save_sheet(sheet, out, name, formats)
+    save_drawing(drawing, out, name, formats)
 
 
 def _write_energy(out: Path, formats: Sequence[str]) -> None:
     name, panel = "extra-energy", Panel("energy", "t", Part.FIRST_ROTATION)
     with matplotlib.rc_context(LOOK):
-        sheet = two_panels(f"Extra.  {CAPTIONS[name]}")
-        for axes, side, figure in zip(sheet.axes, ("left", "right"), (FIGURE_11, FIGURE_10), strict=True):
+        drawing = two_panels(f"Extra.  {CAPTIONS[name]}")
+        for axes, side, figure in zip(drawing.axes, ("left", "right"), (FIGURE_11, FIGURE_10), strict=True):
             curves = [line(curve, panel) for curve in figure.curves]
             draw_panel(axes, panel, curves, figure.legend)
             write_text(out / f"{name}-{side}.csv", panel_csv(panel, curves, figure.legend))
-    save_sheet(sheet, out, name, formats)
+    save_drawing(drawing, out, name, formats)
 
 
 def write_extra(out: Path, formats: Sequence[str]) -> None:

@@ -9,8 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import asin, cosh, floor, log10, radians, sin, tan
 
-from rigid import Release, load_scene, simulate
-from rigid.thresholds import inception_mu_s, rolling_k, rolling_mu_s
+from rigid import Release, inception_mu_s, load_scene, rolling_k, rolling_mu_s, simulate
 
 from .sampling import bottoms, motion_of
 

@@ -20,7 +20,7 @@ STEP = 0.025  # of the argument of sinh: a pulse's peak is off by no more than i
 
 
 @dataclass(frozen=True)
-class Stretch:
+class Samples:
     """A part of a motion in the order of time; where phases meet there are two states of one time."""
 
     states: States
@@ -86,7 +86,7 @@ def instants(motion: Motion, start: float, end: float) -> Array:
     """
     times = [np.linspace(start, end, EVEN + 1)]
     for middle in bottoms(motion):
-        width = sqrt(motion.scene.hoop.zeta) / abs(float(motion.at(middle).omega))
+        width = sqrt(motion.scene.hoop.constants.zeta) / abs(float(motion.at(middle).omega))
         reach = asinh(motion.t_end / width)
         count = ceil(reach / STEP)
         times.append(middle + width * np.sinh(np.linspace(-reach, reach, 2 * count + 1)))
@@ -96,29 +96,29 @@ def instants(motion: Motion, start: float, end: float) -> Array:
 
 
 @cache
-def stretch(name: str, turns: int, start: float, end: float) -> Stretch:
+def samples(name: str, turns: int, start: float, end: float) -> Samples:
     """A part of a shipped scene's motion, each phase from its start up to its end, both included."""
     motion = motion_of(name, turns)
     within = instants(motion, start, end)
-    pieces, lasts, kinds = [], [], []
+    parts, lasts, kinds = [], [], []
     for phase in motion.phases:
         first, last = max(phase.t_start, start), min(phase.t_end, end)
         if first < last:
-            pieces.append(np.concatenate([[first], within[(within > first) & (within < last)]]))
+            parts.append(np.concatenate([[first], within[(within > first) & (within < last)]]))
             lasts.append(last)
-            kinds.append(np.full(len(pieces[-1]) + 1, phase.kind.value))
+            kinds.append(np.full(len(parts[-1]) + 1, phase.kind.value))
     # all at once, which is one pass along the motion; the ends of phases apart, by their values before the jump
-    states, ends = motion.at(np.concatenate(pieces)), motion.at(np.array(lasts), "left")
-    where = np.cumsum([len(times) for times in pieces])
+    states, ends = motion.at(np.concatenate(parts)), motion.at(np.array(lasts), "left")
+    where = np.cumsum([len(times) for times in parts])
     names = [field.name for field in dataclasses.fields(States)]
     columns = {name: np.insert(getattr(states, name), where, getattr(ends, name)) for name in names}
-    return Stretch(States(**columns), np.concatenate(kinds))
+    return Samples(States(**columns), np.concatenate(kinds))
 
 
 def line(curve: Curve, panel: Panel) -> Line:
     """A curve of a panel."""
     turns = TURNS[panel.part]
-    part = stretch(curve.scene, turns, *span(motion_of(curve.scene, turns), panel))
+    part = samples(curve.scene, turns, *span(motion_of(curve.scene, turns), panel))
     x, y = (QUANTITIES[quantity].of(part.states) for quantity in (panel.x, panel.y))
     return Line(curve, part.states.t, x, y, part.phase)
 

@@ -167,7 +167,7 @@ def _at(line: Line, x: Array) -> Array:
 
 def _rolled(phi: Array, rolls: Line) -> Array:
     """phidot^2 of a hoop that rolls from its release on, (7)."""
-    zeta = motion_of(rolls.curve.scene).scene.hoop.zeta
+    zeta = motion_of(rolls.curve.scene).scene.hoop.constants.zeta
     return 2 * (np.cos(rolls.x[0]) - np.cos(phi)) / (zeta + 2 * (1 + np.cos(phi)))
 
 

@@ -64,7 +64,7 @@ def pulse(curves: Sequence[Curve], title: str = "") -> Figure:
                     axes.axhline(0, color="0.6", linewidth=0.8)
         for axes in grid[2]:
             axes.set_xlabel(r"time since the disk was lowest $t/\sqrt{R/g}$")
-        grid[0, 1].set_title("the grey stretch, enlarged", fontsize=10)
+        grid[0, 1].set_title("the grey part, enlarged", fontsize=10)
         figure.suptitle(title)
         if len(curves) > 1:
             handles = grid[0, 0].get_legend_handles_labels()
@@ -110,7 +110,7 @@ def _robust_limits(axes: Axes, values: list[np.ndarray], floor: bool = False) ->
 
 
 def impulses(curves: Sequence[Curve], mu: float) -> Figure:
-    """The pulse in impulse space: gathered friction impulse against gathered normal impulse.
+    """The pulse in impulse space: accumulated friction impulse against accumulated normal impulse.
 
     A slope of mu is skidding's opposite, spinning; -mu is skidding; anything flatter is rolling.
     """

@@ -4,12 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from math import isfinite
 
 from rich.cells import cell_len
 from rich.table import Table
 
 _WORDS = 16
 """Cells to which a column of words may be narrowed, its entries then running over several lines."""
+
+
+def number(value: float | None, digits: int = 6) -> str:
+    """A number for a table; a dash for none."""
+    if value is None or not isfinite(value):
+        return "-"
+    return f"{value:.{digits}g}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -40,7 +40,7 @@ def through(motion: Motion, pulse: Pulse) -> Columns:
     -------
     dict of (n,) arrays
         ``t``, ``phi``, ``normal_force``, ``friction_force``, ``slip_velocity`` and whatever else the solver
-        has, and the impulses ``normal_impulse`` and ``friction_impulse`` gathered since the pulse began.
+        has, and the impulses ``normal_impulse`` and ``friction_impulse`` accumulated since the pulse began.
     """
     own = own_steps(motion)
     if own is None:
@@ -53,7 +53,7 @@ def through(motion: Motion, pulse: Pulse) -> Columns:
             columns[name] = columns[name] - columns[name][0]
     for force, impulse in (("normal_force", "normal_impulse"), ("friction_force", "friction_impulse")):
         if impulse not in columns:
-            columns[impulse] = gathered(columns["t"], columns[force])
+            columns[impulse] = accumulated(columns["t"], columns[force])
     return columns
 
 
@@ -95,7 +95,7 @@ def at(motion: Motion, t: Array) -> Columns:
     return {entry.name: np.asarray(getattr(states, entry.name)) for entry in dataclasses.fields(states)}
 
 
-def gathered(t: Array, values: Array) -> Array:
+def accumulated(t: Array, values: Array) -> Array:
     """Integral from the first time to each (trapezoids)."""
     return np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(t))]) if t.size else t.copy()
 

@@ -8,8 +8,26 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from enum import Enum
 
 from rigid import Kind, Motion, Phase, Pulse, Scene
+
+
+class Unit(Enum):
+    """The unit of a quantity: in the paper's scaling, and in SI when R, m or g are given."""
+
+    NUMBER = "", ""
+    TIME = "sqrt(R/g)", "s"
+    VELOCITY = "sqrt(gR)", "m/s"
+    FORCE = "mg", "N"
+    IMPULSE = "m sqrt(gR)", "N s"
+    ENERGY = "mgR", "J"
+
+    def label(self, scene: Scene) -> str:
+        """What to print behind a number of this unit in the units of ``scene``."""
+        hoop = scene.hoop
+        paper, si = self.value
+        return paper if hoop.R == hoop.m == hoop.g == 1 else si
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,41 +38,21 @@ class Measure:
     """Key in tables and JSON."""
     symbol: str
     """How figures and tables call it."""
-    unit: str
-    """Unit in the paper's scaling, empty for a pure number."""
+    unit: Unit
+    """Its unit; a pure number says so."""
     of: Callable[[Motion, Pulse], float]
     """The measure itself."""
 
-    def unit_in(self, scene: Scene) -> str:
-        """Unit in the units of ``scene``: the paper's, or SI when R, m or g are given."""
-        return unit_in(self.unit, scene)
-
     def heading(self, scene: Scene) -> str:
         """Symbol and, in brackets on a second line, unit."""
-        unit = self.unit_in(scene)
+        unit = self.unit.label(scene)
         return f"{self.symbol}\n[{unit}]" if unit else self.symbol
-
-    @property
-    def meaning(self) -> str:
-        """First line of the function's docstring."""
-        return (self.of.__doc__ or "").strip().splitlines()[0]
-
-
-_SI = {"m sqrt(gR)": "N s", "mgR": "J", "mg": "N", "sqrt(R/g)": "s", "sqrt(gR)": "m/s", "R": "m"}
-
-
-def unit_in(unit: str, scene: Scene) -> str:
-    """A unit of the paper's scaling in the units of ``scene``."""
-    hoop = scene.hoop
-    return unit if hoop.R == hoop.m == hoop.g == 1 else _SI.get(unit, unit)
 
 
 MEASURES: dict[str, Measure] = {}
 
 
-def measure(
-    symbol: str, unit: str = ""
-) -> Callable[[Callable[[Motion, Pulse], float]], Callable[[Motion, Pulse], float]]:
+def measure(symbol: str, unit: Unit) -> Callable[[Callable[[Motion, Pulse], float]], Callable[[Motion, Pulse], float]]:
     """Enter a function of a motion and a pulse among the measures."""
 
     def enter(function: Callable[[Motion, Pulse], float]) -> Callable[[Motion, Pulse], float]:
@@ -64,56 +62,56 @@ def measure(
     return enter
 
 
-@measure("J_N", "m sqrt(gR)")
+@measure("J_N", Unit.IMPULSE)
 def normal_impulse(motion: Motion, pulse: Pulse) -> float:
     """Integral of the normal force over the pulse."""
     return pulse.normal_impulse
 
 
-@measure("J_F", "m sqrt(gR)")
+@measure("J_F", Unit.IMPULSE)
 def friction_impulse(motion: Motion, pulse: Pulse) -> float:
     """Integral of the friction force over the pulse, positive to the right."""
     return pulse.friction_impulse
 
 
-@measure("J_F/J_N")
+@measure("J_F/J_N", Unit.NUMBER)
 def impulse_ratio(motion: Motion, pulse: Pulse) -> float:
     """Friction impulse over normal impulse."""
     return pulse.impulse_ratio
 
 
-@measure("J_F/(μ J_N)")
+@measure("J_F/(μ J_N)", Unit.NUMBER)
 def impulse_ratio_over_mu(motion: Motion, pulse: Pulse) -> float:
     """The same over the kinetic coefficient: Whittaker, and Kane and Levinson, have it ±1."""
     mu = motion.scene.friction.mu
     return pulse.impulse_ratio / mu if mu > 0 else float("nan")
 
 
-@measure("friction loss", "mgR")
+@measure("friction loss", Unit.ENERGY)
 def friction_loss(motion: Motion, pulse: Pulse) -> float:
     """Integral of |F v|: what friction takes from the energy during the pulse."""
     return pulse.friction_loss
 
 
-@measure("damping loss", "mgR")
+@measure("damping loss", Unit.ENERGY)
 def damping_loss(motion: Motion, pulse: Pulse) -> float:
     """What the dampers of contact and ring take."""
     return getattr(pulse, "damping_loss", 0.0)
 
 
-@measure("numerical loss", "mgR")
+@measure("numerical loss", Unit.ENERGY)
 def numerical_loss(motion: Motion, pulse: Pulse) -> float:
     """What the time integrator takes."""
     return getattr(pulse, "numerical_loss", 0.0)
 
 
-@measure("peak N", "mg")
+@measure("peak N", Unit.FORCE)
 def peak_normal_force(motion: Motion, pulse: Pulse) -> float:
     """Largest normal force in the pulse."""
     return pulse.peak_normal_force
 
 
-@measure("off the floor", "sqrt(R/g)")
+@measure("off the floor", Unit.TIME)
 def time_off_floor(motion: Motion, pulse: Pulse) -> float:
     """Time without contact: hopping, footnote 1 of the paper."""
     if hasattr(pulse, "time_off_floor"):
@@ -121,37 +119,37 @@ def time_off_floor(motion: Motion, pulse: Pulse) -> float:
     return sum(phase.t_end - phase.t_start for phase in inside(motion, pulse) if phase.kind in (Kind.FLIGHT, Kind.SKIM))
 
 
-@measure("peak ring energy", "mgR")
+@measure("peak ring energy", Unit.ENERGY)
 def ring_energy_peak(motion: Motion, pulse: Pulse) -> float:
     """Largest strain energy of the ring in the pulse."""
     return getattr(pulse, "ring_energy_peak", 0.0)
 
 
-@measure("peak contact energy", "mgR")
+@measure("peak contact energy", Unit.ENERGY)
 def contact_energy_peak(motion: Motion, pulse: Pulse) -> float:
     """Largest energy of the contact's springs in the pulse."""
     return getattr(pulse, "contact_energy_peak", 0.0)
 
 
-@measure("e Newton")
+@measure("e Newton", Unit.NUMBER)
 def newton_restitution(motion: Motion, pulse: Pulse) -> float:
     """Vertical velocity of the mass centre after over before, sign changed."""
     return pulse.newton_restitution
 
 
-@measure("e Poisson")
+@measure("e Poisson", Unit.NUMBER)
 def poisson_restitution(motion: Motion, pulse: Pulse) -> float:
     """Normal impulse of restitution over that of compression."""
     return pulse.poisson_restitution
 
 
-@measure("e energetic")
+@measure("e energetic", Unit.NUMBER)
 def energetic_restitution(motion: Motion, pulse: Pulse) -> float:
     """Square root of the work of restitution over that of compression."""
     return pulse.energetic_restitution
 
 
-@measure("duration", "sqrt(R/g)")
+@measure("duration", Unit.TIME)
 def duration(motion: Motion, pulse: Pulse) -> float:
     """Length of the pulse in time."""
     return pulse.t_end - pulse.t_start

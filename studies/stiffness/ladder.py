@@ -64,11 +64,17 @@ class Ladder:
         return "bending stiffness EI/(mgR²)" if self.along == "bending" else "contact foundation εR²/(mg)"
 
     def rungs(self, scene: Scene) -> list[Scene]:
-        """The scene at every rung, softest first."""
+        """The scene at every rung, softest first; what else the friction law ties to the foundation goes with it."""
+        from flexible.contact.laws.listing import LAWS
+
+        law = LAWS[scene.contact.law]
         ratio = scene.ring.bending_stiffness / scene.contact.stiffness
         rungs = []
         for s in self.stiffness.tolist():
             ring = {"both": s * ratio, "contact": scene.ring.bending_stiffness, "bending": s}[self.along]
-            contact = scene.contact.stiffness if self.along == "bending" else s
-            rungs.append(scene.replace(ring={"bending_stiffness": ring}, contact={"stiffness": contact}))
+            foundation = scene.contact.stiffness if self.along == "bending" else s
+            tied = law.stiffened(scene.contact, foundation / scene.contact.stiffness)
+            rungs.append(
+                scene.replace(ring={"bending_stiffness": ring}, contact={"stiffness": foundation, **tied})
+            )  # fmt: skip
         return rungs

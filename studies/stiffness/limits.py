@@ -1,11 +1,12 @@
 """The limit of a sequence y(s) as s grows, and how fast it gets there.
 
-A law ``y = L + c s^-p`` is fitted, and its uncertainty says how well it holds. The theory of the solver enters that
-uncertainty only: as the limit with the exponent that its last term has.
+Where theory has the rates, the limit is that of their series (:mod:`studies.stiffness.series`). Where it has none, a
+law ``y = L + c s^-p`` is fitted, p too, and its uncertainty says how well it holds. L and c are never given.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import hypot, inf, isfinite, nan, sqrt
 
@@ -14,13 +15,16 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import stats
 from scipy.optimize import minimize_scalar
 
+from .series import extrapolated
+
 Array = NDArray[np.float64]
 
 CONFIDENCE = 0.95
 """Level of every interval here."""
 
-LEADING = 1 / 3
-"""The rate of the last term in the end: the half-width of the contact patch, s^(-1/3)."""
+SLOWEST = 1 / 3
+"""Rate with which a fitted one is compared: that of a patch's half-width, s^(-1/3), the slowest that the compliances of
+an elastic hoop have by themselves."""
 
 _RATES = (0.05, 3.0)
 
@@ -52,12 +56,15 @@ class Limit:
     """The limit of a measure as stiffness grows, and whether the rigid value is it."""
 
     value: float
-    """Extrapolated limit L of L + c s^-p."""
+    """Extrapolated limit L, found without knowing the rigid value."""
     uncertainty: float
-    """Half width of its interval: scatter about the fit, choice of the fitted points, numerical error of the
-    cases, and the change of the limit with the exponent ``LEADING`` for the fitted one."""
-    exponent: float
-    """The exponent p of that fit, found without knowing the rigid value (or given, where theory knows it)."""
+    """Half width of its interval at the level CONFIDENCE. With known exponents: terms not seen and numerical error;
+    with a fitted one: scatter about the fit, choice of the fitted points, numerical error of the cases, and the change
+    of the limit with ``SLOWEST`` for it."""
+    exponents: tuple[float, ...]
+    """The leading rates, slowest first."""
+    known: bool
+    """Whether theory gave them; otherwise it is one, and fitted."""
     rigid: float
     """The value of the rigid hoop that this limit is expected to be."""
     rate: float
@@ -231,19 +238,32 @@ def _t(free: int) -> float:
 
 
 def limit_of(
-    s: ArrayLike, y: ArrayLike, rigid: float, error: ArrayLike | None = None, exponent: float | None = None
+    s: ArrayLike,
+    y: ArrayLike,
+    rigid: float,
+    error: ArrayLike | None = None,
+    exponents: Sequence[float] | None = None,
 ) -> Limit:
-    """The limit of a measure over a ladder of stiffness beside the rigid value it should have."""
+    """The limit of a measure over a ladder of stiffness beside the rigid value it should have.
+
+    ``exponents``, slowest first, are the leading rates where theory knows them.
+    """
     values = np.asarray(y, float)
-    value, uncertainty, fitted = richardson(s, values, error, exponent)
-    if exponent is None:
+    if exponents is not None:
+        off = np.zeros_like(values) if error is None else np.asarray(error, float)
+        value, uncertainty = extrapolated(s, values, off, exponents, CONFIDENCE)
+        rates = tuple(exponents)
+    else:
+        value, uncertainty, fitted = richardson(s, values, error)
         # a rate fitted where two terms of opposite sign still compete is not that of the last one
-        uncertainty = hypot(uncertainty, value - richardson(s, values, error, LEADING)[0])
+        uncertainty = hypot(uncertainty, value - richardson(s, values, error, SLOWEST)[0])
+        rates = (fitted,)
     rate = observed_rate(s, values - rigid, error)
     return Limit(
         value,
         uncertainty,
-        fitted,
+        rates,
+        exponents is not None,
         rigid,
         rate.value,
         rate.interval,

@@ -10,7 +10,8 @@ that turns toward the other line has reversed its slip. The slope from the origi
 ratio.""",
     "distance": """\
 How far the flexible hoop's measures are from the rigid ones. Triangles are the numerical error, known
-from a second run at half the tolerance; the line has the fitted rate and spans the cases it was fitted to.""",
+from a second run at half the tolerance; the dashed line has the fitted rate and
+spans the cases it was fitted to; the black one is predicted from the rigid motion, without any of them.""",
     "energy": """\
 Where the energy is and where it goes; below, the small terms on a logarithmic axis.""",
 }
@@ -24,23 +25,7 @@ PAGE = """\
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>{{ title }}</title>
 <style>
-:root { color-scheme: light; }
-body { font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 66rem; margin: 2rem
-auto; padding: 0 1.2rem; } h1 { font-size: 1.6rem; line-height: 1.25; margin-bottom: .3rem; } h2 { font-size:
-1.15rem; margin-top: 2.2rem; } .lead { font-size: 1.05rem; }
-.wide { overflow-x: auto; }
-table { border-collapse: collapse; font-size: .8rem; font-variant-numeric: tabular-nums; }
-th, td { padding: .2rem .5rem; text-align: right; border-bottom: 1px solid #e4e4e4; white-space: nowrap; }
-th:first-child, td:first-child { text-align: left; }
-thead th { border-bottom: 2px solid #999; vertical-align: bottom; }
-tr.rigid td { border-top: 2px solid #999; font-weight: 600; }
-td.bad { color: #a33; text-align: left; white-space: normal; }
-figure { margin: 1.2rem 0 2rem; } figure img { max-width: 100%; height: auto; }
-figcaption { color: #555; font-size: .9rem; max-width: 46rem; }
-code, pre { font: .85rem/1.45 ui-monospace, monospace; background: #f5f5f3; } pre { padding: .7rem 1rem;
-overflow-x: auto; } code { padding: .1rem .3rem; }
-footer { color: #666; font-size: .85rem; margin-top: 3rem; border-top: 1px solid #ddd; padding-top: .8rem; }
-</style>
+{{ style }}</style>
 </head>
 <body>
 <h1>{{ title }}</h1>
@@ -51,10 +36,8 @@ footer { color: #666; font-size: .85rem; margin-top: 3rem; border-top: 1px solid
 %}</tr></thead><tbody>
 {% for row in limits %}<tr>{% for cell in row %}<td>{{ cell }}</td>{% endfor %}</tr>
 {% endfor %}</tbody></table></div>
-<p>The limit is L in L + c s<sup>−p</sup>, s the {{ along }}, fitted to the stiffest cases without knowing the
-rigid value. Its uncertainty ± covers the scatter about that fit, the choice of the fitted cases and their
-numerical error. The rate is that of the distance to the rigid value, the last distance that of the stiffest case.
-{{ law }} {{ damping }}</p>
+<p>{{ extrapolation }} The rate is that of the distance to the rigid value, the last distance that of the stiffest case.
+{{ prediction }} {{ law }} {{ damping }}</p>
 
 {% for name, caption, image in figures %}
 <figure id="{{ name }}"><img alt="{{ caption }}" src="data:image/png;base64,{{ image }}"><figcaption>{{

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import base64
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rigid import scene_to_dict
 
+from ..plots.page import PAGE_STYLE, embedded, toml
 from ..running.files import write_text
 from ..running.solvers import versions
 from .page import CAPTIONS, PAGE
@@ -17,8 +17,10 @@ from .summary import (
     case_cells,
     case_heading,
     damping_sentence,
+    extrapolation_sentence,
     law_sentence,
     limit_rows,
+    prediction_sentence,
     rigid_cells,
     side_heading,
     side_rows,
@@ -44,6 +46,7 @@ def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command:
         The page; written whole or not at all.
     """
     from jinja2 import Environment
+    from markupsafe import Markup
 
     scene = study.scene
     hoop = f"k = {scene.hoop.k:g}, r = {scene.hoop.r:g}, m_h/m = {scene.hoop.mass_ratio:g}"
@@ -52,13 +55,16 @@ def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command:
         Environment(autoescape=True, trim_blocks=True)
         .from_string(PAGE)
         .render(
+            style=Markup(PAGE_STYLE),
             title=f"The flexible hoop as stiffness grows: {hoop}",
             verdict=verdict(study),
             limits=limit_rows(study),
             along=study.ladder.label,
+            extrapolation=extrapolation_sentence(study),
             law=law_sentence(study),
             damping=damping_sentence(study),
-            figures=[(name, CAPTIONS.get(name, name), _embedded(file)) for name, file in images.items()],
+            prediction=prediction_sentence(study),
+            figures=[(name, CAPTIONS.get(name, name), embedded(file)) for name, file in images.items()],
             heading=case_heading(study),
             limit_heading=LIMIT_HEADING,
             cases=[{"cells": case_cells(rung), "failure": rung.outcome.failure} for rung in study.rungs],
@@ -66,26 +72,9 @@ def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command:
             unresolved=f" Not reached at {len(slow)} of the cases, marked *." if slow else "",
             side_heading=side_heading(study),
             side=side_rows(study),
-            scene=_toml(scene_to_dict(scene)),
+            scene=toml(scene_to_dict(scene)),
             command=command,
             versions=", ".join(f"{package} {number}" for package, number in versions().items()),
         )
     )
     return write_text(path, page)
-
-
-def _embedded(file: Path) -> str:
-    return base64.b64encode(file.read_bytes()).decode("ascii")
-
-
-def _toml(data: Mapping[str, Mapping[str, Any]]) -> str:
-    """A scene as it would stand in a file."""
-    lines = []
-    for part, table in data.items():
-        if table:
-            lines += [
-                f"[{part}]",
-                *(f'{k} = "{v}"' if isinstance(v, str) else f"{k} = {v!r}" for k, v in table.items()),
-                "",
-            ]
-    return "\n".join(lines).rstrip()

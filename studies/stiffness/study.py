@@ -1,10 +1,11 @@
 """Does the compliant hoop become the paper's hoop as its stiffness grows, and how fast?
 
 Method. (1) The rigid hoop gives the pulse, and the measures that the limit should have. (2) The flexible hoop
-goes through the same pulse on every rung of a ladder of stiffness, each at a tolerance that keeps its
-numerical error below a tenth of its distance from those measures, shown by a second run at half the
-tolerance. (3) The rate of the distance and the limit for infinite stiffness are fitted, the limit without
-knowing the rigid value; then the two are compared.
+goes through the same pulse on every rung of a ladder of stiffness, each at a tolerance that keeps its numerical
+error below a tenth of its distance from those measures, shown by a second run at half the tolerance. (3) The
+rate of the distance is fitted, and the cases are extrapolated to infinite stiffness without knowing the rigid
+value, by the law's own exponents where theory has them; then the two are compared. (4) Beside the cases stands
+what :mod:`studies.limit` predicts of them from the rigid motion and the contact law alone.
 
 The solvers are known here only by what every motion has: its pulses and their measures.
 """
@@ -14,17 +15,20 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import nan
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from rigid import Run, Scene, scene_to_dict
 
 from ..running.case import Case, Outcome
 from ..running.files import StudyError
-from ..running.history import Columns
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
 from .ladder import Ladder
 from .limits import Limit, limit_of
+
+if TYPE_CHECKING:
+    from ..limit.prediction import Prediction
 
 LIMITS = ("impulse_ratio", "friction_loss", "normal_impulse")
 """Measures whose limit is sought."""
@@ -87,7 +91,7 @@ class StiffnessStudy:
     rigid: Outcome
     """The rigid hoop of the scene: the paper's law."""
     reference: Outcome
-    """The rigid hoop that the contact law is expected to tend to; another than ``rigid`` for a brush with
+    """The rigid hoop that the contact law is expected to tend to; another than ``rigid`` for some laws where
     mu_s > mu."""
     reference_mu_s: float
     """That hoop's static coefficient."""
@@ -95,6 +99,9 @@ class StiffnessStudy:
     """The flexible hoop, softest first."""
     limits: dict[str, Limit]
     """Limit of each measure in ``LIMITS``, first pulse."""
+    prediction: Prediction | None = None
+    """The approach to the limit as the rigid motion alone foresees it; None where the foundation is not raised, and
+    where the pulse has more in it than that covers."""
 
     @property
     def failures(self) -> list[Rung]:
@@ -105,6 +112,17 @@ class StiffnessStudy:
     def rungs_through(self) -> list[Rung]:
         """The rungs that have one."""
         return [rung for rung in self.rungs if not rung.outcome.failure]
+
+    def coefficients(self, name: str) -> tuple[float, float, float] | None:
+        """(observed, predicted, numerical error) of a distance over its leading power; the stiffest rung resolved."""
+        resolved = [rung for rung in self.rungs_through if rung.outcome.resolved]
+        if self.prediction is None or not resolved:
+            return None
+        term, rung = self.prediction.terms[name], resolved[-1]
+        small = rung.contact_stiffness ** (-1 / 3)
+        scale = small**term.exponent
+        off, foreseen = rung.measure(name) - term.limit, float(term.at(small)) - term.limit
+        return off / scale, foreseen / scale, rung.error(name) / scale
 
     def to_dict(self) -> dict[str, Any]:
         """The study as JSON prints it."""
@@ -125,7 +143,19 @@ class StiffnessStudy:
             },
             "cases": [rung.to_dict() for rung in self.rungs],
             "limit": {name: _limit_to_dict(limit) for name, limit in self.limits.items()},
+            "prediction": self._foreseen(),
         }
+
+    def _foreseen(self) -> dict[str, Any] | None:
+        if self.prediction is None:
+            return None
+        told = {}
+        for name in LIMITS:
+            seen = self.coefficients(name)
+            told[name] = self.prediction.terms[name].to_dict() | (
+                {} if seen is None else dict(zip(("observed", "predicted", "numerical_error"), seen, strict=True))
+            )
+        return {"complete": self.prediction.complete, **told}
 
 
 def _limit_to_dict(limit: Limit) -> dict[str, Any]:
@@ -134,7 +164,8 @@ def _limit_to_dict(limit: Limit) -> dict[str, Any]:
         "uncertainty": limit.uncertainty,
         "rate": limit.rate,
         "rate_interval": list(limit.rate_interval),
-        "exponent": limit.exponent,
+        "exponents": list(limit.exponents),
+        "exponents_known": limit.known,
         "rigid": limit.rigid,
         "error": limit.error,
         "rigid_inside": limit.rigid_inside,
@@ -147,11 +178,10 @@ def stiffness_study(
     ladder: Ladder | None = None,
     *,
     solver: str = "flexible",
-    damping: float | None = None,
     all_pulses: bool = False,
     exponent: float | None = None,
     pool: Pool | None = None,
-    out: Any = None,
+    out: str | Path | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> StiffnessStudy:
     """Run the study.
@@ -159,19 +189,19 @@ def stiffness_study(
     Parameters
     ----------
     scene : Scene
-        What is studied; the ladder varies its stiffness.
+        What is studied; the ladder varies its stiffness. Its ``contact.damping`` should not be 0: the normal force
+        jumps where slip ends or begins, and an undamped patch rings about it with an amplitude that does not
+        fall with stiffness: it lifts off, slips early, and tends to another limit than the rigid hoop.
     ladder : Ladder, optional
         By default nine rungs over six decades of both stiffnesses.
     solver : str
         Who runs the rungs: "flexible" or ``module:function``.
-    damping : float, optional
-        Damping ratio of the patch (see :class:`rigid.Contact`); by default the scene's own. The normal force
-        jumps where slip ends or begins, and an undamped patch rings about it with an amplitude that does not
-        fall with stiffness: it lifts off, slips early, and tends to another limit than the rigid hoop.
     all_pulses : bool
         Go through all pulses of the scene's run instead of the first alone; the limit is that of the first.
     exponent : float, optional
-        Rate of the extrapolation where theory knows it; by default it is fitted.
+        Rate of the extrapolation, in place of the contact law's own, or of the fitted one where it has none: with
+        another solver than "flexible", along "bending" or "contact" alone, undamped, or with a pulse that rolling and
+        sliding do not cover.
     pool : Pool, optional
         Where the rungs run; by default here.
     out : path, optional
@@ -184,11 +214,9 @@ def stiffness_study(
     StudyError
         The rigid hoop has no pulse to study, or too few rungs came through to speak of a limit.
     """
-    from flexible.limit import rigid_limit
+    from flexible import rigid_limit
 
     ladder = ladder or Ladder.around(scene)
-    if damping is not None:
-        scene = scene.replace(contact={"damping": damping})
     pool = pool or Here()
     if not all_pulses:
         scene = scene.replace(run=Run(until="pulse"))
@@ -213,13 +241,27 @@ def stiffness_study(
     through = [rung for rung in rungs if not rung.outcome.failure]
     if not through:
         raise StudyError(f"No rung of the ladder came through; the stiffest says: {rungs[-1].outcome.failure}.")
+    foreseen = _prediction(scene, ladder)
+    rates: tuple[float, ...] | None = None if exponent is None else (exponent,)
+    known = foreseen is not None and ladder.along == "both" and solver == "flexible" and scene.contact.damping > 0
+    if rates is None and foreseen is not None and known:
+        rates = foreseen.rates
     limits = {}
     for name in LIMITS:
         values, errors = [r.measure(name) for r in through], [r.error(name) for r in through]
-        limits[name] = limit_of([r.stiffness for r in through], values, reference.pulses[0][name], errors, exponent)
-    return StiffnessStudy(scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits)
+        limits[name] = limit_of([r.stiffness for r in through], values, reference.pulses[0][name], errors, rates)
+    if foreseen is not None and foreseen.parameter != "eps":
+        foreseen = None  # it is told by the foundation alone
+    return StiffnessStudy(scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits, foreseen)
 
 
-def first_pulse(outcome: Outcome) -> Columns | None:
-    """Time histories through the first pulse of an outcome, if it kept them."""
-    return outcome.histories[0] if outcome.histories else None
+def _prediction(scene: Scene, ladder: Ladder) -> Prediction | None:
+    """Of a rigid ring, or one that is stiffened with its foundation."""
+    from ..limit.prediction import predict
+
+    if ladder.along == "bending":
+        return None
+    try:
+        return predict(scene)
+    except StudyError:
+        return None

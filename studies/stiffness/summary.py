@@ -5,17 +5,11 @@ from __future__ import annotations
 from math import isfinite
 from typing import TYPE_CHECKING
 
+from ..plots.sheet import number
 from ..running.measures import MEASURES
 
 if TYPE_CHECKING:
     from .study import Rung, StiffnessStudy
-
-
-def number(value: float | None, digits: int = 6) -> str:
-    """A number for a table; a dash for none."""
-    if value is None or not isfinite(value):
-        return "-"
-    return f"{value:.{digits}g}"
 
 
 REST = ("normal_impulse", "peak_normal_force", "time_off_floor")
@@ -106,7 +100,7 @@ def side_rows(study: StiffnessStudy) -> list[list[str]]:
     columns = [study.reference, *(r.outcome for r in study.rungs if not r.outcome.failure)]
     rows = []
     for name, entry in MEASURES.items():
-        unit = entry.unit_in(study.scene)
+        unit = entry.unit.label(study.scene)
         rows.append(
             [
                 f"{entry.symbol}, {unit}" if unit else entry.symbol,
@@ -140,17 +134,37 @@ def verdict(study: StiffnessStudy) -> str:
     return " ".join(said)
 
 
+def extrapolation_sentence(study: StiffnessStudy) -> str:
+    """How the limits were found."""
+    limit = next(iter(study.limits.values()))
+    s = f"s the {study.ladder.label}"
+    if limit.known:
+        powers = " + ".join(
+            f"c{i + 1} s^-{p:.3g}" + (" log s" if p in limit.exponents[:i] else "")
+            for i, p in enumerate(limit.exponents)
+        )
+        return (
+            f"The limit is L in L + {powers} + ..., {s}, its exponents known and L and all c inferred without knowing "
+            "the rigid value. Its uncertainty ± holds what the terms not seen and the cases' numerical error may do."
+        )
+    return (
+        f"The limit is L in L + c s^-p, {s}, fitted to the stiffest cases without knowing the rigid value, p for each "
+        "measure. Its uncertainty ± covers the scatter about that fit, the choice of the fitted cases and their "
+        "numerical error."
+    )
+
+
 def law_sentence(study: StiffnessStudy) -> str:
     """Which rigid hoop the limit is compared with, and why."""
-    mu_s, mu = study.scene.friction.mu_s, study.scene.friction.mu
-    if study.scene.contact.law == "patch":
-        return f"The stick threshold acts on the patch's resultants: it keeps mu_s = {mu_s:g} and mu = {mu:g}."
-    if study.reference_mu_s == mu_s:
-        return f"A brush with mu_s = mu = {mu:g} tends to the rigid hoop of the same coefficients."
+    from flexible.contact.laws.listing import LAWS
+
+    friction = study.scene.friction
+    explained = LAWS[study.scene.contact.law].explanation(friction)
+    if study.reference_mu_s == friction.mu_s:
+        return explained
     paper = study.rigid.pulses[0]
     return (
-        "A brush breaks away from its rear, so its limit is the rigid hoop with mu_s replaced by "
-        f"mu_eff = {study.reference_mu_s:.5f}; the paper's law, mu_s = {mu_s:g}, would give "
+        f"{explained} The paper's law, mu_s = {friction.mu_s:g}, would give "
         f"J_F/J_N = {paper['impulse_ratio']:.5f} and a friction loss of {paper['friction_loss']:.5f}."
     )
 
@@ -167,6 +181,25 @@ def damping_sentence(study: StiffnessStudy) -> str:
         "The contact is undamped: where slip ends or begins the normal force jumps, and the patch then rings "
         "with an amplitude that no stiffness makes smaller, so the limit need not be the rigid hoop."
     )
+
+
+def prediction_sentence(study: StiffnessStudy) -> str:
+    """What is predicted without any of the cases, and how far the stiffest of them that are resolved are from that."""
+    if study.prediction is None:
+        return ""
+    told = []
+    for name in ("impulse_ratio", "friction_loss"):
+        term = study.prediction.terms[name]
+        powers = " ".join(f"{c:+.4g} ε^{p:.3g}" for p, c in term.powers) or "+ 0"
+        seen = study.coefficients(name)
+        words = f"{MEASURES[name].symbol} = {number(term.limit)} {powers}"
+        if seen is not None:
+            observed, predicted, error = seen
+            beside = f"{observed:.4g} ± {error:.2g} for {predicted:.4g} of ε^{term.exponent:.3g}"
+            words += f" (the stiffest case resolved: {beside})"
+        told.append(words)
+    lacking = "" if study.prediction.complete else ", the leading power alone"
+    return f"Predicted without a fit, ε the foundation to the power −1/3{lacking}: {'; '.join(told)}."
 
 
 def shortened(phases: list[str], most: int = 6) -> str:

@@ -99,14 +99,14 @@ def gained(motion: Motion) -> Margins:
     return {"gained in a pulse": max((-p.friction_loss for p in motion.pulses), default=0.0) / scale / ENERGY}
 
 
-def instants(motion: Motion, spread: int = 60) -> np.ndarray:
+def instants(motion: Motion, count: int = 60) -> np.ndarray:
     """Times evenly over the motion and within its first phases.
 
     None within a phase of less than a billionth of the time that has passed: phidot ~ 1/k makes phases of a few last
     digits of t, and no instant within them can be told.
     """
     lasting = [p for p in motion.phases if p.t_end - p.t_start > RESOLVED * max(1.0, p.t_end)]
-    even = np.linspace(0, motion.t_end, spread)
+    even = np.linspace(0, motion.t_end, count)
     inside = [even[(even > p.t_start) & (even < p.t_end)] for p in lasting]
     inside += [np.linspace(p.t_start, p.t_end, 5)[1:-1] for p in lasting[:40]]
     return np.unique(np.concatenate([[0.0], *inside]))

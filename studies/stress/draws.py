@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from math import log10, pi, radians
 
 from rigid import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, Solve
+from rigid.elastic import LAWS
 
 RIGID_NUMBERS, HOSTILE_NUMBERS, FLEXIBLE_NUMBERS = 10, 8, 14
 
@@ -79,7 +80,7 @@ def flexible_scene(x: list[float]) -> Scene:
         Run(until="pulse"),
         ring=Ring(bending_stiffness=_power(x[7], 13 / k, 13e4 / k)),
         contact=Contact(
-            "patch" if x[9] < 0.6 else "brush",
+            LAWS[min(int(x[9] * len(LAWS)), len(LAWS) - 1)],
             stiffness=_power(x[8], 1e6, 1e13),
             damping=0.0 if damping is None else 2 * damping,
         ),
@@ -104,7 +105,7 @@ def hostile_scene(x: list[float], y: list[float]) -> Scene:
         run=Run(until="pulse") if y[5] < 0.7 else Run(t_end=0.5 + 2 * x[9]),
         ring=Ring(bending_stiffness=_power(y[0], 1e1, 1e8)),
         contact=Contact(
-            "patch" if y[6] < 0.6 else "brush",
+            LAWS[min(int(y[6] * len(LAWS)), len(LAWS) - 1)],
             stiffness=_power(y[1], 1e1, 1e14),
             damping=0.0 if share is None else 2 * share,
         ),

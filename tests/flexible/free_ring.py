@@ -5,7 +5,7 @@ from scipy.sparse.linalg import eigsh, splu
 from skfem import ElementQuad2, ElementVector, FacetBasis, LinearForm
 
 from flexible.ring.fem import Ring
-from meshes.ring import ring_mesh
+from meshes import ring_mesh
 
 
 def ring(ratio, around, through=1, poisson=0.3):

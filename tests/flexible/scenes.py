@@ -4,9 +4,10 @@ from math import pi
 
 import numpy as np
 
-from flexible.contact.forces import RESULTANTS, STICK
+from flexible.contact.points.data import NOTHING, no_bristles
 from flexible.models.state import State
-from flexible.time.adaptive import march
+from flexible.time.adaptive import Limits, march
+from flexible.time.events import Ends
 from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
 
 #: the hoop of the paper's sec. 3.3, on a floor soft enough to be quick
@@ -25,18 +26,16 @@ def flying(hoop, pos, vel):
     """A hoop off the floor."""
     window = hoop.window(pos[2], 0.0, 0.0, 0.1 * hoop.element)
     u = np.zeros((2 * window[1] + 1, 2))
-    nothing = (u, np.zeros_like(u), np.zeros(RESULTANTS), np.empty((0, 3)), np.empty(0, np.int8))
-    return State(0.0, 0.0, pos, vel, np.zeros_like(pos), STICK, window, *nothing, 0.0)
+    nothing = (u, np.zeros_like(u), NOTHING, no_bristles())
+    return State(0.0, 0.0, pos, vel, np.zeros_like(pos), 0, window, *nothing, 0.0)
 
 
 def steps_of(hoop, state, t_end, step):
     """March in equal steps; the last state, the records and the states."""
     states = [state]
     count = round((t_end - state.t) / step)
-    last, records, _, ended = march(
-        hoop, state, lambda s: s.t - t_end, 0.5, h=(t_end - state.t) / count * (1 + 1e-12),
-        largest_step=(t_end - state.t) / count * (1 + 1e-12), progress=states.append,
-    )  # fmt: skip
+    length = (t_end - state.t) / count * (1 + 1e-12)
+    last, records, _, ended = march(hoop, state, Ends(t=t_end), 0.5, Limits(length, length), progress=states.append)
     assert not ended
     return last, records, states
 

@@ -5,7 +5,7 @@ import pytest
 from scenes import HOOP, energy, flying, steps_of
 
 import flexible
-from flexible.chain.bordered import empty_blocks
+from flexible.chain.bordered import no_blocks
 from flexible.chain.inertia import energies, inertia, momenta
 from flexible.chain.whole import sections
 from flexible.handover import Pose, equilibrium
@@ -34,10 +34,10 @@ def motion(hoop, seed=0, size=0.1):
 
 def forces(hoop, pos, vel, acc, beta=1.0):
     ring = hoop.ring
-    blocks = empty_blocks(ring.sections + 2)
+    blocks = no_blocks(ring.sections + 2)
     frame, force = np.zeros(3), np.zeros((ring.sections + 2, 3))
     q, qv, qa = (sections(x) for x in (pos, vel, acc))
-    inertia(ring.body, ring.rod, pos[:3], q, vel[:3], qv, acc[:3], qa, beta, blocks, frame, force)
+    inertia(ring.chain, (pos, q), (vel, qv), (acc, qa), beta, blocks, frame, force)
     return np.concatenate([frame, force[1:-1].ravel()]), blocks
 
 
@@ -65,7 +65,7 @@ def test_power_of_the_inertia(hoop):
 
     def held(t):
         x, v = pos + t * vel + t * t / 2 * acc, vel + t * acc
-        return sum(energies(ring.body, ring.rod, x[:3], sections(x), v[:3], sections(v)))
+        return sum(energies(ring.chain, x, sections(x), v, sections(v)))
 
     rate = (held(1e-5) - held(-1e-5)) / 2e-5
     assert rate == pytest.approx(forces(hoop, pos, vel, acc)[0] @ vel, rel=1e-7)
@@ -75,7 +75,7 @@ def test_momenta_are_the_mass_times_rates(hoop):
     """What a change of accelerations adds to the forces."""
     pos, vel, acc = motion(hoop, 2)
     frame, force = np.empty(3), np.empty((hoop.ring.sections + 2, 3))
-    momenta(hoop.ring.body, hoop.ring.rod, pos[:3], sections(pos), vel[:3], sections(vel), frame, force)
+    momenta(hoop.ring.chain, pos, sections(pos), vel, sections(vel), frame, force)
     expected = forces(hoop, pos, vel, acc + vel)[0] - forces(hoop, pos, vel, acc)[0]
     assert np.concatenate([frame, force[1:-1].ravel()]) == pytest.approx(expected, rel=1e-10, abs=1e-10)
 
@@ -84,7 +84,7 @@ def momentum(hoop, state):
     """Linear momentum (x, y)."""
     frame, force = np.empty(3), np.empty((hoop.ring.sections + 2, 3))
     pos, vel = state.pos, state.vel
-    momenta(hoop.ring.body, hoop.ring.rod, pos[:3], sections(pos), vel[:3], sections(vel), frame, force)
+    momenta(hoop.ring.chain, pos, sections(pos), vel, sections(vel), frame, force)
     return frame[:2]
 
 
@@ -111,7 +111,7 @@ def test_free_flight_of_a_soft_hoop():
         first, last = states[0], states[-1]
         assert np.abs(sections(last.pos)[:, :2]).max() > 0.05
         change = momentum(hoop, last) - momentum(hoop, first)
-        change[1] += (1 + hoop.ring.body.ring_mass) * last.t
+        change[1] += (1 + hoop.ring.chain.body.ring_mass) * last.t
         spin = angular(hoop, last) - angular(hoop, first)
         errors.append([*np.abs(change), abs(spin), abs(energy(records[-1]) - energy(records[0]))])
     rates = np.log2(np.array(errors[0]) / np.array(errors[1]))
@@ -122,7 +122,7 @@ def test_free_flight_of_a_soft_hoop():
 def angular(hoop, state):
     """Angular momentum about the centre of mass, clockwise: free flight keeps it."""
     ring, pos, vel = hoop.ring, state.pos, state.vel
-    body, rod, q, rate = ring.body, ring.rod, sections(pos), sections(vel)
+    (body, rod), q, rate = ring.chain, sections(pos), sections(vel)
     y, w = rod.place + q[:, :2], vel[2]
     mass = rod.mass
     c, s = np.cos(pos[2]), np.sin(pos[2])
@@ -152,7 +152,7 @@ def test_equilibria_against_all_nodes(stiffness, pose):
     scene = HOOP.replace(ring={"bending_stiffness": stiffness}, hoop={"mass_ratio": 0.05})
     chain, exact = ChainHoop(scene), ExactHoop(scene, through=2)
     a, b = equilibrium(chain, pose), equilibrium(exact, pose)
-    assert a.res[:2] == pytest.approx([pose.normal_force, pose.friction_force], abs=1e-8)
+    assert [a.res.normal, a.res.friction] == pytest.approx([pose.normal_force, pose.friction_force], abs=1e-8)
     assert a.pos[1] == pytest.approx(b.pos[1], rel=5e-4, abs=2 * pose.normal_force / chain.ring.stiffness)
     assert chain.energies(a)[2] == pytest.approx(exact.energies(b)[2], rel=5e-4)
 

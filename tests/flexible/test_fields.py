@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from flexible import simulate
-from flexible.output.fields import FIELDS, write_fields
+from flexible import simulate, write_fields
+from flexible.output.fields import FIELDS
 from meshes import SeriesError, read
+from meshes.draw import style
 from rigid import load_scene
 
 ROOT = Path(__file__).parents[2]
@@ -57,16 +58,24 @@ def test_resultants_on_the_rim_are_n_and_f(motion, at_steps):
 
 
 def test_pressure_is_the_foundation_times_the_penetration(motion, at_steps):
-    """At the deformed rim points of the file; round-off of y near 0 is 1e-16 times the foundation."""
+    """At the deformed rim points of the file; round-off of y near 0 is 1e-16 times the foundation.
+
+    The damper, a relaxation time of the foundation, adds a share that is the same at every point of a patch.
+    """
     frames, _ = at_steps
     stiffness = motion.scene.contact.stiffness
+    damped = set()
     for frame in frames:
         rim = frame.blocks["rim"]
         height = rim.points[:, 1] + rim.point_data["displacement"][:, 1]
         nodes = np.isin(rim.point_data["theta"], frame_nodes(frame))  # between contact points the gap is not linear
         pressure = rim.point_data["pressure"]
         expected = np.where(pressure > 0, np.maximum(-stiffness * height, 0), 0.0)
-        np.testing.assert_allclose(pressure[~nodes], expected[~nodes], rtol=1e-6, atol=2e-6 * pressure.max() + 1e-6)
+        deepest = np.argmax(np.where(nodes, 0.0, expected))
+        share = pressure[deepest] / expected[deepest]
+        damped.add(share > 1)
+        np.testing.assert_allclose(pressure[~nodes], share * expected[~nodes], rtol=1e-6, atol=2e-6 * pressure.max())
+    assert damped == {False, True}  # N grows, and falls
 
 
 def frame_nodes(frame):
@@ -138,7 +147,7 @@ def test_the_default_times_are_dense_where_the_force_changes(motion, tmp_path):
     pulse = motion.pulses[0]
     assert len(series) == 40
     assert series.times[0] < pulse.t_start
-    assert series.times[-1] == pytest.approx(pulse.t_end, rel=1e-9)  # the flexible stretch ends there
+    assert series.times[-1] == pytest.approx(pulse.t_end, rel=1e-9)  # the flexible segment ends there
     rising = np.interp(series.times, motion.history.t, motion.history.normal_force)
     steepest = np.argmax(np.abs(np.diff(rising) / np.diff(series.times)))
     assert np.diff(series.times)[steepest] < 0.5 * np.diff(series.times).max()
@@ -227,7 +236,7 @@ def test_200_frames_in_50_megabytes(motion, tmp_path):
 
 def test_a_killed_run_leaves_whole_frames(tmp_path):
     code = (
-        "import sys; from flexible import simulate; from flexible.output.fields import write_fields\n"
+        "import sys; from flexible import simulate; from flexible import write_fields\n"
         "from rigid import load_scene\n"
         "scene = load_scene('paper-3.3-massless').replace(run={'until': 'pulse'}, solve={'rtol': 1e-2})\n"
         "motion = simulate(scene, history=True)\n"
@@ -308,3 +317,10 @@ def test_every_level_of_the_hoop_has_its_fields(level, tmp_path):
     write_fields(motion, tmp_path, times=history.t[steps], fields=("energy_density",))
     energy = [frame.blocks["ring"].cell_data["strain_energy"].sum() for frame in read(tmp_path)]
     np.testing.assert_allclose(energy, history.ring_strain[steps], rtol=1e-6, atol=1e-9 * max(energy))
+
+
+def test_every_field_that_is_written_has_a_name_and_a_unit():
+    """The stress is drawn by its components; where the contact sticks is no quantity."""
+    drawn = {*FIELDS, "stress xx", "stress yy", "stress xy"} - {"stress", "stick"}
+    assert drawn == set(style.FIELDS)
+    assert all(style.unit(field, {}) and style.unit(field, style.SI_UNITS) for field in drawn)

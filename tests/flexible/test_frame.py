@@ -6,7 +6,7 @@ from scenes import HOOP, energy, flying, steps_of
 
 from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
-from flexible.ring.frame import RING_MASS, energies, inertia
+from flexible.ring.frame import energies, inertia
 from flexible.ring.nodal import inertia as nodal_inertia
 from flexible.time.tr_bdf2 import restart
 
@@ -34,8 +34,8 @@ def motion(n, seed=0):
 def momentum(hoop, pos, vel):
     """Linear momentum (x, y) and angular momentum, clockwise, about the point under C on the undeformed floor."""
     ring = hoop.ring
-    d, disk_inertia, mass, moment = ring.body
-    _, l1, l2, rotation, stretching = ring.modal.T
+    d, disk_inertia, mass, moment = ring.frame.body
+    _, l1, l2, rotation, stretching = ring.frame.modal.T
     s, c = np.sin(pos[2]), np.cos(pos[2])
     w, q, v = vel[2], pos[3:], vel[3:]
     vx, vy = vel[0] + w, vel[1]
@@ -43,7 +43,7 @@ def momentum(hoop, pos, vel):
     p1 = (1 + mass) * v1 + l1 @ v - w * (l2 @ q)
     p2 = (1 + mass) * v2 + l2 @ v + w * (l1 @ q) + d * w
     about = d * (v2 + d * w) + disk_inertia * w + (l1 @ q) * v2 - (l2 @ q) * v1
-    about += w * (moment + 2 * stretching @ q + q @ q) + rotation @ v + v @ (ring.gyro @ q)
+    about += w * (moment + 2 * stretching @ q + q @ q) + rotation @ v + v @ (ring.frame.gyro @ q)
     horizontal = p1 * s + p2 * c
     return np.array([horizontal, p1 * c - p2 * s, about + horizontal * (1 + pos[1])])
 
@@ -54,9 +54,9 @@ def test_tangent_of_the_inertia(reduced):
     pos, vel, acc = motion(9)
 
     def force(d):
-        return inertia(ring.body, ring.modal, ring.gyro, pos + d, vel + d / beta, acc + d / beta**2, beta)[0]
+        return inertia(ring.frame, pos + d, vel + d / beta, acc + d / beta**2, beta)[0]
 
-    tangent = inertia(ring.body, ring.modal, ring.gyro, pos, vel, acc, beta)[1]
+    tangent = inertia(ring.frame, pos, vel, acc, beta)[1]
     step = 1e-6
     found = np.array([(force(step * e) - force(-step * e)) / (2 * step) for e in np.eye(9)]).T
     assert np.abs(found - tangent).max() < 1e-6 * np.abs(tangent).max()
@@ -69,23 +69,23 @@ def test_forces_are_the_rates_of_momentum_and_energy(reduced):
     """
     ring = reduced.ring
     pos, vel, acc = motion(9)
-    force = inertia(ring.body, ring.modal, ring.gyro, pos, vel, acc, 1.0)[0]
+    force = inertia(ring.frame, pos, vel, acc, 1.0)[0]
     h = 1e-5
 
     def ahead(e):
         return pos + e * vel + e * e / 2 * acc, vel + e * acc
 
     rate = (momentum(reduced, *ahead(h)) - momentum(reduced, *ahead(-h))) / (2 * h)
-    weight = 1 + ring.body[RING_MASS]
+    weight = 1 + ring.frame.body.ring_mass
     assert force[0] == pytest.approx(rate[0], rel=1e-8)
     assert force[1] - weight == pytest.approx(rate[1], rel=1e-8)
     # the point moves with C, h above the undeformed floor's; gravity pulls at the mass centre
     s, c = np.sin(pos[2]), np.cos(pos[2])
-    pull = (ring.body[0] + ring.modal[:, 1] @ pos[3:]) * s + ring.modal[:, 2] @ pos[3:] * c
+    pull = (ring.frame.body.offset + ring.frame.modal[:, 1] @ pos[3:]) * s + ring.frame.modal[:, 2] @ pos[3:] * c
     carried = (vel[0] + vel[2]) * momentum(reduced, pos, vel)[1]
     assert force[2] + pos[1] * force[0] + pull == pytest.approx(rate[2] - carried, rel=1e-7)
-    gained = sum(energies(ring.body, ring.modal, ring.gyro, *ahead(h)))
-    lost = sum(energies(ring.body, ring.modal, ring.gyro, *ahead(-h)))
+    gained = sum(energies(ring.frame, *ahead(h)))
+    lost = sum(energies(ring.frame, *ahead(-h)))
     assert force @ vel == pytest.approx((gained - lost) / (2 * h), rel=1e-8)
 
 
@@ -97,7 +97,7 @@ def test_all_nodes_have_the_same_inertia_as_modes(reduced, full):
     beta = 0.3
     lifted = [np.concatenate([x[:3], shapes @ x[3:]]) for x in (pos, vel, acc)]
     found = nodal_inertia(full.ring, *lifted, beta)
-    force, tangent = inertia(ring.body, ring.modal, ring.gyro, pos, vel, acc, beta)
+    force, tangent = inertia(ring.frame, pos, vel, acc, beta)
     scale = np.abs(force).max()
     assert np.abs(found.frame - force[:3]).max() < 1e-9 * scale
     assert np.abs(shapes.T @ found.ring - force[3:]).max() < 1e-9 * scale
@@ -115,14 +115,14 @@ def drift(step, hoop):
     vel[3] = 0.05
     start = restart(hoop, flying(hoop, pos, vel), 0)
     _, records, states = steps_of(hoop, start, 0.2, step)
-    mass = 1 + hoop.ring.body[RING_MASS]
+    mass = 1 + hoop.ring.frame.body.ring_mass
     rows = []
     for state in states:
         p = momentum(hoop, state.pos, state.vel)
         # about the origin of the floor, less gravity's impulses (the mass centre moves with p_x/mass)
         s, c = np.sin(state.pos[2]), np.cos(state.pos[2])
-        centre = mass * state.x_C + hoop.ring.body[0] * s
-        centre += hoop.ring.modal[:, 1] @ state.pos[3:] * s + hoop.ring.modal[:, 2] @ state.pos[3:] * c
+        centre = mass * state.x_C + hoop.ring.frame.body.offset * s
+        centre += hoop.ring.frame.modal[:, 1] @ state.pos[3:] * s + hoop.ring.frame.modal[:, 2] @ state.pos[3:] * c
         rows.append([p[0], p[1] + mass * state.t, p[2] - state.x_C * p[1], centre])
     rows = np.array(rows)
     t = np.array([state.t for state in states])

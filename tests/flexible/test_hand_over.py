@@ -47,7 +47,7 @@ def test_rate_of_the_patch(k, place):
     if place == "at a boundary":
         t = motion.phases[-1].t_start
         assert pulse.t_start < t < pulse.t_end
-    state = hand_over(ReducedHoop(scene), motion, t, "patch")
+    state = hand_over(ReducedHoop(scene), motion, t)
     h = 1e-4 * k**2
     n = motion.at(t + h * np.arange(3)).normal_force
     rate = (-3 * n[0] + 4 * n[1] - n[2]) / (2 * h)

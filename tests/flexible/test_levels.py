@@ -5,7 +5,9 @@ import pytest
 from scenes import HOOP
 
 import flexible
-from flexible.contact.forces import BRUSH, NORMAL, SLIDE_RIGHT, UNDAMPED, contact_forces
+from flexible.contact.forces import contact_forces
+from flexible.contact.laws.patch import SLIDE_RIGHT
+from flexible.contact.points.data import UNDAMPED, Before, Rim
 from flexible.handover import Pose, equilibrium, undeformed
 from flexible.models.exact import ExactElasticity, ExactHoop
 from flexible.models.full import FullHoop, NewtonMatrix, _Factored
@@ -14,6 +16,7 @@ from flexible.models.select import FAR, Range, hoop_of
 from flexible.ring.fem import ring_of
 from flexible.ring.nodal import inertia
 from flexible.time.adaptive import march
+from flexible.time.events import Ends
 from flexible.time.tr_bdf2 import MarchError
 from flexible.units import dimensionless
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
@@ -38,8 +41,8 @@ def measures(hoop, rtol):
     """J_N, J_F and friction loss of scene B, in R0 = g = m = 1."""
     scene = scene_b()
     inner = dimensionless(scene)
-    start = undeformed(hoop, Pose(2.9, 4.0 * scene.time_unit, 0.0, 0.0, 0.0, Kind.ROLL), BRUSH)
-    _, records, _, ended = march(hoop, start, lambda s: s.t - inner.run.t_end, rtol)
+    start = undeformed(hoop, Pose(2.9, 4.0 * scene.time_unit, 0.0, 0.0, 0.0, Kind.ROLL))
+    _, records, _, ended = march(hoop, start, Ends(t=inner.run.t_end), rtol)
     assert not ended
     last = records[-1]
     return np.array([
@@ -104,7 +107,7 @@ def test_equilibria_of_the_levels():
         scene = HOOP.replace(hoop={"mass_ratio": mass})
         states = [equilibrium(kind(scene), pose) for kind in (ReducedHoop, FullHoop, ExactHoop)]
         for state in states:
-            assert state.res[:2] == pytest.approx([1.3, -0.2], abs=1e-9)
+            assert (state.res.normal, state.res.friction) == pytest.approx((1.3, -0.2), abs=1e-9)
         heights = np.array([state.pos[1] for state in states])
         assert heights[1] == pytest.approx(heights[0], rel=1e-5)
         assert heights[2] == pytest.approx(heights[1], rel=0.01)
@@ -115,7 +118,7 @@ def test_equilibrium_of_a_soft_ring():
     pose = Pose(2.2, 1.0, 0.0, 1.3, -0.2, Kind.ROLL)
     state = equilibrium(ExactHoop(dimensionless(scene_b(1e6))), pose)
     assert state.pos[1] < -4 * WALL
-    assert state.res[:2] == pytest.approx([1.3, -0.2], abs=1e-9)
+    assert (state.res.normal, state.res.friction) == pytest.approx((1.3, -0.2), abs=1e-9)
     with pytest.raises(MarchError, match="no equilibrium"):
         equilibrium(ExactHoop(dimensionless(scene_b(1e4))), pose)
 
@@ -178,20 +181,18 @@ def newton_errors(hoop, old, beta, dphi):
     pos_pred, vel_pred = old.pos.copy(), old.vel.copy()
     pos_pred[2] += dphi
     d = np.zeros_like(pos_pred)
-    law = hoop.law.copy()
+    rim, before = Rim(window[0], hoop.vertex), Before(old.pos[:3], old.u, old.bristles)
     sizes = []
     for _ in range(7):
         pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
-        force, nodal, tangent, res, *_ = contact_forces(
-            pos[:3], pos[3:][dofs].reshape(-1, 2), window[0], hoop.vertex, law, SLIDE_RIGHT, old.pos[:3], old.u,
-            old.bristles, old.flags, UNDAMPED,
-        )  # fmt: skip
-        assert res[NORMAL] > 0
+        u = pos[3:][dofs].reshape(-1, 2)
+        contact = contact_forces(pos[:3], u, rim, hoop.law.parameters, SLIDE_RIGHT, before, UNDAMPED)
+        assert contact.res.normal > 0
         own = inertia(ring, pos, vel, acc, beta)
-        frame, rest = own.frame - force, own.ring.copy()
-        rest[dofs] -= nodal.ravel()
+        frame, rest = own.frame - contact.force, own.ring.copy()
+        rest[dofs] -= contact.nodal.ravel()
         sizes.append(max(np.abs(frame).max(), np.abs(rest).max()))
-        matrix = NewtonMatrix(_Factored(ring, pos[3:], vel[2], acc[2], beta), own, tangent, window)
+        matrix = NewtonMatrix(_Factored(ring, pos[3:], vel[2], acc[2], beta), own, contact.tangent, window)
         step = matrix.solve(frame, rest)
         d[:3] -= step[0]
         d[3:] -= step[1]

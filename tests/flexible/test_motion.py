@@ -8,11 +8,13 @@ from scenes import HOOP, energy, flying, steps_of
 
 import flexible
 import rigid
-from flexible.contact.forces import FRICTION, NORMAL, SLIDE_LEFT, SLIDE_RIGHT, STICK
+from flexible.contact.laws.patch import SLIDE_LEFT, SLIDE_RIGHT, STICK
 from flexible.handover import Pose, equilibrium, hand_over, pose_at
 from flexible.models.reduced import ReducedHoop
 from flexible.time.adaptive import march
+from flexible.time.events import Ends
 from flexible.time.tr_bdf2 import restart
+from rigid.elastic import LAWS
 
 #: just before its pulse, fast
 PULSE = HOOP.replace(release={"phi0": 2.4, "omega0": 1.5})
@@ -35,7 +37,7 @@ def test_order_in_time(mass):
         friction={"mu_s": 0.02, "mu": 0.02},
     )  # fmt: skip
     hoop = ReducedHoop(scene, modes=2)
-    start = hand_over(hoop, rigid.simulate(scene), 0.0, "patch")
+    start = hand_over(hoop, rigid.simulate(scene), 0.0)
     assert start.mode != STICK
     steps = 0.1 / np.array([100, 200, 400, 3200])
     ends = []
@@ -82,7 +84,7 @@ def test_static_sag():
     depth = -state.pos[1]
     assert 4 / 3 * 1e6 * depth * sqrt(2 * depth) == pytest.approx(weight, rel=3e-3)
     # and it stays at rest
-    _, records, _, ended = march(hoop, restart(hoop, state, 0), lambda s: s.t - 0.5, 1e-4)
+    _, records, _, ended = march(hoop, restart(hoop, state, 0), Ends(t=0.5), 1e-4)
     assert not ended
     forces = np.array([r.normal_force for r in records])
     assert np.abs(forces - weight).max() < 1e-6 * weight
@@ -132,8 +134,8 @@ def test_hand_over_does_not_ring():
     hoop = ReducedHoop(scene)
     swing = []
     for chosen in (scene, scene.replace(solve={"start": "undeformed"})):
-        start = hand_over(hoop, rigid.simulate(chosen), 0.0, "patch")
-        _, records, _, _ = march(hoop, start, lambda s: s.t - 0.05, 1e-5)
+        start = hand_over(hoop, rigid.simulate(chosen), 0.0)
+        _, records, _, _ = march(hoop, start, Ends(t=0.05), 1e-5)
         t = np.array([r.t for r in records])
         swing.append(np.abs(np.array([r.normal_force for r in records]) - motion.at(t).normal_force).max())
     assert swing[0] < 0.03
@@ -197,10 +199,10 @@ def test_damping_is_not_a_rolling_resistance():
     for ratio in (0.0, 1.0):
         damped = scene.replace(contact={"damping": ratio})
         hoop = ReducedHoop(damped)
-        start = hand_over(hoop, rigid.simulate(damped), 0.0, "patch")
-        last, records, _, ended = march(hoop, start, lambda s: s.t - 0.1, 1e-4)
+        start = hand_over(hoop, rigid.simulate(damped), 0.0)
+        last, records, _, ended = march(hoop, start, Ends(t=0.1), 1e-4)
         assert not ended
-        assert last.res[NORMAL] > 0
+        assert last.res.normal > 0
         ends.append([last.pos[2], records[-1].damping_loss, energy(records[0])])
     assert ends[1][0] == pytest.approx(ends[0][0], abs=1e-5 + 1e-4 * 0.2)
     assert 0 <= ends[1][1] < 1e-5 * ends[1][2]
@@ -239,10 +241,10 @@ def test_a_rolling_hoop_is_handed_over_with_its_forces(mass, phi0):
     motion = rigid.simulate(scene)
     assert motion.phases[0].kind == rigid.Kind.ROLL
     hoop = ReducedHoop(scene)
-    start = hand_over(hoop, motion, 0.0, "patch")
+    start = hand_over(hoop, motion, 0.0)
     now = motion.at(0.0)
-    assert start.res[NORMAL] == pytest.approx(float(now.normal_force), rel=1e-8)  # Newton stops at 1e-9
-    assert start.res[FRICTION] == pytest.approx(float(now.friction_force), abs=1e-8)
+    assert start.res.normal == pytest.approx(float(now.normal_force), rel=1e-8)  # Newton stops at 1e-9
+    assert start.res.friction == pytest.approx(float(now.friction_force), abs=1e-8)
     pose = pose_at(motion, 0.0)
     # the forces act a little beside the contact point of a rigid hoop, by parts of the half-width 1e-3 of the patch
     assert start.acc[2] == pytest.approx(pose.accelerations(hoop)[1], rel=1e-2)
@@ -253,18 +255,20 @@ def test_a_skidding_hoop_is_handed_over_skidding():
     for slip, mode in ((0.5, SLIDE_LEFT), (-0.5, SLIDE_RIGHT)):
         for mu in (0.0, 0.3):
             scene = HOOP.replace(friction={"mu": mu}, release={"phi0": 2.0, "omega0": 0.0, "slip0": slip})
-            assert hand_over(ReducedHoop(scene), rigid.simulate(scene), 0.0, "patch").mode == mode
+            assert hand_over(ReducedHoop(scene), rigid.simulate(scene), 0.0).mode == mode
 
 
-@pytest.mark.parametrize("law", ["patch", "brush"])
+@pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("damping", [0.0, 0.5])
 def test_losses_of_a_wide_patch(law, damping):
     """On a foundation so soft that the patch is a quarter of the radius, its points slip by different amounts.
 
-    The integrals of the losses still leave little of the energy unexplained, and no loss is negative.
+    The integrals of the losses still leave little of the energy unexplained, and no loss is negative. The regularised
+    law is smoothed over a slip velocity of 0.03, a fiftieth of phidot R or so: at the default 0.001 its friction turns
+    within steps ten times as short, which proves no more.
     """
     scene = PULSE.replace(
-        contact={"law": law, "stiffness": 700.0, "damping": damping},
+        contact={"law": law, "stiffness": 700.0, "damping": damping, "slip_velocity_scale": 0.03},
         ring={"bending_stiffness": 1e5},
         solve={"rtol": 1e-4},
     )

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from free_ring import frequencies, nodal, outer_traction, ring, solve
 
-from meshes.gradient import nodal_gradient
+from meshes import nodal_gradient
 
 # omega_n R0 sqrt(rho/E) of the annulus, n = 2, 3, 4, nu = 0.3
 ANNULUS = {1.02: (0.01518385365, 0.04293285531, 0.08228274316), 1.2: (0.1260894549, 0.3479811729, 0.6458273265)}

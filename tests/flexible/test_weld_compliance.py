@@ -8,7 +8,7 @@ from scipy.sparse.linalg import spsolve
 
 from flexible.ring.fem import Ring, membrane_stiffness, ring_of
 from flexible.ring.reduction import reduce
-from meshes.ring import ring_mesh
+from meshes import ring_mesh
 from rigid import Friction, Hoop, Release, Scene
 
 # C_rr in a^3/(E I) of a thin ring clamped at 0, loaded radially at the angle psi (Castigliano)
@@ -63,7 +63,9 @@ def test_modes_and_residual_add_up_to_the_static_compliance():
     for count in (1, 7, 24):
         reduced = reduce(SCENE, count)
         every = np.arange(len(exact))
-        held = (reduced.rim_shapes / reduced.modal[:, 0]) @ reduced.rim_shapes.T + reduced.compliance(every, every)
+        held = (reduced.rim_shapes / reduced.frame.modal[:, 0]) @ reduced.rim_shapes.T + reduced.compliance(
+            every, every
+        )
         assert np.abs(held - exact).max() < 1e-10 * np.abs(exact).max()
 
 
@@ -79,7 +81,7 @@ def test_dynamic_compliance_lacks_what_the_left_out_modes_add():
     ring, mass = ring_of(SCENE), SCENE.hoop.mass_ratio
     stiffness = membrane_stiffness(SCENE)
     every = reduce(SCENE, 48)
-    squares, shapes = every.modal[:, 0], every.rim_shapes[2 * 300]
+    squares, shapes = every.frame.modal[:, 0], every.rim_shapes[2 * 300]
     square = (squares[3] + squares[4]) / 2
     dof = ring.rim_dofs[2 * 300]
     load = np.zeros(len(ring.free))
@@ -90,7 +92,7 @@ def test_dynamic_compliance_lacks_what_the_left_out_modes_add():
     for count in (6, 12, 24, 48):
         reduced = reduce(SCENE, count)
         shape = reduced.rim_shapes[2 * 300]
-        found = (shape**2 / (reduced.modal[:, 0] - square)).sum() + float(reduced.compliance(here, here)[0, 0])
+        found = (shape**2 / (reduced.frame.modal[:, 0] - square)).sum() + float(reduced.compliance(here, here)[0, 0])
         missing[count] = exact - found
     for count in (6, 12, 24):
         added = (shapes**2 * (1 / (squares - square) - 1 / squares))[count:].sum()

@@ -8,7 +8,7 @@ import pytest
 from meshes import Block, SeriesWriter, read
 from meshes.draw.display import renderer_problem
 from meshes.draw.patch import patch_of
-from meshes.draw.shots import SeriesSubject
+from meshes.draw.shots import SeriesSource
 from meshes.view.pictures import Camera
 from meshes.view.setting import setting
 
@@ -36,17 +36,17 @@ def series(tmp_path_factory, ring, ovals):
 
 
 def test_the_patch_is_read_from_left_to_right_with_its_edges(series):
-    x, pressure, traction = patch_of(SeriesSubject(series).shot(0.3))
+    x, pressure, traction = patch_of(SeriesSource(series).shot(0.3))
     assert (np.diff(x) >= 0).all()
     assert pressure[[0, -1]].tolist() == [0, 0]
     assert (pressure[1:-1] > 0).all()
     np.testing.assert_allclose(traction, 0.3 * pressure)
     assert np.abs(x).max() < 0.07
-    assert all(len(column) == 0 for column in patch_of(SeriesSubject(series).shot(1.2)))
+    assert all(len(column) == 0 for column in patch_of(SeriesSource(series).shot(1.2)))
 
 
 def test_a_rim_without_pressure_has_no_patch(series):
-    shot = SeriesSubject(series).shot(0.3)
+    shot = SeriesSource(series).shot(0.3)
     assert all(len(column) == 0 for column in patch_of(replace(shot, rim=None)))
 
 
@@ -54,21 +54,21 @@ def test_a_rim_without_pressure_has_no_patch(series):
 def test_the_patch_is_drawn_clear_of_the_hoop(series):
     """Blue where the pressure is, in the axes at the left; the hoop begins to the right of them."""
     with Camera(setting(series), SIZE) as camera:
-        assert camera.sheet.aside > 0
-        left, top, width, height = camera.sheet.stage_box
+        assert camera.layout.aside > 0
+        left, top, width, height = camera.layout.view_box
         pages = [camera.page(time).astype(int) for time in (0.3, 1.2)]
-        box = (slice(top + height // 3, top + int(0.85 * height)), slice(left, left + camera.sheet.aside))
+        box = (slice(top + height // 3, top + int(0.85 * height)), slice(left, left + camera.layout.aside))
         blue = [(page[box][..., 2] - page[box][..., 0] > 30).sum() for page in pages]
         assert blue[0] > 500
         assert blue[1] < 0.2 * blue[0]
         for time in TIMES:
-            shot = camera.setting.subject.shot(time)
+            shot = camera.setting.source.shot(time)
             middle = camera._middle(shot)
             start = width / 2 + (shot.centre[0] - shot.radius - middle) * camera.scale
-            assert start > camera.sheet.aside
+            assert start > camera.layout.aside
 
 
 @needs_renderer
 def test_an_enlarged_view_has_no_patch_beside_it(series):
     with Camera(setting(series, zoom=5), SIZE) as camera:
-        assert camera.sheet.aside == 0
+        assert camera.layout.aside == 0

@@ -83,12 +83,6 @@ def test_named_boundaries_have_the_right_lengths():
     np.testing.assert_array_equal(ring.mesh.boundaries["weld"], ring.weld_facets)
 
 
-def test_rim_elements_close_the_circle():
-    ring = ring_mesh(INNER, OUTER, 30)
-    facet_ends = np.sort(ring.rim_elements[:, [0, 2]], axis=1)
-    np.testing.assert_array_equal(facet_ends, ring.mesh.facets[:, ring.outer_facets].T)
-
-
 def test_area_and_length_converge_with_the_fourth_order():
     """Mid-nodes on the circle make a quadratic arc, whose area and length are both off by O(h^4)."""
     counts = np.array([12, 24, 48, 96])

@@ -13,9 +13,9 @@ from meshes import SeriesError, SeriesWriter, read
 from meshes.draw import display as renderer_module
 from meshes.draw.display import probe, renderer_problem
 from meshes.draw.lens import enlargement
-from meshes.draw.shots import Curves, MotionSubject, SeriesSubject
-from meshes.draw.stage import ABOVE_FLOOR, deformed
-from meshes.view.pictures import Camera, ViewError, animate, picture, render, window
+from meshes.draw.renderer import ABOVE_FLOOR, deformed
+from meshes.draw.shots import Curves, MotionSource, SeriesSource
+from meshes.view.pictures import Camera, Timing, ViewError, animate, picture, render, window
 from meshes.view.setting import setting
 from rigid import Friction, Hoop, Motion, Phase, Release, Scene, States, load_scene, simulate
 
@@ -52,7 +52,7 @@ def rolling_motion(R=1.0, g=1.0):
 
 def pixel(camera, point, middle):
     """Column and row of the page at which a point of the world lies."""
-    left, top, width, height = camera.sheet.stage_box
+    left, top, width, height = camera.layout.view_box
     scale = height / camera.height
     return (
         left + width / 2 + (point[..., 0] - middle) * scale,
@@ -72,7 +72,7 @@ def test_the_ring_is_where_it_should_be(series):
     chosen = setting(series, field="hoop_stress", factor=40)
     with Camera(chosen, SIZE) as camera:
         page = camera.page(TIMES[3])
-        shot = chosen.subject.shot(TIMES[3])
+        shot = chosen.source.shot(TIMES[3])
         middle = camera._middle(shot)
         points, _ = deformed(shot, 40)
         mid_wall = shot.ring.cells[::6, 8]
@@ -91,7 +91,7 @@ def test_floor_and_disk_are_where_they_should_be(series):
     chosen = setting(series)
     with Camera(chosen, SIZE) as camera:
         page = camera.page(0.0).astype(int)
-        shot = chosen.subject.shot(0.0)
+        shot = chosen.source.shot(0.0)
         middle = camera._middle(shot)
         column, row = pixel(camera, shot.disk.points[0] + [0.05, 0, 0], middle)
         assert page[int(row), int(column)].max() < 150
@@ -106,9 +106,9 @@ def test_the_time_mark_moves_with_time(series):
     with Camera(chosen, SIZE) as camera:
         for time in TIMES[[1, 4]]:
             page = camera.page(time)
-            below = page[camera.sheet.stage_box[1] + camera.sheet.stage_box[3] :]
+            below = page[camera.layout.view_box[1] + camera.layout.view_box[3] :]
             dark = (below.max(axis=2) < 110).sum(axis=0)
-            left, right = camera.sheet.time_axis
+            left, right = camera.layout.time_axis
             expected = left + (right - left) * time / TIMES[-1]
             assert abs(int(dark.argmax()) - expected) <= 2
 
@@ -129,7 +129,7 @@ def test_a_rigid_motion_with_its_arrows():
     motion = rolling_motion()
     with Camera(setting(motion), SIZE) as camera:
         page = camera.page(2.0)
-        shot = camera.setting.subject.shot(2.0)
+        shot = camera.setting.source.shot(2.0)
         middle = camera._middle(shot)
         # the force arrow of the largest force is 0.7 R long, steeply up from the contact
         column, row = pixel(camera, np.array([2.0 + 0.01, 0.3]), middle)
@@ -154,7 +154,7 @@ def test_a_picture_does_not_depend_on_the_unit_of_length():
 def test_animations(series, tmp_path, suffix):
     path = tmp_path / f"film{suffix}"
     done = []
-    animate(series, path, frames=4, size=(480, 360), progress=lambda i, n: done.append((i, n)))
+    animate(series, path, timing=Timing(frames=4), size=(480, 360), progress=lambda i, n: done.append((i, n)))
     assert done == [(1, 4), (2, 4), (3, 4), (4, 4)]
     content = path.read_bytes()
     if suffix == ".gif":
@@ -176,7 +176,7 @@ def test_animations(series, tmp_path, suffix):
 
 @needs_renderer
 def test_a_gif_of_a_pulse_is_below_a_megabyte(series, tmp_path):
-    animate(series, tmp_path / "a.gif", frames=30)
+    animate(series, tmp_path / "a.gif", timing=Timing(frames=30))
     assert (tmp_path / "a.gif").stat().st_size < 0.5e6  # half of the default number of frames
 
 
@@ -197,19 +197,19 @@ def test_the_window_steps_stretches_and_changes_colours(series):
     from meshes.view.interactive import Window
 
     opened = Window(setting(series), off_screen=True, size=SIZE)
-    before = opened.stage.image()
+    before = opened.renderer.image()
     opened.step(100)
     assert opened.time == pytest.approx(0.6, rel=1e-12)
-    opened.stretch(2.0)
+    opened.exaggerate(2.0)
     assert opened.factor == 2 * opened.setting.factor
     opened.next_field()
     assert opened.colours.field != "von_mises"
-    assert (opened.stage.image() != before).any(axis=2).mean() > 0.02
-    opened.stage.close()
+    assert (opened.renderer.image() != before).any(axis=2).mean() > 0.02
+    opened.renderer.close()
 
 
 def test_exaggeration_keeps_the_height_over_the_floor(series):
-    shot = SeriesSubject(series).shot(0.0)
+    shot = SeriesSource(series).shot(0.0)
     true = (shot.ring.points + shot.displacement)[:, 1].min()
     for factor in (0.0, 1.0, 300.0):
         points, _ = deformed(shot, factor)
@@ -242,7 +242,7 @@ def test_bad_wishes_are_one_sentence(series, tmp_path, arguments, words):
 def test_bad_animations_are_one_sentence(series, tmp_path):
     for name, arguments in (("a.avi", {}), ("a.gif", {"frames": 1}), ("a.gif", {"start": 1.0, "stop": 0.5})):
         with pytest.raises(ViewError):
-            animate(series, tmp_path / name, **arguments)
+            animate(series, tmp_path / name, timing=Timing(**arguments))
 
 
 def test_a_damaged_frame_is_one_sentence(tmp_path, ring, ovals):
@@ -316,7 +316,7 @@ def test_a_pulse_far_above_the_usual_force_gets_a_logarithm():
 def test_curves_of_the_papers_motions_reach_the_peaks_of_their_pulses(name):
     """Sampled peaks lie a little below the true one, too little to see: a hundredth is a pixel."""
     motion = simulate(load_scene(name))
-    curves = MotionSubject(motion).curves
+    curves = MotionSource(motion).curves
     assert (np.diff(curves.t) > 0).all()
     for pulse in motion.pulses:
         inside = (curves.t >= pulse.t_start) & (curves.t <= pulse.t_end)
@@ -326,7 +326,7 @@ def test_curves_of_the_papers_motions_reach_the_peaks_of_their_pulses(name):
 @needs_renderer
 @pytest.mark.parametrize("name", ["paper-3.1", "paper-point-mass"])
 def test_the_papers_scenes_can_be_drawn(name, tmp_path):
-    animate(simulate(load_scene(name)), tmp_path / "a.gif", frames=3, size=(320, 240))
+    animate(simulate(load_scene(name)), tmp_path / "a.gif", timing=Timing(frames=3), size=(320, 240))
     assert (tmp_path / "a.gif").stat().st_size > 5000  # three pages that are not blank
 
 
@@ -336,7 +336,7 @@ def test_an_enlarged_view_keeps_the_contact_in_the_middle(series):
     assert chosen.factor <= setting(series).factor / 5  # 8, rounded to a tidy factor
     with Camera(chosen, SIZE) as camera:
         page = camera.page(0.6)
-        shot = chosen.subject.shot(0.6)
+        shot = chosen.source.shot(0.6)
         assert camera._middle(shot) == pytest.approx(shot.centre[0] + camera.aside)
         # the wall of 0.02 R above the contact is now many pixels high
         column, row = pixel(camera, np.array([shot.centre[0] - 0.08, 0.015]), camera._middle(shot))
@@ -352,7 +352,7 @@ def test_the_lens_enlarges_the_wall_above_the_contact(series):
         assert camera.lens is not None
         assert camera.lens.times == 6
         time = 0.4  # the contact is at theta = 0.54, where sin 2 theta is large
-        shot = camera.setting.subject.shot(time)
+        shot = camera.setting.source.shot(time)
         assert camera.lens.fits(shot)
         page = camera.page(time)
         column, row = pixel(camera, np.array([shot.centre[0], 1.32]), camera._middle(shot))
@@ -365,7 +365,7 @@ def test_the_lens_enlarges_the_wall_above_the_contact(series):
 def test_no_lens_where_the_wall_is_thick_or_the_disk_in_the_way(series, ovals):
     from meshes import ring_mesh
 
-    thin = SeriesSubject(series).shot(0.0)
+    thin = SeriesSource(series).shot(0.0)
     assert enlargement(thin) == 6
     (thick,) = ovals.frames(ring_mesh(0.8, 1.0, 60), [0.0])
     assert enlargement(replace(thin, ring=thick.blocks["ring"])) < 2

@@ -216,3 +216,30 @@ def test_a_jammed_landing_makes_no_energy():
     assert jams
     energy = motion.at(np.array([p.t_start for p in motion.phases])).energy
     assert np.diff(energy).max() < 1e-11 * energy[0]
+
+
+def test_a_long_low_flight_over_the_top():
+    """At omega = 1 the rotation all but carries the hoop over the top: gap'' is 1e-7 of its bound, the flight 1e-13
+    high and 3e-3 long. It ends where the gap is 0, moving down, and the motion goes on without a loss."""
+    motion = simulate(Scene(Hoop(1e-8), Friction(0, 0), Release(0, 2.5), Run(turns=2)))
+    flight = next(p for p in motion.phases if p.kind == Kind.FLIGHT and p.t_start > 0)
+    before = motion.at(flight.t_start)
+    lift = motion.scene.hoop.e * before.omega**2 - 1  # gap'' at the top
+    # constant on the way but for the fall of cos phi, phi0^2/2 = lift: gap'' = lift - phi^2/2 from -phi0, from rest
+    top = sqrt(2 * lift)
+    assert abs(flight.phi_start) == pytest.approx(top, rel=1e-5)
+    assert abs(flight.phi_end) == pytest.approx(3 * top, rel=1e-4)  # (x + 1)^3 (3 - x) = 0 in x = phi/phi0
+    energies = np.array([turn.energy for turn in motion.turns])
+    # phidot reaches 1/k = 1e8 on the way, whose square carries a relative round-off of some 1e-14 into the energy
+    assert len(energies) == 2
+    assert np.abs(energies - motion.at(0.0).energy).max() < 1e-12 * energies[0]
+
+
+def test_a_grazing_landing_is_no_jam():
+    """A contact point that comes down with no speed at all where D > 0 stays as it is."""
+    par = parameters(Scene(Hoop(0.1), Friction(0, 0), Release(0.3, -1.0)))
+    state = [0.0] * STATE
+    state[ANGLE], state[TOP], _ = chart(0.3, 1.0, 0)
+    state[OMEGA], state[SLIP] = -1.0, 0.5
+    assert not strike(par, state, 0.0)
+    assert (state[OMEGA], state[SLIP], state[UN]) == (-1.0, 0.5, 0.0)

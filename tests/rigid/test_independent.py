@@ -14,7 +14,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from rigid import Friction, Hoop, Kind, Release, Run, Scene, simulate
-from rigid.phases.rolling import rolling_time
+from rigid.phases.rolling.closed_form import rolling_time
 
 
 def right_hand_side(hoop, mu_hat):

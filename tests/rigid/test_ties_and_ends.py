@@ -16,11 +16,13 @@ from rigid import (
     Run,
     Scene,
     SceneError,
+    inception_mu_s,
     load_scene,
+    rolling_k,
+    rolling_mu_s,
     simulate,
     simulate_batch,
 )  # fmt: skip
-from rigid.thresholds import inception_mu_s, rolling_k, rolling_mu_s
 
 RELEASE = Release(radians(10))
 

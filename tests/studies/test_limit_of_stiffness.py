@@ -6,11 +6,14 @@ from math import radians
 
 import pytest
 
-from flexible.limit import rigid_limit
-from rigid import Contact, Friction, Hoop, Release, Scene, simulate
-from studies.running.workers import cores, pool
-from studies.stiffness.ladder import Ladder
-from studies.stiffness.study import stiffness_study
+import flexible
+from flexible import rigid_limit
+from rigid import Contact, Friction, Hoop, Release, Scene, scene_from_dict, simulate
+from studies import Ladder, limit_of, pool, stiffness_study
+from studies.running.case import SHARE
+from studies.running.workers import cores
+from studies.stiffness.limits import CONFIDENCE
+from studies.stiffness.series import extrapolated
 
 LAWS = [("patch", 0.35), ("brush", 0.35), ("brush", 0.3)]
 ENOUGH = 1e-3  # of the impulse ratio, and of m g R
@@ -21,7 +24,7 @@ def scene_of(k: float, mass_ratio: float, law: str, mu_s: float) -> Scene:
 
 
 def limits_hold(study) -> None:
-    """Limits within the asked and the stated uncertainty; cases without a star resolved to a tenth."""
+    """Limits within the asked and the stated uncertainty."""
     scene = study.scene
     rigid = simulate(rigid_limit(scene)).pulses[0]
     for name in ("impulse_ratio", "friction_loss"):
@@ -31,21 +34,54 @@ def limits_hold(study) -> None:
         if scene.friction.mu_s == scene.friction.mu and limit.distance > 1e-5:
             # the half-width of the patch, eps^(-1/3); nine rungs still show the next term
             assert limit.rate == pytest.approx(1 / 3, abs=0.06)
-    for rung in study.rungs:
-        if rung.outcome.resolved:
-            for name in ("impulse_ratio", "friction_loss"):
-                assert rung.error(name) <= 0.1 * abs(rung.measure(name) - study.limits[name].rigid)
+    if study.prediction.complete:  # without a fit, and with nothing of the cases in it
+        observed, predicted, error = study.coefficients("impulse_ratio")
+        assert abs(observed - predicted) < 0.05 * abs(predicted) + error
 
 
-@pytest.mark.parametrize(("law", "mu_s"), LAWS)
-def test_the_limit_of_a_light_hoop(law, mu_s):
+@pytest.fixture(scope="module", params=LAWS, ids="{0[0]}-{0[1]}".format)
+def study(request):
     """k = 0.25, m_h = 0, six rungs over five decades."""
-    scene = scene_of(0.25, 0.0, law, mu_s)
-    study = stiffness_study(scene, Ladder("both", 1e8, 1e13, 6))
+    return stiffness_study(scene_of(0.25, 0.0, *request.param), Ladder("both", 1e8, 1e13, 6))
+
+
+def test_the_limit_of_a_light_hoop(study):
     limits_hold(study)
     assert study.limits["impulse_ratio"].uncertainty < 2e-4
-    if mu_s == 0.3:
+    if study.scene.friction.mu_s == 0.3:
         assert study.limits["friction_loss"].rate == pytest.approx(1 / 3, abs=0.03)
+
+
+def test_softer_rungs_foresee_the_stiffest(study):
+    """Within the interval that they state of it, and of the limit."""
+    soft, last = study.rungs[:-1], study.rungs[-1]
+    s = [rung.stiffness for rung in soft]
+    for name in ("impulse_ratio", "friction_loss"):
+        limit = study.limits[name]
+        assert limit.known
+        y, error = [rung.measure(name) for rung in soft], [rung.error(name) for rung in soft]
+        foreseen = extrapolated(s, y, error, limit.exponents, CONFIDENCE, last.stiffness)
+        assert abs(foreseen.value - last.measure(name)) <= foreseen.uncertainty + last.error(name)
+        further = limit_of(s, y, limit.rigid, error, limit.exponents)
+        assert limit.uncertainty < further.uncertainty
+        assert further.rigid_inside
+
+
+def test_what_is_called_resolved_is(study):
+    """A quarter of the tolerance moves no measure by more than a tenth of its distance from the rigid value.
+
+    A run so fine may need more steps than the solver takes; at least one of the soft rungs comes through.
+    """
+    compared = 0
+    for rung in study.rungs[:3]:
+        finer = flexible.simulate(scene_from_dict(rung.outcome.scene).replace(solve={"rtol": rung.outcome.rtol / 4}))
+        if not (rung.outcome.resolved and finer.completed):
+            continue
+        compared += 1
+        for name in ("impulse_ratio", "friction_loss"):
+            moved = abs(getattr(finer.pulses[0], name) - rung.measure(name))
+            assert moved <= SHARE * abs(rung.measure(name) - study.limits[name].rigid)
+    assert compared
 
 
 def test_the_two_laws_differ_by_more_than_their_uncertainty():

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from studies.stiffness.limits import limit_of, observed_rate, richardson
+from studies import limit_of
+from studies.stiffness.limits import CONFIDENCE, observed_rate, richardson
+from studies.stiffness.series import extrapolated, terms
 
 S = np.geomspace(1e7, 1e13, 9)
 
@@ -64,6 +66,49 @@ def test_the_limit_is_inside_for_other_sequences_too(family, noise, floor):
     assert inside >= 72  # 76 of 80 is the level
 
 
+KNOWN = {
+    "patch": (1 / 3, 2 / 3),
+    "brush, mu_s = mu": (1 / 3, 2 / 5),
+    "brush, mu_s > mu": (2 / 9, 1 / 3, 1 / 3),
+    "regularised": (4 / 15, 1 / 3),
+}
+
+
+@pytest.mark.parametrize("law", KNOWN)
+@pytest.mark.parametrize(("noise", "floor"), [(0.0, 0.0), (0.03, 3e-6)])
+def test_intervals_of_known_rates_hold_limit_and_further_cases(law, noise, floor):
+    """Three terms of random size and sign; the sequence itself at a case that was held back, and at infinity.
+
+    The third is not among the rates given, and for rates as close as 1/3 and 2/5 not small at any case.
+    """
+    rates = KNOWN[law]
+    random = np.random.default_rng(2009)
+    x = S / S[0]
+    limits = held = 0
+    told = []
+    for _ in range(40):
+        distance = 0.02 * terms(x, rates)[:, :3] @ random.normal(size=3)
+        error = noise * np.abs(distance) + floor
+        off = random.choice([random.uniform(-1, 1, S.size), np.full(S.size, random.choice([-1, 1]))])
+        y = 0.17 + distance + error * off
+        found = extrapolated(S, y, error, rates, CONFIDENCE)
+        limits += abs(found.value - 0.17) <= found.uncertainty
+        further = extrapolated(S[:-1], y[:-1], error[:-1], rates, CONFIDENCE, S[-1])
+        held += abs(further.value - 0.17 - distance[-1]) <= further.uncertainty
+        told.append(found.uncertainty / abs(distance[-1]))
+    # 38 of 40 is the level, and three standard deviations below it are 33.9
+    assert limits >= 34
+    assert held >= 34
+    assert np.median(told) < 1  # more than the last case says
+
+
+def test_a_known_rate_that_is_wrong_shows_in_the_interval():
+    """1/2 for 1/3: the distance from the truth is more than with the right rate, and so is what is stated."""
+    y = 0.17 + 0.02 * (S / S[0]) ** (-1 / 3)
+    right, wrong = (limit_of(S, y, 0.17, np.full(S.size, 1e-7), (p,)) for p in (1 / 3, 1 / 2))
+    assert abs(right.error) <= right.uncertainty < wrong.uncertainty
+
+
 def test_a_wrong_rigid_value_is_found_to_be_wrong():
     found = limit_of(S, 0.17 + 1e-2 * (S / S[0]) ** (-1 / 3), 0.175)
     assert not found.rigid_inside
@@ -86,8 +131,8 @@ def test_too_few_cases_give_no_false_certainty(count):
 
 
 def test_a_rate_that_is_known_needs_one_case_less():
-    assert limit_of(S[:3], (0.17 + S**-0.3)[:3], 0.17, exponent=0.3).rigid_inside is None
-    assert limit_of(S[:4], (0.17 + S**-0.3)[:4], 0.17, exponent=0.3).rigid_inside is True
+    assert limit_of(S[:3], (0.17 + S**-0.3)[:3], 0.17, exponents=(0.3,)).rigid_inside is None
+    assert limit_of(S[:4], (0.17 + S**-0.3)[:4], 0.17, exponents=(0.3,)).rigid_inside is True
 
 
 def test_an_interval_wider_than_all_that_was_measured_holds_nothing():

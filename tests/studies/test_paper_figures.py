@@ -130,7 +130,7 @@ def test_extents(number, side):
             # all of the pulse's inside is within, and not lost in the middle
             inside = [phase for phase in motion.phases if phase.kind == "roll" and phase.t_start > 0]
             assert all(abs(phase.phi_end - pi) < reach or labelled[label] == "paper-3.3-heavier" for phase in inside)
-            assert reach < 20 * max(motion.scene.hoop.zeta, 1e-300) ** 0.5
+            assert reach < 20 * max(motion.scene.hoop.constants.zeta, 1e-300) ** 0.5
         # an instant is known to 1e-15, which at k = 1e-5 is 2e-11 of an angle
         assert (x[0], x[-1]) == pytest.approx((first, last), abs=1e-10)
         assert (x.min(), x.max()) == (x[0], x[-1])

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import HANGS
 
 from rigid import load_scene
 from studies.plots import pulse as figures
@@ -90,7 +91,7 @@ def test_a_browser_shows_the_figures(folder, tmp_path):
         [*line, "--virtual-time-budget=5000", "--dump-dom", address],
         capture_output=True,
         text=True,
-        timeout=120,
+        timeout=HANGS,
     )
     widths = re.search(r"<title>([\d ]+)</title>", dom.stdout)
     assert widths is not None, dom.stderr[-2000:]
@@ -99,7 +100,7 @@ def test_a_browser_shows_the_figures(folder, tmp_path):
 
     shot = tmp_path / "page.png"
     subprocess.run(
-        [*line, "--window-size=1100,3600", f"--screenshot={shot}", address], capture_output=True, timeout=120
+        [*line, "--window-size=1100,3600", f"--screenshot={shot}", address], capture_output=True, timeout=HANGS
     )
     image = pixels(shot)
     blue = (np.abs(image - np.array([0x00, 0x72, 0xB2]) / 255) < 0.06).all(axis=2)

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from third_solver import OFF, RATE
 
-from flexible.limit import effective_mu_s, rigid_limit
+from flexible import rigid_limit
+from flexible.contact.laws.brush import effective_mu_s
 from rigid import Friction as Coefficients
 from rigid import Hoop, Release, Scene, SceneError, load_scene
+from studies import Ladder, StudyError, stiffness_study
 from studies.running.case import SHARE
-from studies.running.files import StudyError
-from studies.stiffness.ladder import Ladder
-from studies.stiffness.study import stiffness_study
+from studies.stiffness.summary import law_sentence
 
 THIRD = "third_solver:softened"
 
@@ -45,15 +45,18 @@ def test_the_ladder_raises_what_is_asked(along, moves):
 
 
 def test_every_case_is_resolved_to_a_tenth_of_its_distance(study):
-    """The third solver's error is its tolerance, so the tightening can be checked against the truth as
-    well."""
+    """The third solver misses the rigid value by a known law, and that law by its tolerance: so what a case calls
+    resolved, and the error that it states, can be held against the truth.
+    """
+    rigid = study.reference.pulses[0]
     for rung in study.rungs:
         assert rung.outcome.resolved
-        for name in ("impulse_ratio", "friction_loss"):
-            rigid = study.reference.pulses[0][name]
-            assert rung.error(name) <= SHARE * abs(rung.measure(name) - rigid)
-        exact = study.reference.pulses[0]["friction_loss"] * (1 - OFF * rung.contact_stiffness**-RATE)
-        assert abs(rung.measure("friction_loss") - exact) <= 1.001 * rung.error("friction_loss")
+        miss = OFF * rung.contact_stiffness**-RATE
+        for name, sign in (("impulse_ratio", 1), ("friction_loss", -1)):
+            exact = rigid[name] * (1 + sign * miss)
+            # the error is linear in the tolerance, for which the stated one, of a slower law, is an upper bound
+            assert abs(rung.measure(name) - exact) <= rung.error(name) * (1 + 1e-9)
+            assert abs(rung.measure(name) - exact) <= SHARE * abs(rung.measure(name) - rigid[name])
 
 
 def test_rate_and_limit_come_out(study):
@@ -102,6 +105,18 @@ def test_each_law_is_compared_with_the_rigid_hoop_it_should_become():
     assert study.limits["impulse_ratio"].rigid == study.reference.pulses[0]["impulse_ratio"]
     assert study.reference.pulses[0]["impulse_ratio"] != study.rigid.pulses[0]["impulse_ratio"]
     assert study.limits["impulse_ratio"].rigid_inside
+
+
+def test_regularised_friction_is_sharpened_along_the_ladder():
+    """v_s falls like the patch's half width, and the limit has no static coefficient."""
+    scene = load_scene("paper-3.3-massless").replace(contact={"law": "regularised", "slip_velocity_scale": 2e-3})
+    assert rigid_limit(scene) == scene.replace(friction={"mu_s": scene.friction.mu})
+    ladder = Ladder("both", 1e7, 1e13, 7)
+    scales = [rung.contact.slip_velocity_scale for rung in ladder.rungs(scene)]
+    assert scales == pytest.approx(2e-3 * (ladder.stiffness / scene.contact.stiffness) ** (-1 / 3), rel=1e-12)
+    study = stiffness_study(scene, ladder, solver=THIRD)
+    assert study.limits["impulse_ratio"].rigid_inside
+    assert "no static coefficient" in law_sentence(study)
 
 
 def test_json_is_the_contract(hoop):
@@ -177,11 +192,10 @@ def test_a_scene_without_a_pulse_is_one_sentence():
 
 @pytest.mark.parametrize("damping", [0.0, 0.3])
 def test_the_damping_of_the_scene_is_its_own(damping):
-    """Also where it is 0; only one that is given to the study replaces it."""
+    """Also where it is 0."""
     scene = load_scene("paper-3.3-massless").replace(contact={"damping": damping})
     ladder = Ladder("contact", 1e8, 1e10, 3)
     assert stiffness_study(scene, ladder, solver=THIRD).scene.contact.damping == damping
-    assert stiffness_study(scene, ladder, solver=THIRD, damping=0.7).scene.contact.damping == 0.7
 
 
 def test_bad_ladders():

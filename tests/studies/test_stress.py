@@ -35,7 +35,7 @@ def test_flexible_scenes_are_within_the_range_of_the_model():
     assert all(s.ring.bending_stiffness * s.hoop.k >= 13 * (1 - 1e-12) for s in scenes)
     # line contact of a foundation, N = m g: the deepest point (3 N / (4 sqrt(2) eps))^(2/3) of a rigid rim
     assert all((3 / (4 * 2**0.5 * s.contact.stiffness)) ** (2 / 3) < 1e-3 for s in scenes)
-    assert {s.contact.law for s in scenes} == {"patch", "brush"}
+    assert {s.contact.law for s in scenes} == {"patch", "brush", "regularised"}
     assert {s.solve.resolve for s in scenes} == {"pulses", "all"}
 
 
@@ -92,6 +92,19 @@ def test_a_crash_and_a_run_without_end_are_told():
     assert "2 not: cut at the work bound (1, 2)" in report.text()
 
 
+def test_a_few_of_each_kind(hoop, tmp_path):
+    """36 scenes and the cycles, through processes, report and figure: none crashes, none breaks an invariant."""
+    status, out, err = hoop("stress", "--quick", "--scenes", 36, "--json", "--out", tmp_path)
+    found = json.loads(out)
+    assert found["failures"] == []
+    assert (status, err) == (0, "")
+    assert found["margins"]["rigid"]["energy"]["scenes"] == 30
+    assert set(found["completed"]) == set(run.KINDS)
+    assert found["margins"]["cycles"]["angle drifts"]["scenes"] >= 3
+    assert (tmp_path / "stress.png").stat().st_size > 10_000
+
+
+@pytest.mark.slow
 def test_quick_stress(hoop, tmp_path):
     """Rigid and flexible scenes and a thousand cycles: none crashes, none hangs, none breaks an invariant."""
     status, out, err = hoop("stress", "--quick", "--json", "--out", tmp_path)

@@ -20,15 +20,15 @@ import pytest
 from command_line import HANGS, SCENE, command, environment, is_one_sentence, process
 
 from rigid import SceneError, load_scene, scene_from_dict, scene_to_dict
+from studies import StudyError, load_sweep, pool, run_sweep, sweep_from_dict
 from studies.machine.processes import Processes, WorkerDied
 from studies.running import files
 from studies.running.case import Case, run_case
-from studies.running.files import StudyError
 from studies.running.runs import Estimate, run_cases
 from studies.running.solvers import build
 from studies.running.store import Store
-from studies.running.workers import Here, pool
-from studies.sweep import MAX_CASES, load_sweep, run_sweep, sweep_from_dict
+from studies.running.workers import Here
+from studies.sweep import MAX_CASES
 
 KS = "[0.1, 0.15, 0.2, 0.25, 0.3, 0.35]"
 
@@ -58,12 +58,12 @@ def by(*solvers: str) -> list[str]:
 
 def wait_for_rows(folder: Path, count: int) -> None:
     """Wait until a running sweep has kept so many cases."""
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + HANGS
     while time.monotonic() < deadline:
         if (folder / "study.sqlite").exists() and len(Store(folder).done()) >= count:
             return
         time.sleep(0.05)
-    raise AssertionError(f"no {count} rows within a minute")
+    raise AssertionError(f"no {count} rows in {HANGS} s")
 
 
 def test_every_combination_is_a_row_for_each_solver(hoop, tmp_path):
@@ -241,7 +241,7 @@ def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(tmp_path):
     assert "6 cases" in announced
     assert is_one_sentence(interrupted)
     assert 1 <= len(Store(out).done()) < 6
-    assert process("study", "sweep", file, "--out", out, "--workers", 1, *slow).returncode == 0
+    assert process("study", "sweep", file, "--out", out, "--workers", 1, *slow, env=at_once(file)).returncode == 0
     assert_same_as_undisturbed(file, slow, out, tmp_path)
 
 
@@ -249,9 +249,13 @@ def assert_same_as_undisturbed(file: Path, solvers: list[str], out: Path, tmp_pa
     """The table in ``out`` is, to the last bit, that of the same sweep run at once."""
     calm = tmp_path / "undisturbed"
     line = ("study", "sweep", file, "--out", calm, "--workers", 1, *solvers)
-    done = process(*line, env=environment(HOOP_TEST_MARK=str(file)))
-    assert done.returncode == 0
+    assert process(*line, env=at_once(file)).returncode == 0
     assert written(calm) == written(out)
+
+
+def at_once(file: Path) -> dict[str, str]:
+    """An environment in which no solver of the tests waits, and none dies of what ``file`` stands for."""
+    return environment(HOOP_TEST_MARK=str(file), HOOP_TEST_PAUSE="0")
 
 
 def written(folder: Path) -> list[str]:
@@ -278,7 +282,7 @@ def test_kill_9_loses_no_finished_case_and_leaves_no_worker_behind(tmp_path):
         found = Store(out).get(key)
         assert found is not None
         assert len(found.histories) == len(found.pulses)
-    assert process("study", "sweep", file, "--out", out, "--workers", 1, *slow).returncode == 0
+    assert process("study", "sweep", file, "--out", out, "--workers", 1, *slow, env=at_once(file)).returncode == 0
     assert kept <= Store(out).done()
     assert_same_as_undisturbed(file, slow, out, tmp_path)
 
@@ -501,13 +505,13 @@ def test_workers_that_hang_or_die_are_ended_and_replaced():
     processes = Processes(2)
     hanging = processes.submit(time.sleep, 1000)
     dying = processes.submit(os._exit, 3)
-    assert processes.submit(abs, -2).result(timeout=60) == 2
+    assert processes.submit(abs, -2).result(timeout=HANGS) == 2
     with pytest.raises(WorkerDied):
-        dying.result(timeout=60)
+        dying.result(timeout=HANGS)
     with pytest.raises(ZeroDivisionError):
-        processes.submit(divmod, 1, 0).result(timeout=60)
+        processes.submit(divmod, 1, 0).result(timeout=HANGS)
     with pytest.raises(Exception, match="pickle"):
-        processes.submit(lambda: 0).result(timeout=60)
-    assert processes.submit(abs, -3).result(timeout=60) == 3
+        processes.submit(lambda: 0).result(timeout=HANGS)
+    assert processes.submit(abs, -3).result(timeout=HANGS) == 3
     processes.stop()
     assert hanging.exception(timeout=0) is not None

@@ -7,13 +7,10 @@ import re
 import pytest
 
 from rigid import Run, load_scene, simulate
+from studies import MEASURES, Ladder, run_sweep, stiffness_study, sweep_from_dict
 from studies.cli.tables import motion_tables, show, study_tables, sweep_tables
 from studies.plots.sheet import Column, Sheet
-from studies.running.measures import MEASURES
 from studies.running.workers import Here
-from studies.stiffness.ladder import Ladder
-from studies.stiffness.study import stiffness_study
-from studies.sweep import run_sweep, sweep_from_dict
 
 WIDTHS = (60, 80, 200)
 NUMBER = r"-|-?\d+(\.\d+)?(e[-+]\d+)?"

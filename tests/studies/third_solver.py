@@ -22,8 +22,8 @@ OFF = 20.0
 def softened(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
     """The rigid motion of the scene that the contact law tends to, its pulses missed by the law above."""
     tended = scene
-    if scene.contact.law == "brush":  # only then is there need for the flexible package, which takes time to import
-        from flexible.limit import rigid_limit
+    if scene.contact.law != "patch":  # only then is there need for the flexible package, which takes time to import
+        from flexible import rigid_limit
 
         tended = rigid_limit(scene)
     motion = simulate(tended)
@@ -48,8 +48,8 @@ def unfinished(scene: Scene, *, history: bool = False, progress: object = None) 
 
 
 def slow(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
-    """The same, slowly enough to be interrupted."""
-    time.sleep(0.7)
+    """The same, slowly enough to be interrupted, unless a test has no use for that."""
+    time.sleep(float(os.environ.get("HOOP_TEST_PAUSE", "0.7")))
     return softened(scene)
 
 

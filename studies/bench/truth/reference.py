@@ -93,12 +93,13 @@ def run_hoop(scene: Scene, hoop: Any) -> Measured:
     """Scene B through a hoop of any level, modes and points."""
     from flexible.handover import hand_over
     from flexible.time.adaptive import march
+    from flexible.time.events import Ends
     from rigid import simulate
 
-    state = hand_over(hoop, simulate(scene), 0.0, scene.contact.law)
+    state = hand_over(hoop, simulate(scene), 0.0)
     end = scene.run.t_end
     assert end is not None
-    _, records, _, trouble = march(hoop, state, lambda now: now.t - end, scene.solve.rtol)
+    _, records, _, trouble = march(hoop, state, Ends(t=end), scene.solve.rtol)
     if trouble:
         raise RuntimeError(trouble)
     last = records[-1]

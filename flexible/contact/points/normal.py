@@ -6,23 +6,21 @@ line between two points crosses zero. Forces are the energy's gradient, so that 
 
 from __future__ import annotations
 
-from collections import namedtuple
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from rigid.kernel.compile import jit
 
-Foundation = namedtuple(
-    "Foundation",
-    [
-        "force",  # normal force of each point
-        "diagonal",  # second derivative of the energy by the point's own gap
-        "coupling",  # by its gap and that of the next point
-        "energy",
-        "length",  # of the patch
-    ],
-)
+
+class Foundation(NamedTuple):
+    """Normal forces of points, their derivatives, and the patch that they press."""
+
+    force: Any  # normal force of each point
+    diagonal: Any  # second derivative of the energy by the point's own gap
+    coupling: Any  # by its gap and that of the next point
+    energy: float
+    length: float  # of the patch
 
 
 @jit

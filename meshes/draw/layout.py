@@ -1,4 +1,4 @@
-"""The sheet: stage picture, legend and colour bar above, N(t) and F(t) below with the current time marked."""
+"""The layout of a page: the hoop, legend and colour bar above, N(t) and F(t) below with the current time marked."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import style as looks
+from . import style
 from .patch import PatchPlot
+from .renderer import ABOVE_FLOOR, Colours
 from .shots import Curves, Shot
-from .stage import ABOVE_FLOOR, Colours
 
 Image = NDArray[np.uint8]
 
 
-class Sheet:
+class Layout:
     """A page that is laid out once and filled in for one shot after the other.
 
     Parameters
@@ -24,7 +24,7 @@ class Sheet:
     size : (width, height)
         In pixels, both even.
     curves : Curves
-        What is drawn below; without any, the stage takes the whole height.
+        What is drawn below; without any, the view takes the whole height.
     span : (start, stop)
         Of the time axis.
     colours : Colours or None
@@ -51,11 +51,11 @@ class Sheet:
         from matplotlib.figure import Figure
 
         self.size, self.curves, self.span = size, curves, span
-        self.units = {**looks.UNITS, **units}
+        self.units = {**style.UNITS, **units}
         width, height = size
-        # type is set for a sheet 1280 wide and shrinks less than the sheet does, so that it stays legible
+        # type is set for a page 1280 wide and shrinks less than the page does, so that it stays legible
         self.type = 13.0 * max(0.62, min(width / 1280, height / 900) ** 0.75)
-        self.figure = Figure(figsize=(width / 100, height / 100), dpi=100, facecolor=looks.PAPER)
+        self.figure = Figure(figsize=(width / 100, height / 100), dpi=100, facecolor=style.PAPER)
         self.canvas = FigureCanvasAgg(self.figure)
         duration = span[1] - span[0]
         #: of the printed time: a thousandth of the run shows
@@ -66,10 +66,10 @@ class Sheet:
         drawn = len(curves.t) > 0
         below = round(0.31 * height) if drawn else 0
         top = round(2.6 * em)
-        #: pixels at the right of the stage that the colour bar covers
+        #: pixels at the right of the view that the colour bar covers
         self.covered = round(6.2 * em) if colours else 0
-        #: left, top, width and height of the stage in pixels
-        self.stage_box = (0, top, width // 2 * 2, (height - top - below) // 2 * 2)
+        #: left, top, width and height of the view in pixels
+        self.view_box = (0, top, width // 2 * 2, (height - top - below) // 2 * 2)
         room = width - 2.4 * em
         if colours is not None:
             room -= self._colour_bar(colours, em) + em
@@ -77,28 +77,28 @@ class Sheet:
         if drawn:
             self._curves(below, em)
         self._over: list[tuple[tuple[slice, slice], Image, Any]] = []
-        #: pixels at the left of the stage that the patch covers
+        #: pixels at the left of the view that the patch covers
         self.aside = 0
         self._plot: PatchPlot | None = None
         if shots:
             self._patch(shots, em)
         left, y = 1.2 * em, top + 1.3 * em
-        self._time = self._text(left, y, "", color=looks.INK, moving=True)
-        self._phase = self._text(left, y + 1.5 * em, "", color=looks.INK, moving=True)
-        self._force = self._text(left, y + 3.2 * em, "", color=looks.FORCE, moving=True)
-        self._slip = self._text(left, y + 4.7 * em, "", color=looks.SLIP, moving=True)
+        self._time = self._text(left, y, "", color=style.INK, moving=True)
+        self._phase = self._text(left, y + 1.5 * em, "", color=style.INK, moving=True)
+        self._force = self._text(left, y + 3.2 * em, "", color=style.FORCE, moving=True)
+        self._slip = self._text(left, y + 4.7 * em, "", color=style.SLIP, moving=True)
         # beside the deformed hoop, low, where nothing else is
-        low = top + self.stage_box[3] * ABOVE_FLOOR - 0.8 * em
-        self._factor = self._text(left, low, "", color=looks.FAINT, moving=True)
-        caption = {"color": looks.FAINT, "ha": "center", "va": "center", "fontsize": 0.8 * self.type}
+        low = top + self.view_box[3] * ABOVE_FLOOR - 0.8 * em
+        self._factor = self._text(left, low, "", color=style.FAINT, moving=True)
+        caption = {"color": style.FAINT, "ha": "center", "va": "center", "fontsize": 0.8 * self.type}
         self._lens = self._text(0, 0, "", moving=True, **caption)
         self.canvas.draw()
         self._blank = self.canvas.copy_from_bbox(self.figure.bbox)
         self._keep_ink()
 
     def _keep_ink(self) -> None:
-        """Keep what stands still and is drawn over the stage: colour bar, axes of the patch."""
-        _, top, width, height = self.stage_box
+        """Keep what stands still and is drawn over the view: colour bar, axes of the patch."""
+        _, top, width, height = self.view_box
         foot = top + int(height * ABOVE_FLOOR) - 4
         page = np.asarray(self.canvas.buffer_rgba())
         self._over = []
@@ -107,17 +107,17 @@ class Sheet:
             drawn = np.array(page[box])
             self._over.append((box, drawn, np.any(drawn[..., :3] < 255, axis=2)))
 
-    def fill(self, stage: Image, shot: Shot, factor: float, lens: tuple[float, float, str] | None = None) -> Image:
-        """The page with this stage picture, as (height, width, 3) bytes; ``lens`` is column, row, caption."""
+    def fill(self, view: Image, shot: Shot, factor: float, lens: tuple[float, float, str] | None = None) -> Image:
+        """The page with this view of the hoop, as (height, width, 3) bytes; ``lens`` is column, row, caption."""
         self.canvas.restore_region(self._blank)
-        left, top, width, height = self.stage_box
+        left, top, width, height = self.view_box
         page = np.asarray(self.canvas.buffer_rgba())
-        page[top : top + height, left : left + width, :3] = stage
+        page[top : top + height, left : left + width, :3] = view
         for box, drawn, inked in self._over:
             page[box][inked] = drawn[inked]
         self._time.set_text(f"t = {shot.time:.{self.decimals}f} {self.units['time']}")
         kind = self.curves.phase(shot.time)
-        words, band = looks.PHASES.get(kind, (kind, looks.PAPER)) if kind else ("", looks.PAPER)
+        words, band = style.PHASES.get(kind, (kind, style.PAPER)) if kind else ("", style.PAPER)
         self._phase.set_text(words)
         self._phase.set_bbox({"facecolor": band, "edgecolor": "none", "pad": 0.25 * self.type})
         how = "" if self.curves.usual is None else " (log)"
@@ -154,15 +154,15 @@ class Sheet:
 
     def note(self, text: str) -> None:
         """Print a line in the middle above the picture, on every page from now on."""
-        top = self.stage_box[1]
-        style = {"color": looks.FAINT, "ha": "center", "va": "center", "fontsize": 0.8 * self.type}
-        self._text(self.size[0] / 2, top * 0.62, text, **style)
+        top = self.view_box[1]
+        form = {"color": style.FAINT, "ha": "center", "va": "center", "fontsize": 0.8 * self.type}
+        self._text(self.size[0] / 2, top * 0.62, text, **form)
         self.canvas.draw()
         self._blank = self.canvas.copy_from_bbox(self.figure.bbox)
 
-    def _text(self, x: float, y: float, text: str, *, moving: bool = False, **style: Any) -> Any:
-        style.setdefault("fontsize", self.type)
-        artist = self.figure.text(x / self.size[0], 1 - y / self.size[1], text, animated=moving, **style)
+    def _text(self, x: float, y: float, text: str, *, moving: bool = False, **form: Any) -> Any:
+        form.setdefault("fontsize", self.type)
+        artist = self.figure.text(x / self.size[0], 1 - y / self.size[1], text, animated=moving, **form)
         if moving:
             self._moving.append(artist)
         return artist
@@ -173,15 +173,15 @@ class Sheet:
 
     def _title(self, title: str, room: float, em: float) -> None:
         """The title, in smaller type where it would not fit."""
-        top = self.stage_box[1]
-        printed = self._text(1.2 * em, top * 0.62, title, color=looks.INK, weight="bold", va="center")
+        top = self.view_box[1]
+        printed = self._text(1.2 * em, top * 0.62, title, color=style.INK, weight="bold", va="center")
         needed = float(printed.get_window_extent(self.canvas.get_renderer()).width)
         if needed > room:
             printed.set_fontsize(max(0.6, room / needed) * self.type)
 
     def _patch(self, shots: Sequence[Shot], em: float) -> None:
         """Axes at the left, below the legend, where the hoop does not come."""
-        _, top, width, height = self.stage_box
+        _, top, width, height = self.view_box
         start, foot = 8.6 * em, height * ABOVE_FLOOR - 6.2 * em
         high, wide = min(foot - start, 0.34 * height), 0.17 * width
         if high > 4 * em:
@@ -196,22 +196,22 @@ class Sheet:
         from matplotlib.colors import Normalize
         from matplotlib.ticker import MaxNLocator
 
-        _, top, width, height = self.stage_box
+        _, top, width, height = self.view_box
         axes = self._axes(width - 5.2 * em, top + 0.8 * em, 0.9 * em, height * ABOVE_FLOOR - 1.8 * em)
-        mapped = ScalarMappable(Normalize(colours.low, colours.high), looks.colormap(colours.field))
-        signed = colours.field in looks.SIGNED
+        mapped = ScalarMappable(Normalize(colours.low, colours.high), style.colormap(colours.field))
+        signed = style.signed(colours.field)
         bar = self.figure.colorbar(mapped, cax=axes, extend="both" if signed else "max", ticks=MaxNLocator(5))
         bar.outline.set_visible(False)
-        axes.tick_params(labelsize=0.85 * self.type, length=3, color=looks.FAINT, labelcolor=looks.INK)
+        axes.tick_params(labelsize=0.85 * self.type, length=3, color=style.FAINT, labelcolor=style.INK)
         largest = max(abs(colours.low), abs(colours.high))
         power = int(np.floor(np.log10(largest))) if largest > 0 else 0
         power = 0 if -2 <= power < 4 else power
         axes.yaxis.set_major_formatter(lambda value, _: f"{value / 10.0**power:g}")
         ten = f"$10^{{{power}}}$" if power else ""
-        unit = " ".join(filter(None, [ten, looks.unit(colours.field, self.units)]))
-        name = looks.label(colours.field) + (f"  [{unit}]" if unit else "")
-        style: dict[str, Any] = {"color": looks.INK, "ha": "right", "va": "center"}
-        printed = self._text(self.size[0] - 1.2 * em, top * 0.62, name, **style)
+        unit = " ".join(filter(None, [ten, style.unit(colours.field, self.units)]))
+        name = style.label(colours.field) + (f"  [{unit}]" if unit else "")
+        form: dict[str, Any] = {"color": style.INK, "ha": "right", "va": "center"}
+        printed = self._text(self.size[0] - 1.2 * em, top * 0.62, name, **form)
         return float(printed.get_window_extent(self.canvas.get_renderer()).width)
 
     def _curves(self, below: int, em: float) -> None:
@@ -223,15 +223,15 @@ class Sheet:
         curves = self.curves
         for row, (values, colour, name) in enumerate(
             [
-                (curves.normal_force, looks.NORMAL, "N"),
-                (curves.friction_force, looks.FRICTION, "F"),
+                (curves.normal_force, style.NORMAL, "N"),
+                (curves.friction_force, style.FRICTION, "F"),
             ]
         ):
             axes = self._axes(left, start + row * (height + gap), self.size[0] - left - right, height)
             for kind, t0, t1 in curves.phases:
                 if t1 > t0:
-                    axes.axvspan(t0, t1, color=looks.PHASES.get(kind, ("", "#f2f2f2"))[1], lw=0, zorder=0)
-            axes.axhline(0, color=looks.FAINT, lw=0.6, zorder=1)
+                    axes.axvspan(t0, t1, color=style.PHASES.get(kind, ("", "#f2f2f2"))[1], lw=0, zorder=0)
+            axes.axhline(0, color=style.FAINT, lw=0.6, zorder=1)
             axes.plot(curves.t, values, color=colour, lw=0.13 * self.type, zorder=3)
             if self.span[0] < self.span[1]:  # a single frame has no span
                 axes.set_xlim(*self.span)
@@ -244,15 +244,15 @@ class Sheet:
             for side in ("top", "right"):
                 axes.spines[side].set_visible(False)
             for side in ("left", "bottom"):
-                axes.spines[side].set_color(looks.FAINT)
-            axes.tick_params(labelsize=0.85 * self.type, color=looks.FAINT, labelcolor=looks.INK, length=3)
+                axes.spines[side].set_color(style.FAINT)
+            axes.tick_params(labelsize=0.85 * self.type, color=style.FAINT, labelcolor=style.INK, length=3)
             if row == 0:
                 axes.tick_params(labelbottom=False)
             else:
-                axes.set_xlabel(f"t  [{self.units['time']}]", fontsize=self.type, color=looks.INK, labelpad=1)
+                axes.set_xlabel(f"t  [{self.units['time']}]", fontsize=self.type, color=style.INK, labelpad=1)
             axes.set_ylabel(f"{name}  [{self.units['force']}]", fontsize=self.type, color=colour)
             axes.yaxis.set_label_coords(-3.6 * em / (self.size[0] - left - right), 0.5)
-            line = axes.axvline(0, color=looks.INK, lw=0.07 * self.type, zorder=4, animated=True)
+            line = axes.axvline(0, color=style.INK, lw=0.07 * self.type, zorder=4, animated=True)
             (dot,) = axes.plot([], [], "o", color=colour, zorder=5, animated=True)
             dot.set(markersize=0.42 * self.type, markeredgecolor="white", markeredgewidth=0.04 * self.type)
             self._moving += [line, dot]

@@ -1,4 +1,4 @@
-"""The stage: hoop, disk, floor and arrows as pyvista actors that follow one shot after the other."""
+"""The renderer: hoop, disk, floor and arrows as pyvista actors that follow one shot after the other."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..fields import BIQUADRATIC_QUAD
-from . import style as looks
+from . import style
 from .display import choose_window
 from .scales import scalar
 from .shots import Shot
@@ -45,7 +45,7 @@ class Colours:
     high: float
 
 
-class Stage:
+class Renderer:
     """A pyvista plotter that shows shots.
 
     Parameters
@@ -86,7 +86,7 @@ class Stage:
         self.height = VIEW_HEIGHT * self.R / zoom
         options: dict[str, Any] = {"window_size": list(size), "lighting": "none", "border": False}
         plotter: Any = pyvista.Plotter(off_screen=off_screen, **options)
-        plotter.set_background(looks.PAPER)
+        plotter.set_background(style.PAPER)
         plotter.enable_parallel_projection()
         if off_screen:
             plotter.disable_anti_aliasing()  # pictures are drawn finer and averaged, which is faster
@@ -100,39 +100,39 @@ class Stage:
         self._ring = _polygons(first.ring.points, faces)
         self._edge, self._ghost = _lines(first.ring.points, edges), _lines(first.ring.points, edges)
         flat: dict[str, Any] = {"lighting": False, "show_scalar_bar": False}
-        self.plotter.add_mesh(self._ghost, color=looks.GHOST, line_width=width, **flat)
+        self.plotter.add_mesh(self._ghost, color=style.GHOST, line_width=width, **flat)
         self.ring_actor: Any = None
         self.paint(colours)
-        self.plotter.add_mesh(self._edge, color=looks.EDGE, line_width=0.8 * width, **flat)
+        self.plotter.add_mesh(self._edge, color=style.EDGE, line_width=0.8 * width, **flat)
         self._disk = None
         if first.disk is not None:
             self._disk = _polygons(first.disk.points, first.disk.cells)
             halves = first.disk.cell_data.get("half", np.zeros(len(first.disk.cells)))
             self._disk.cell_data["half"] = halves
-            self.plotter.add_mesh(self._disk, scalars="half", cmap=list(looks.DISK), clim=[0, 1], **flat)
+            self.plotter.add_mesh(self._disk, scalars="half", cmap=list(style.DISK), clim=[0, 1], **flat)
         self._floor, self._ticks = _polygons(np.zeros((4, 3)), np.array([[0, 1, 2, 3]])), pyvista.PolyData()
-        self.plotter.add_mesh(self._floor, color=looks.FLOOR, **flat)
+        self.plotter.add_mesh(self._floor, color=style.FLOOR, **flat)
         self._floor_line = _lines(np.zeros((2, 3)), np.array([[0, 1]]))
-        self.plotter.add_mesh(self._floor_line, color=looks.FLOOR_EDGE, line_width=1.5 * width, **flat)
+        self.plotter.add_mesh(self._floor_line, color=style.FLOOR_EDGE, line_width=1.5 * width, **flat)
         self._ticks = _lines(np.zeros((80, 3)), np.arange(80).reshape(-1, 2))
-        self.plotter.add_mesh(self._ticks, color=looks.FLOOR_EDGE, line_width=0.8 * width, **flat)
+        self.plotter.add_mesh(self._ticks, color=style.FLOOR_EDGE, line_width=0.8 * width, **flat)
         self._arrows = {}
-        for name, colour in (("force", looks.FORCE), ("slip", looks.SLIP)):
+        for name, colour in (("force", style.FORCE), ("slip", style.SLIP)):
             inked, halo = (_polygons(np.zeros((7, 3)), _ARROW) for _ in range(2))
             self.plotter.add_mesh(inked, color=colour, **flat)
             # paper round it, so that it shows on the disk too
-            self.plotter.add_mesh(halo, color=looks.PAPER, style="wireframe", line_width=4 * width, **flat)
+            self.plotter.add_mesh(halo, color=style.PAPER, style="wireframe", line_width=4 * width, **flat)
             self._arrows[name] = inked, halo
 
     def paint(self, colours: Colours | None) -> None:
         """Colour the ring by another field."""
         self.colours = colours
-        options: dict[str, Any] = {"color": looks.RING}
+        options: dict[str, Any] = {"color": style.RING}
         if colours is not None:
             self._ring.point_data["colour"] = np.zeros(self._ring.n_points)
             options = {
                 "scalars": "colour",
-                "cmap": looks.colormap(colours.field),
+                "cmap": style.colormap(colours.field),
                 "clim": [colours.low, colours.high],
             }
         self.ring_actor = self.plotter.add_mesh(

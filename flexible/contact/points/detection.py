@@ -6,30 +6,15 @@ A point's angle from the bottom is ``psi = phi + theta - pi``; its displacement 
 
 from __future__ import annotations
 
-from collections import namedtuple
 from math import ceil, cos, floor, pi, sin, sqrt
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from rigid.kernel.compile import jit
 
-
-@jit
-def vertex_angle(vertex: Any, element: int) -> float:
-    """Angle at which rim element ``element`` begins; elements are counted on round and round."""
-    n = vertex.shape[0]
-    turn = element // n
-    return vertex[element - turn * n] + 2 * pi * turn
-
-
-@jit
-def element_at(vertex: Any, theta: float) -> int:
-    """Rim element that holds the material angle ``theta``."""
-    n = vertex.shape[0]
-    turn = int(floor((theta - vertex[0]) / (2 * pi)))
-    rest = theta - 2 * pi * turn
-    return int(np.searchsorted(vertex, rest, side="right")) - 1 + turn * n
+from .data import Before, Rim
+from .rim import element_at, gap_at, lift, shape_functions, sideways, upward, vertex_angle
 
 
 @jit
@@ -37,8 +22,8 @@ def _touching(height: float, psi_start: float, width: float, y0: float, y1: floa
     """Part [low, high] of an element, in 0..1, where the gap is negative; low > high when there is none."""
     c1, c2 = -3 * y0 + 4 * y1 - y2, 2 * y0 - 4 * y1 + 2 * y2
     base = height + y0
-    at_start = base + 2 * sin(psi_start / 2) ** 2
-    at_end = base + c1 + c2 + 2 * sin((psi_start + width) / 2) ** 2
+    at_start = base + lift(psi_start)
+    at_end = base + c1 + c2 + lift(psi_start + width)
     lowest = min(max(-psi_start / width, 0.0), 1.0)
     for _ in range(5):
         slope = width * sin(psi_start + lowest * width) + c1 + 2 * c2 * lowest
@@ -47,7 +32,7 @@ def _touching(height: float, psi_start: float, width: float, y0: float, y1: floa
             lowest = 0.0 if at_start < at_end else 1.0
             break
         lowest = min(max(lowest - slope / curvature, 0.0), 1.0)
-    bottom = base + c1 * lowest + c2 * lowest**2 + 2 * sin((psi_start + lowest * width) / 2) ** 2
+    bottom = base + c1 * lowest + c2 * lowest**2 + lift(psi_start + lowest * width)
     if min(bottom, at_start, at_end) >= 0:
         return 1.0, 0.0
     edges = np.array([0.0, 1.0])
@@ -60,7 +45,7 @@ def _touching(height: float, psi_start: float, width: float, y0: float, y1: floa
         s = lowest + (2 * side - 1) * sqrt(max(-2 * bottom, 0.0) / curvature)
         for _ in range(3):
             s = min(max(s, 0.0), 1.0)
-            value = base + c1 * s + c2 * s**2 + 2 * sin((psi_start + s * width) / 2) ** 2
+            value = base + c1 * s + c2 * s**2 + lift(psi_start + s * width)
             slope = width * sin(psi_start + s * width) + c1 + 2 * c2 * s
             if slope * (far - lowest) <= 0:
                 break
@@ -70,8 +55,9 @@ def _touching(height: float, psi_start: float, width: float, y0: float, y1: floa
 
 
 @jit
-def _candidates(height: float, phi: float, y: Any, first: int, count: int, vertex: Any, spacing: float) -> Any:
+def _candidates(height: float, phi: float, y: Any, rim: Rim, spacing: float) -> Any:
     """Ranges of points that touch or border on a touching one, merged; rows (first, last)."""
+    first, vertex, count = rim.first, rim.vertex, (y.shape[0] - 1) // 2
     ranges = np.empty((count, 2), np.int64)
     n = 0
     for i in range(count):
@@ -90,7 +76,7 @@ def _candidates(height: float, phi: float, y: Any, first: int, count: int, verte
                 s = (j * spacing - start) / width
                 bend = -3 * y[2 * i] + 4 * y[2 * i + 1] - y[2 * i + 2]
                 rise = y[2 * i] + s * (bend + s * (2 * y[2 * i] - 4 * y[2 * i + 1] + 2 * y[2 * i + 2]))
-                if height + rise + 2 * sin((phi - pi + j * spacing) / 2) ** 2 >= 0:
+                if gap_at(height, phi - pi + j * spacing, rise) >= 0:
                     break
                 j += way
             if way < 0:
@@ -105,28 +91,25 @@ def _candidates(height: float, phi: float, y: Any, first: int, count: int, verte
     return ranges[:n]
 
 
-Points = namedtuple(
-    "Points",
-    [
-        "number",  # of the point
-        "last",  # whether the next point in the list is not its neighbour
-        "local",  # first node of its element in the window
-        "shape",  # (n, 3) interpolation on the element's nodes
-        "arm_x",  # derivative of the gap by phi
-        "arm_y",  # derivative of the abscissa by phi
-        "gap",  # over the floor, negative in contact
-        "gap_old",  # at the beginning of the step
-        "move",  # along the floor since then, but for
-        "rolled",  # what the rigid circle's rolling alone would move it, psi - sin(psi) now less then
-        "psi",  # angle from the bottom
-    ],
-)
-Points.__doc__ = "Points that touch, and their neighbours on both sides, as arrays of one length; ascending."
+class Points(NamedTuple):
+    """Points that touch, and their neighbours on both sides, as arrays of one length; ascending."""
+
+    number: Any  # of the point
+    last: Any  # whether the next point in the list is not its neighbour
+    local: Any  # first node of its element in the window
+    shape: Any  # (n, 3) interpolation on the element's nodes
+    arm_x: Any  # derivative of the gap by phi
+    arm_y: Any  # derivative of the abscissa by phi
+    gap: Any  # over the floor, negative in contact
+    gap_old: Any  # at the beginning of the step
+    move: Any  # along the floor since then, but for
+    rolled: Any  # what the rigid circle's rolling alone would move it, psi - sin(psi) now less then
+    psi: Any  # angle from the bottom
 
 
 @jit
-def gather(pose: Any, u: Any, first: int, vertex: Any, spacing: float, old_pose: Any, u_old: Any) -> tuple[Any, bool]:
-    """The points that touch and those that border on them, for the window of rim elements from ``first`` on.
+def gather(pose: Any, u: Any, rim: Rim, spacing: float, before: Before) -> tuple[Any, bool]:
+    """The points that touch and those that border on them, for a window of rim elements.
 
     Returns
     -------
@@ -136,13 +119,15 @@ def gather(pose: Any, u: Any, first: int, vertex: Any, spacing: float, old_pose:
     """
     nodes = u.shape[0]
     count = (nodes - 1) // 2
+    first, vertex = rim.first, rim.vertex
+    old_pose, u_old = before.pose, before.u
     height, phi, phi_old = pose[1], pose[2], old_pose[2]
     s, c, s_old, c_old = sin(phi), cos(phi), sin(phi_old), cos(phi_old)
     dv, dphi = pose[0] - old_pose[0], phi - phi_old
     y = np.empty(nodes)
     for i in range(nodes):
-        y[i] = u[i, 0] * c - u[i, 1] * s
-    ranges = _candidates(height, phi, y, first, count, vertex, spacing)
+        y[i] = upward(u[i, 0], u[i, 1], s, c)
+    ranges = _candidates(height, phi, y, rim, spacing)
     total = 0
     for r in range(ranges.shape[0]):
         total += ranges[r, 1] - ranges[r, 0] + 1
@@ -161,22 +146,21 @@ def gather(pose: Any, u: Any, first: int, vertex: Any, spacing: float, old_pose:
             xi = (theta - start) / (vertex_angle(vertex, element + 1) - start)
             outside = outside or xi < -1e-9 or xi > 1 + 1e-9
             k = 2 * (element - first)
-            n0, n1, n2 = (1 - xi) * (1 - 2 * xi), 4 * xi * (1 - xi), xi * (2 * xi - 1)
+            n0, n1, n2 = shape_functions(xi)
             u1 = n0 * u[k, 0] + n1 * u[k + 1, 0] + n2 * u[k + 2, 0]
             u2 = n0 * u[k, 1] + n1 * u[k + 1, 1] + n2 * u[k + 2, 1]
             v1 = n0 * u_old[k, 0] + n1 * u_old[k + 1, 0] + n2 * u_old[k + 2, 0]
             v2 = n0 * u_old[k, 1] + n1 * u_old[k + 1, 1] + n2 * u_old[k + 2, 1]
-            ux, uy = u1 * s + u2 * c, u1 * c - u2 * s
+            ux, uy = sideways(u1, u2, s, c), upward(u1, u2, s, c)
             psi, psi_old = phi - pi + theta, phi_old - pi + theta
-            raised = 2 * sin(psi / 2) ** 2
             number[m], local[m] = j, k
             shape[m, 0], shape[m, 1], shape[m, 2] = n0, n1, n2
-            gap[m] = height + raised + uy
-            gap_old[m] = old_pose[1] + 2 * sin(psi_old / 2) ** 2 + v1 * c_old - v2 * s_old
-            arm_x[m], arm_y[m] = sin(psi) - ux, raised + uy
+            gap[m] = gap_at(height, psi, uy)
+            gap_old[m] = gap_at(old_pose[1], psi_old, upward(v1, v2, s_old, c_old))
+            arm_x[m], arm_y[m] = sin(psi) - ux, lift(psi) + uy
             angle[m] = psi
             rolled[m] = dphi - 2 * cos((psi + psi_old) / 2) * sin(dphi / 2)
-            move[m] = dv + ux - (v1 * s_old + v2 * c_old)
+            move[m] = dv + ux - sideways(v1, v2, s_old, c_old)
             m += 1
         last[m - 1] = True
     return Points(number, last, local, shape, arm_x, arm_y, gap, gap_old, move, rolled, angle), outside

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from math import asin, inf, pi, sin, sqrt, tan
 
-from ..kernel.angle import trig
-from ..kernel.compile import kernel
-from ..kernel.elliptic import r_f_and_r_j
-from ..kernel.layout import ECC, GYR, MU_S, ONE_MINUS_E, ZETA
-from ..kernel.polynomial import first_positive, value_and_slope
+from ...kernel.angle import trig
+from ...kernel.compile import kernel
+from ...kernel.elliptic import r_f_and_r_j
+from ...kernel.layout import ECC, GYR, MU_S, ONE_MINUS_E, ZETA
+from ...kernel.polynomial import first_positive, value_and_slope
 
 TIE = 1e-12  # |F| may exceed mu_s N by this fraction and still hold: round-off of a start on the edge
 
@@ -116,23 +116,23 @@ def first_slip(par, g, upper, start, stop, plus, minus, room):
 
 
 @kernel
-def rolling_time(zeta, g, h, low, rest):
-    """Time from the bottom to h on a swing with ceiling G; ``low`` = 2 - h, ``rest`` = G - h.
+def rolling_time(zeta, g, h, low, headroom):
+    """Time from the bottom to h on a swing with ceiling G; ``low`` = 2 - h, ``headroom`` = G - h.
 
     T = x/(a sqrt(zeta)) [zeta R_F + (4/3) x^2 R_J] with x = |cos(phi/2)|, a^2 = G/2 and the arguments
     (1 + 4 x^2/zeta, 1 - x^2/a^2, 1 - x^2; 1).
     """
-    if rest <= 0.0 and low <= 0.0:
+    if headroom <= 0.0 and low <= 0.0:
         return inf
     x2 = 0.5 * h
     if x2 == 0.0:
         return 0.0
-    rf, rj = r_f_and_r_j(1 + 4 * x2 / zeta, max(rest, 0.0) / g, max(0.5 * low, 0.0), 1.0)
+    rf, rj = r_f_and_r_j(1 + 4 * x2 / zeta, max(headroom, 0.0) / g, max(0.5 * low, 0.0), 1.0)
     return sqrt(x2 / (0.5 * g * zeta)) * (zeta * rf + 4 / 3 * x2 * rj)
 
 
 @kernel
-def rest_to_ceiling(g, below, a, top):
+def headroom_at(g, below, a, top):
     """G - h at an angle, without cancellation; ``below`` = 2 - G."""
     _, _, h, low = trig(a, top)
     if below <= 0:
@@ -235,14 +235,14 @@ def angle_at_time(zeta, g, below, time):
         s = sin(u)
         co2 = sin(limit - u) ** 2
         if full:
-            h, rest = 2 * s * s, 2 * co2 - below
+            h, headroom = 2 * s * s, 2 * co2 - below
             lo = 2 * co2
-            slope = 2 * sqrt((zeta + 2 * h) / (2 * rest)) if rest > 0 else inf
+            slope = 2 * sqrt((zeta + 2 * h) / (2 * headroom)) if headroom > 0 else inf
         else:
-            h, rest = g * s * s, g * co2
+            h, headroom = g * s * s, g * co2
             lo = below + g * co2
             slope = sqrt((zeta + 2 * h) / (0.5 * lo)) if lo > 0 else inf
-        error = rolling_time(zeta, g, h, lo, rest) - time
+        error = rolling_time(zeta, g, h, lo, headroom) - time
         if error > 0:
             high = u
         else:
@@ -256,9 +256,9 @@ def angle_at_time(zeta, g, below, time):
     s = sin(u)
     co2 = sin(limit - u) ** 2
     if full:
-        x2, y2, rest = s * s, co2, 2 * co2 - below
+        x2, y2, headroom = s * s, co2, 2 * co2 - below
     else:
-        x2, y2, rest = a2 * s * s, 0.5 * below + a2 * co2, g * co2
+        x2, y2, headroom = a2 * s * s, 0.5 * below + a2 * co2, g * co2
     if x2 <= 0.5:
-        return 2 * asin(sqrt(x2)), 0.0, rest
-    return 2 * asin(sqrt(y2)), 1.0, rest
+        return 2 * asin(sqrt(x2)), 0.0, headroom
+    return 2 * asin(sqrt(y2)), 1.0, headroom

@@ -1,6 +1,4 @@
-"""What a motion leaves behind: phases, turns and pulses, one record of ``WIDTH`` numbers each on a flat
-tape.
-"""
+"""The event log, what a motion leaves behind: phases, turns and pulses, one record of ``WIDTH`` numbers each."""
 
 # mypy: allow-untyped-defs
 from __future__ import annotations
@@ -29,32 +27,32 @@ ROOM = 8  # records that one turn of a loop may add
 
 
 @kernel
-def record(state, tag, tape):
-    """Put the state on the tape."""
+def record(state, tag, events):
+    """Put the state on the event log."""
     r = int(state[RECORDS]) * WIDTH
-    tape[r] = tag
+    events[r] = tag
     for i in range(MOVING):
-        tape[r + 1 + i] = state[i]
+        events[r + 1 + i] = state[i]
     state[RECORDS] += 1
     state[RECORDED] += 1
 
 
 @kernel
-def begin(par, state, kind, tape):
+def begin(par, state, kind, events):
     """Enter a phase; one that goes on with the same kind is no new phase."""
     state[MODE] = kind
     state[XDOT], state[YDOT] = velocity_of_g(par, state)
     if state[LAST_KIND] != kind or kind == IMPACT:
-        record(state, kind, tape)
+        record(state, kind, events)
         state[LAST_KIND] = kind
         state[PHASE_T] = state[T]
 
 
 @kernel
-def turn(par, state, tape):
+def turn(par, state, events):
     """phidot = 0: note it; True if it was the last one wanted."""
     r = int(state[RECORDS]) * WIDTH
-    record(state, TURN, tape)
-    tape[r + TURN_ENERGY] = energy(par, state)
+    record(state, TURN, events)
+    events[r + TURN_ENERGY] = energy(par, state)
     state[TURNS_DONE] += 1
     return state[TURNS_DONE] >= par[TURNS]

@@ -1,0 +1,105 @@
+"""The brush: a bristle breaks at mu_s p, p the pressure at its point, and slides at mu p.
+
+A rolling patch then breaks away from its rear. With pressure p = 4 p_0 u (1 - u), u from 0 at the leading to 1 at the
+trailing edge, and bristles stretched in proportion to the way from the leading edge, the points with u < b stick and
+the rest slides when c b = 4 mu_s p_0 b (1 - b) at u = b; so
+
+    F/N = 6 [c b^2/2 + mu * 4 p_0 (1/6 - b^2/2 + b^3/3)]/(4 p_0) = 3 mu_s (b^2 - b^3) + mu (1 - 3 b^2 + 2 b^3),
+
+whatever the stiffness. Its largest value, at b = 2 (mu_s - mu)/(3 mu_s - 2 mu), is all that a rolling brush can carry:
+its limit is the rigid hoop with that static coefficient.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Friction
+from rigid.kernel.compile import jit
+
+from ..points.bristles import add_pull, cling, point_forces, rolled_in, weights
+from ..points.data import Bristles, Resultants, Shared, Tractions
+from .law import Law, PatchState, Rolling
+
+Array = NDArray[np.float64]
+
+CODE = 1
+
+
+@jit
+def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
+    """See :class:`flexible.contact.laws.law.Law`."""
+    total = points.gap.shape[0]
+    stretch, sliding = carried.stretch, carried.sliding
+    forces = point_forces(total)
+    # a brush pulls nothing at its edges, and is held to the pressure, which ends on a straight gap
+    weight, weight_by = weights(points, carried, law.spacing, False, False)
+    energy, stuck = 0.0, 0.0
+    for i in range(total):
+        if weight[i] == 0:
+            continue
+        pressure = -law.eps_n * min(points.gap[i], 0.0)
+        limit = (law.mu if sliding[i] != 0 else law.mu_s) * load.eta * pressure
+        if abs(law.eps_t * stretch[i]) > limit:
+            sliding[i] = 1 if stretch[i] < 0 else -1
+            forces.share[i] = weight[i] * sliding[i] * law.mu * pressure
+            traction = sliding[i] * law.mu * load.eta * pressure
+            stretch[i] = -traction / law.eps_t
+            forces.by_gap[i, 2] = -weight[i] * sliding[i] * law.mu * load.eta * law.eps_n
+        else:
+            sliding[i] = 0
+            traction = cling(forces, carried, i, weight[i], law.eps_t)
+            stuck += weight[i]
+        add_pull(forces, i, traction, weight, weight_by)
+        energy += weight[i] * traction**2 / (2 * law.eps_t)
+    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, stuck, points.gap < 0, 0.0)
+
+
+def effective_mu_s(mu_s: float, mu: float) -> float:
+    """Largest F/N of a rolling parabolic brush patch whose points break at ``mu_s`` p and slide at ``mu`` p."""
+    if mu_s <= mu:
+        return mu_s
+    q = mu / mu_s
+    b = 2 * (1 - q) / (3 - 2 * q)
+    return max(mu, mu_s * (3 * (b**2 - b**3) + q * (1 - 3 * b**2 + 2 * b**3)))
+
+
+class Brush(Law):
+    """See the head of this file. It has one mode: stick and slip are each point's own."""
+
+    name, code = "brush", CODE
+    tractions = staticmethod(tractions)
+
+    def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:
+        """See :func:`flexible.contact.points.bristles.rolled_in`."""
+        return rolled_in(bristles, self.parameters, res, *pose)
+
+    def slid_in(self, bristles: Bristles, res: Resultants) -> Bristles:
+        """All points slide."""
+        return bristles._replace(sliding=np.full_like(bristles.sliding, 1 if res.friction > 0 else -1))
+
+    def pulls(self, state: PatchState, stretch: Array, pressure: Array) -> Array:
+        """The bristles' pull."""
+        return -self.parameters.eps_t * stretch
+
+    def slipping(self, state: PatchState, sliding: Array) -> NDArray[np.bool_]:
+        """See :class:`~flexible.contact.laws.law.Law`."""
+        return sliding != 0
+
+    @classmethod
+    def static_coefficient(cls, friction: Friction) -> float:
+        """See :func:`effective_mu_s`."""
+        return effective_mu_s(friction.mu_s, friction.mu)
+
+    @classmethod
+    def explanation(cls, friction: Friction) -> str:
+        """See :class:`~flexible.contact.laws.law.Law`."""
+        if friction.mu_s == friction.mu:
+            return f"A brush with mu_s = mu = {friction.mu:g} tends to the rigid hoop of the same coefficients."
+        return (
+            "A brush breaks away from its rear, so its limit is the rigid hoop with mu_s replaced by "
+            f"mu_eff = {cls.static_coefficient(friction):.5f}."
+        )

@@ -1,0 +1,133 @@
+"""What the rest of the program may ask of a friction law."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import inf
+from typing import Any, ClassVar, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Friction, Kind
+
+from ..points.data import Bristles, Parameters, Resultants
+
+Array = NDArray[np.float64]
+
+
+class PatchState(Protocol):
+    """The patch at an instant of the march."""
+
+    @property
+    def mode(self) -> int: ...
+    @property
+    def slip_velocity(self) -> float: ...
+    @property
+    def feet_velocity(self) -> float: ...
+    @property
+    def res(self) -> Resultants: ...
+
+
+class Rolling(NamedTuple):
+    """The pose of a rolling hoop whose flexible motion begins."""
+
+    phi: float
+    omega: float
+
+
+class Law:
+    """A friction law with the parameters of a scene.
+
+    As it stands here, a law of one mode, without a stick that could break, whose limit has mu_s = mu.
+
+    Attributes
+    ----------
+    name : str
+        In a scene.
+    code : int
+        In compiled code, one for each law.
+    tractions : compiled function
+        ``tractions(points, foundation, carried, mode, load, slip, parameters) -> Tractions``: what pulls at
+        ``points`` (:class:`~flexible.contact.points.detection.Points`) pressed by ``foundation``, with bristles
+        ``carried`` to the end of the step; stretches and directions of the bristles are brought up to date in place.
+        See :mod:`flexible.contact.points.data` for the rest.
+    """
+
+    name: ClassVar[str]
+    code: ClassVar[int]
+    tractions: ClassVar[Callable[..., Any]]
+
+    def __init__(self, parameters: Parameters) -> None:
+        self.parameters = parameters
+
+    # modes
+
+    def start(self, kind: Kind) -> int:
+        """The mode in which the patch begins out of a rigid phase."""
+        return 0
+
+    def may_end(self, mode: int) -> bool:
+        """Whether a mode can end otherwise than off the floor."""
+        return False
+
+    def excess(self, state: PatchState, force: float, velocity: float) -> float:
+        """How far the patch is past the end of its mode: positive past it, within 1 at it, -inf where it is none.
+
+        Counted in ``force``, a tolerance relative to 1 + N, or in ``velocity``, one on slip velocities.
+        """
+        return -inf
+
+    def successor(self, state: PatchState) -> int:
+        """The mode that follows the one that has ended."""
+        return state.mode
+
+    def free(self, state: PatchState) -> int:
+        """The mode in which a patch that is off the floor comes down."""
+        return state.mode
+
+    def sticks(self, mode: int) -> bool:
+        """Whether the patch as a whole holds on to the floor in this mode, to the last digit."""
+        return False
+
+    def handed_back(self, state: PatchState) -> float:
+        """The slip velocity with which a rigid motion goes on."""
+        return state.slip_velocity
+
+    # what is stored
+
+    def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:
+        """Bristles of a patch in steady rolling under its friction, and the creep velocity that it has."""
+        return bristles, 0.0
+
+    def slid_in(self, bristles: Bristles, res: Resultants) -> Bristles:
+        """Bristles of a patch that has been sliding under its friction."""
+        return bristles
+
+    # along the patch, for output
+
+    def pulls(self, state: PatchState, stretch: Array, pressure: Array) -> Array:
+        """Tangential force per length at points with elastic ``pressure``; ``stretch`` is nan where none is stored."""
+        res = state.res
+        return res.friction * pressure / res.elastic if res.elastic > 0 else 0 * pressure
+
+    def slipping(self, state: PatchState, sliding: Array) -> NDArray[np.bool_]:
+        """Which points slip; ``sliding`` is what is stored of them."""
+        return np.full(len(sliding), state.res.stuck == 0)
+
+    # the limit
+
+    @classmethod
+    def static_coefficient(cls, friction: Friction) -> float:
+        """mu_s of the rigid hoop that a hoop with this law becomes as its stiffness grows."""
+        return friction.mu
+
+    @classmethod
+    def explanation(cls, friction: Friction) -> str:
+        """A sentence that says which rigid hoop that is."""
+        raise NotImplementedError
+
+    @classmethod
+    def stiffened(cls, contact: Any, factor: float) -> dict[str, float]:
+        """Other keys of a scene's contact that go with a foundation ``factor`` times as stiff, towards that limit."""
+        return {}

@@ -1,0 +1,169 @@
+"""The paper's law: the threshold of stick acts on the resultants of the patch, |F| <= mu_s N.
+
+While it sticks, every point hangs on its bristle without a limit of its own, and a damper drags on the patch's mean
+slip. While it slides, mu N is shared over the patch like the pressure. Its limit is the rigid law.
+"""
+
+from __future__ import annotations
+
+from math import inf
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Friction, Kind
+from rigid.kernel.compile import jit
+
+from ..points.bristles import add_pull, cling, point_forces, rolled_in, weights
+from ..points.data import Bristles, Parameters, Resultants, Shared, Tractions
+from ..points.normal import force_by_gaps
+from .law import Law, PatchState, Rolling
+
+Array = NDArray[np.float64]
+
+CODE = 0
+STICK, SLIDE_RIGHT, SLIDE_LEFT = 0, 1, -1  # SLIDE_RIGHT: friction pushes the hoop to the right (spinning)
+
+
+@jit
+def _stick(points: Any, carried: Any, load: Any, slip: Any, law: Any) -> Any:
+    """Bristles without a limit, and the damper's drag."""
+    total = points.gap.shape[0]
+    forces = point_forces(total)
+    weight, weight_by = weights(points, carried, law.spacing, True, True)
+    keeps = points.gap < 0
+    energy, stuck = 0.0, 0.0
+    for i in range(total):
+        if weight[i] != 0:
+            carried.sliding[i] = 0
+            traction = cling(forces, carried, i, weight[i], law.eps_t)
+            stuck += weight[i]
+            add_pull(forces, i, traction, weight, weight_by)
+            energy += weight[i] * traction**2 / (2 * law.eps_t)
+        # a point just past the edge that points leave still bounds the bristles behind it
+        if carried.touched[i] and points.gap[i] >= 0:
+            before = i > 0 and not points.last[i - 1] and points.gap[i - 1] < 0
+            behind = i + 1 < total and not points.last[i] and points.gap[i + 1] < 0
+            keeps[i] = before or behind
+    dragging = load.elastic > 0 and slip.drag > 0
+    drag = -slip.drag * (slip.way - slip.way_0) if dragging else 0.0
+    shared = Shared(dragging, drag, -slip.drag if dragging else 0.0, 0.0, drag, np.inf)
+    return Tractions(forces, shared, energy, stuck, keeps, 0.0)
+
+
+@jit
+def _slide(points: Any, foundation: Any, carried: Any, mode: int, load: Any, law: Any) -> Any:
+    """mu N, shared like the foundation's forces; bristles that take it over will pull as much in all."""
+    total = points.gap.shape[0]
+    forces = point_forces(total)
+    weight, _ = weights(points, carried, law.spacing, True, False)
+    lumped = -law.eps_n * (weight * np.minimum(points.gap, 0.0)).sum()
+    even = load.elastic / lumped if lumped > 0 else 1.0
+    energy, held, pulled = 0.0, 0.0, 0.0
+    for i in range(total):
+        before = i - 1 if i > 0 and not points.last[i - 1] else -1
+        behind = i + 1 if i + 1 < total and not points.last[i] else -1
+        forces.share[i] = mode * law.mu * foundation.force[i]
+        forces.force[i] = load.eta * forces.share[i]
+        force_by_gaps(forces.by_gap[i, 1:4], load.eta * mode * law.mu, foundation, before, i, behind)
+        held -= weight[i] * law.eps_t * carried.stretch[i]
+        # what a damper adds to the pressure is no spring: bristles that held it would give it back when they stick
+        pressure = -law.eps_n * min(points.gap[i], 0.0)
+        carried.stretch[i] = -min(load.eta, 1.0) * even * mode * law.mu * pressure / law.eps_t
+        pulled -= weight[i] * law.eps_t * carried.stretch[i]
+        energy += weight[i] * law.eps_t * carried.stretch[i] ** 2 / 2
+    feet = (pulled - held) / (law.eps_t * foundation.length) if foundation.length > 0 else 0.0
+    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0, points.gap < 0, feet)
+
+
+@jit
+def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
+    """See :class:`flexible.contact.laws.law.Law`."""
+    if mode == STICK:
+        return _stick(points, carried, load, slip, law)
+    return _slide(points, foundation, carried, mode, load, law)
+
+
+def sharing(parameters: Parameters, ratio: float) -> tuple[Parameters, int]:
+    """Parameters and mode of a patch that shares the friction ``ratio`` N over its points like the pressure."""
+    return parameters._replace(law=CODE, mu=ratio), SLIDE_RIGHT
+
+
+class Patch(Law):
+    """See the head of this file."""
+
+    name, code = "patch", CODE
+    tractions = staticmethod(tractions)
+
+    def start(self, kind: Kind) -> int:
+        """Friction pushes a skidding hoop to the left; a smooth floor never holds."""
+        slides = {Kind.SKID: SLIDE_LEFT, Kind.SPIN: SLIDE_RIGHT}.get(kind, STICK)
+        return SLIDE_RIGHT if slides == STICK and kind != Kind.ROLL and self.parameters.mu_s == 0 else slides
+
+    def may_end(self, mode: int) -> bool:
+        """See :class:`~flexible.contact.laws.law.Law`."""
+        return True
+
+    def excess(self, state: PatchState, force: float, velocity: float) -> float:
+        """How far |F| is beyond mu_s N, or the slip beyond zero.
+
+        A patch sticks up to ``|F| = mu_s N``. It slides as long as it moves against its friction, and beyond that while
+        the feet of its bristles do: where N falls faster than the bristles let go, a patch that stuck would break in
+        the same instant. A damper that adds to N leaves no such doubt.
+        """
+        res, mu_s = state.res, self.parameters.mu_s
+        if state.mode == STICK:  # a damper may take all of N while the bristles still pull
+            return (abs(res.friction) - mu_s * res.normal) / (force * (1 + res.normal)) if res.elastic > 0 else -inf
+        if res.normal == 0 or mu_s == 0:
+            return -inf
+        against = state.mode * state.slip_velocity
+        feet = state.mode * state.feet_velocity if res.eta <= 1 else inf
+        return min(against, feet) / velocity
+
+    def successor(self, state: PatchState) -> int:
+        """From stick to sliding under the friction that broke it, and back."""
+        if state.mode != STICK:
+            return STICK
+        return SLIDE_RIGHT if state.res.friction > 0 else SLIDE_LEFT
+
+    def free(self, state: PatchState) -> int:
+        """A patch off the floor comes down sliding, the way it moves: one that stuck would break as it touches."""
+        if state.res.elastic > 0 or state.slip_velocity == 0:
+            return state.mode
+        return SLIDE_LEFT if state.slip_velocity > 0 else SLIDE_RIGHT
+
+    def sticks(self, mode: int) -> bool:
+        """See :class:`~flexible.contact.laws.law.Law`."""
+        return mode == STICK
+
+    def handed_back(self, state: PatchState) -> float:
+        """What a sticking patch creeps is elastic."""
+        return 0.0 if state.mode == STICK else state.slip_velocity
+
+    def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:
+        """See :func:`flexible.contact.points.bristles.rolled_in`."""
+        return rolled_in(bristles, self.parameters, res, *pose)
+
+    def pulls(self, state: PatchState, stretch: Array, pressure: Array) -> Array:
+        """Bristles and the damper's drag, or mu times the pressure."""
+        res, law = state.res, self.parameters
+        held = -law.eps_t * stretch if state.mode == STICK else state.mode * law.mu * pressure * res.eta
+        return held + res.damping * pressure / res.elastic if res.elastic > 0 else held
+
+    def slipping(self, state: PatchState, sliding: Array) -> NDArray[np.bool_]:
+        """All points or none."""
+        return np.full(len(sliding), state.mode != STICK)
+
+    @classmethod
+    def static_coefficient(cls, friction: Friction) -> float:
+        """The scene's own."""
+        return friction.mu_s
+
+    @classmethod
+    def explanation(cls, friction: Friction) -> str:
+        """See :class:`~flexible.contact.laws.law.Law`."""
+        return (
+            f"The stick threshold acts on the patch's resultants: it keeps mu_s = {friction.mu_s:g} and "
+            f"mu = {friction.mu:g}."
+        )

@@ -1,0 +1,75 @@
+"""Friction smoothed by a velocity, as most codes have it: F = -mu N v/sqrt(v^2 + v_s^2) on the patch as a whole.
+
+v is the slip velocity of the patch at the end of the implicit stage, and F is shared over the patch like the pressure.
+Nothing is stored and nothing sticks: under a constant friction F = -q mu N the patch creeps with
+v = v_s q/sqrt(1 - q^2). A phase is called rolling while |v| < v_s, which is |F| < mu N/sqrt(2). mu_s has no part in it,
+so its limit for v_s -> 0 is the rigid hoop with mu_s = mu, and not the paper's where mu_s > mu.
+"""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+from typing import Any
+
+from rigid import Friction
+from rigid.kernel.compile import jit
+
+from ..points.bristles import point_forces
+from ..points.data import Bristles, Resultants, Shared, Tractions
+from .law import Law, PatchState, Rolling
+
+CODE = 2
+_MOST = 0.999  # of mu N that a creep is sought for: the rest is sliding
+
+
+@jit
+def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
+    """See :class:`flexible.contact.laws.law.Law`."""
+    carried.stretch[:] = 0.0
+    speed = sqrt(slip.velocity**2 + law.slip_scale**2)
+    coefficient = -law.mu * slip.velocity / speed
+    by_velocity = -law.mu * law.slip_scale**2 / speed**3
+    shared = Shared(
+        load.elastic > 0,
+        coefficient * load.eta * load.elastic,
+        by_velocity * slip.rate * load.eta * load.elastic,
+        coefficient * (load.eta + load.eta_rate * load.elastic),
+        0.0,
+        speed / slip.rate if slip.rate > 0 else inf,
+    )
+    stuck = foundation.length if abs(slip.velocity) < law.slip_scale else 0.0
+    return Tractions(point_forces(points.gap.shape[0]), shared, 0.0, stuck, points.gap < 0, 0.0)
+
+
+class Regularised(Law):
+    """See the head of this file."""
+
+    name, code = "regularised", CODE
+    tractions = staticmethod(tractions)
+
+    def handed_back(self, state: PatchState) -> float:
+        """A rigid hoop rolls where this one creeps."""
+        return 0.0 if state.res.stuck > 0 else state.slip_velocity
+
+    def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:
+        """The creep that carries F."""
+        most = self.parameters.mu * res.normal
+        if most == 0:
+            return bristles, 0.0
+        share = min(max(-res.friction / most, -_MOST), _MOST)
+        return bristles, self.parameters.slip_scale * share / sqrt(1 - share**2)
+
+    @classmethod
+    def explanation(cls, friction: Friction) -> str:
+        """See :class:`~flexible.contact.laws.law.Law`."""
+        if friction.mu_s == friction.mu:
+            return f"Regularised friction with mu_s = mu = {friction.mu:g} tends to the rigid hoop of that mu."
+        return (
+            "Regularised friction knows no static coefficient, so its limit is the rigid hoop with mu_s replaced by "
+            f"mu = {friction.mu:g}."
+        )
+
+    @classmethod
+    def stiffened(cls, contact: Any, factor: float) -> dict[str, float]:
+        """v_s falls as the patch's half width does, like stiffness^(-1/3)."""
+        return {"slip_velocity_scale": contact.slip_velocity_scale * factor ** (-1 / 3)}

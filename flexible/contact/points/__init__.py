@@ -1,0 +1,8 @@
+"""Material points of the rim near the floor, and what each of them does.
+
+``data``       what goes through compiled code by name: parameters, damper, forces of points, resultants
+``rim``        where its elements and nodes are, and how far its points are over the floor
+``detection``  which points touch, where they are, how they moved since the step began
+``normal``     the foundation under them
+``bristles``   the bristles that they carry along the floor
+"""

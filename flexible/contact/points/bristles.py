@@ -1,0 +1,200 @@
+"""Bristles: what points in contact carry along the floor, whatever the friction law makes of it.
+
+Each point carries a bristle of stiffness eps_t. It enters the patch unstrained, at the instant of the step at which its
+gap, a parabola in time, crosses zero, and then follows its point along the floor.
+"""
+
+from __future__ import annotations
+
+from math import cos, pi, sin, sqrt
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from rigid.kernel.compile import jit
+
+from .data import Bristles, Parameters, PointForces, Resultants, Slip
+from .rim import lift
+
+
+class Carried(NamedTuple):
+    """The bristles of all points at hand at the end of a step."""
+
+    stretch: Any  # of each point's bristle
+    rate: Any  # its derivative by the point's abscissa,
+    by_gap: Any  # by the point's gap and
+    by_phi: Any  # by phi, through the instant of entry
+    touched: Any  # whether the point has touched the floor in this visit
+    sliding: Any  # direction in which friction pushes a sliding point, 0 while it sticks
+    way: Any  # along the floor since the step began or the point touched, rolling included
+    mean: Any  # what the patch as a whole has slipped in that time
+    pull: Any  # tangential force on the point when the step began
+
+
+@jit
+def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, float]:
+    """Fraction of the step at which a point touched, and its derivatives by the new gap and by ``sweep``.
+
+    The gap is the parabola from ``g_old`` > 0 to ``g_new`` with second derivative ``sweep`` = dphi^2 in the
+    fraction; a negative fraction says that the point never touched.
+    """
+    a = sweep / 2
+    b = g_new - g_old - a
+    disc = b * b - 4 * a * g_old
+    if disc <= 0 or b >= 0:
+        return -1.0, 0.0, 0.0
+    root = sqrt(disc)
+    fraction = 2 * g_old / (root - b)
+    if fraction >= 1:
+        return -1.0, 0.0, 0.0
+    return fraction, fraction / root, -fraction * (1 - fraction) / 2 / root
+
+
+@jit
+def carry(points: Any, bristles: Any, dphi: float, ratio: float, slip: Slip, moved: float) -> Any:
+    """Bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered since.
+
+    The way of a point that entered is that of rolling, plus a parabola in time that ends with the velocity of the
+    stage, ``ratio (move - start)`` over the stage's length: a long step then sees the slip at its end and not its mean,
+    which would leave the friction of a short patch undamped. ``moved`` is the patch's way without the rolling. A point
+    that enters behind a sliding edge goes on sliding.
+    """
+    number, flags = bristles.number, bristles.sliding
+    start = slip.way_0 - (slip.way - moved) * (1 - 1 / ratio)
+    total = points.gap.shape[0]
+    stretch, rate = np.zeros(total), np.zeros(total)
+    by_gap, by_phi = np.zeros(total), np.zeros(total)
+    touched, sliding = np.zeros(total, np.bool_), np.zeros(total, np.int8)
+    way, mean, pull = np.zeros(total), np.zeros(total), np.zeros(total)
+    slip_ending = ratio * (slip.way - slip.way_0)
+    p = 0
+    for i in range(total):
+        j, move = points.number[i], points.move[i]
+        while p < number.shape[0] and number[p] < j:
+            p += 1
+        if p < number.shape[0] and number[p] == j:
+            touched[i] = True
+            way[i], mean[i], pull[i] = move + points.rolled[i], slip.way, bristles.pull[p]
+            stretch[i] = bristles.stretch[p] + way[i]
+            rate[i] = 1.0
+            sliding[i] = flags[p]
+            continue
+        fraction, d_gap, d_sweep = _entry(max(points.gap_old[i], 0.0), points.gap[i], dphi * dphi)
+        if fraction >= 0:
+            touched[i] = True
+            rest = 1 - fraction
+            ending = ratio * (move - start)
+            psi = points.psi[i]
+            psi_in = psi - rest * dphi
+            lifted, lifted_in = lift(psi), lift(psi_in)
+            rolled = rest * dphi - 2 * cos((psi + psi_in) / 2) * sin(rest * dphi / 2)
+            way[i] = stretch[i] = rolled + rest * (ending - (ending - move) * rest)
+            mean[i] = rest * (slip_ending - (slip_ending - slip.way) * rest)
+            rate[i] = rest * (ratio - (ratio - 1) * rest)
+            by_fraction = -(ending - 2 * (ending - move) * rest) - lifted_in * dphi
+            by_gap[i] = by_fraction * d_gap
+            by_phi[i] = by_fraction * d_sweep * 2 * dphi + (1 - rate[i]) * lifted - (1 - rest) * lifted_in
+            if flags.shape[0] > 0:
+                sliding[i] = flags[0] if j < number[0] else flags[-1]
+    return Carried(stretch, rate, by_gap, by_phi, touched, sliding, way, mean, pull)
+
+
+@jit
+def edge_of_patch(g_in: float, g_out: float, inner: float) -> tuple[float, float, float, float]:
+    """How far from a point on the floor to the next the patch reaches, 0..1, and its derivatives by the three gaps.
+
+    The gap is the parabola through the points before, at and behind the edge. A straight line would misplace the edge
+    by up to an eighth of a cell's share of the patch, in a rhythm with the points, and there the bristles pull most.
+    """
+    bend = (g_out - 2 * g_in + inner) / 2
+    rise = g_out - g_in - bend
+    slope = sqrt(rise * rise - 4 * bend * g_in)
+    f = -2 * g_in / (rise + slope)
+    return f, -(1 - f) * (1 + f) / slope, -f * (1 + f) / 2 / slope, f * (1 - f) / 2 / slope
+
+
+@jit
+def weights(points: Any, carried: Any, spacing: float, curved: bool, sticks: bool) -> tuple[Any, Any]:
+    """Length of patch that belongs to each point, and its derivatives by the gaps of (n, 5) points around it.
+
+    ``curved`` puts the edge on the gap's parabola; a friction that ends with the pressure ends where that does, on a
+    straight gap. Where all of the patch ``sticks``, bristles stay stretched up to where points leave.
+    """
+    gap = points.gap
+    total = gap.shape[0]
+    weight, by = np.zeros(total), np.zeros((total, 5))
+    for i in range(total - 1):
+        if points.last[i] or (gap[i] >= 0 and gap[i + 1] >= 0):
+            continue
+        if gap[i] < 0 and gap[i + 1] < 0:
+            weight[i] += spacing / 2
+            weight[i + 1] += spacing / 2
+            continue
+        inside, outside = (i, i + 1) if gap[i] < 0 else (i + 1, i)
+        way = outside - inside
+        inner = inside - way
+        if curved and 0 <= inner < total and not points.last[min(inner, inside)]:
+            f, f_in, f_out, f_inner = edge_of_patch(gap[inside], gap[outside], gap[inner])
+        else:
+            d = gap[outside] - gap[inside]
+            f, f_in, f_out, f_inner = -gap[inside] / d, -gap[outside] / d**2, gap[inside] / d**2, 0.0
+        if sticks and carried.touched[outside]:  # an edge that points leave: bristles stay stretched up to it
+            weight[inside] += spacing * (f - f * f / 2)
+            weight[outside] += spacing * f * f / 2
+            by[inside, 2] += spacing * (1 - f) * f_in
+            by[inside, 2 + way] += spacing * (1 - f) * f_out
+            by[inside, 2 - way] += spacing * (1 - f) * f_inner
+            by[outside, 2] += spacing * f * f_out
+            by[outside, 2 - way] += spacing * f * f_in
+            by[outside, 2 - 2 * way] += spacing * f * f_inner
+        else:
+            weight[inside] += spacing * f / 2
+            by[inside, 2] += spacing * f_in / 2
+            by[inside, 2 + way] += spacing * f_out / 2
+            by[inside, 2 - way] += spacing * f_inner / 2
+    return weight, by
+
+
+@jit
+def point_forces(total: int) -> PointForces:
+    """Room for the forces of so many points."""
+    return PointForces(np.zeros(total), np.zeros(total), np.zeros(total), np.zeros(total), np.zeros((total, 5)))
+
+
+@jit
+def cling(forces: Any, carried: Any, i: int, weight: float, eps_t: float) -> float:
+    """Traction of a point that sticks; what it answers to its abscissa, gap and phi is written down."""
+    forces.by_abscissa[i] = -eps_t * weight * carried.rate[i]
+    forces.by_gap[i, 2] = -eps_t * weight * carried.by_gap[i]
+    forces.by_phi[i] = -eps_t * weight * carried.by_phi[i]
+    return -eps_t * carried.stretch[i]
+
+
+@jit
+def add_pull(forces: Any, i: int, traction: float, weight: Any, weight_by: Any) -> None:
+    """Add a point's traction on the length of patch that belongs to it."""
+    forces.force[i] = weight[i] * traction
+    for q in range(5):
+        forces.by_gap[i, q] += traction * weight_by[i, q]
+
+
+def rolled_in(
+    bristles: Bristles, parameters: Parameters, res: Resultants, phi: float, omega: float
+) -> tuple[Bristles, float]:
+    """Bristles of a patch that has long been rolling under its friction, and the creep velocity that keeps them so.
+
+    They are stretched in proportion to the way from the leading edge, to just past the trailing one; alike at rest.
+    """
+    length = res.high - res.low + parameters.spacing
+    eps_t = parameters.eps_t
+    if omega == 0:
+        return bristles._replace(stretch=np.full(len(bristles.stretch), -res.friction / (eps_t * length))), 0.0
+    at = len(bristles.number) if omega > 0 else 0
+    past = bristles.number[-1] + 1 if omega > 0 else bristles.number[0] - 1
+    number = np.insert(bristles.number, at, past)
+    pull = np.insert(bristles.pull, at, 0.0)
+    psi = phi - pi + number * parameters.spacing
+    way = psi - res.low if omega > 0 else res.high - psi
+    stretch = -res.friction * way / (eps_t * length**2 / 2)
+    creep = -res.friction * abs(omega) / (eps_t * length**2 / 2)
+    return Bristles(number, stretch, pull, np.zeros(len(number), np.int8)), creep

@@ -1,0 +1,158 @@
+"""What goes through the compiled contact by name. R = m = g = 1 throughout.
+
+Numba takes named tuples as arguments and results; fields typed ``Any`` are arrays, their shapes stand beside them.
+"""
+
+from __future__ import annotations
+
+from math import inf
+from typing import Any, NamedTuple
+
+import numpy as np
+
+
+class Parameters(NamedTuple):
+    """A scene's contact."""
+
+    law: int  # code of the friction law
+    spacing: float  # of the points, in theta
+    eps_n: float  # normal foundation
+    eps_t: float  # tangential foundation
+    mu_s: float
+    mu: float
+    slip_scale: float  # slip velocity by which a regularised friction is smooth
+
+
+class Rim(NamedTuple):
+    """The rim elements near the floor."""
+
+    first: int  # of them, counted round and round
+    vertex: Any  # (n_elements,) angles at which all elements of the rim begin
+
+
+class Bristles(NamedTuple):
+    """What is stored of the points in contact from step to step, as arrays of one length; ascending."""
+
+    number: Any  # of the point, int64
+    stretch: Any  # of its bristle
+    pull: Any  # tangential force on it
+    sliding: Any  # direction in which friction pushes it where it slides, 0 where it sticks; int8
+
+
+class Before(NamedTuple):
+    """The contact at the beginning of a step."""
+
+    pose: Any  # (3,) V, h, phi
+    u: Any  # (2 count + 1, 2) displacement of the window's rim nodes
+    bristles: Bristles
+
+
+class Damper(NamedTuple):
+    """What rates are to the contact in one implicit stage.
+
+    Pressures are eta times the elastic ones, eta = ``eta_0`` + ``relaxation`` (N_el - ``elastic_0``)/N_el, at least 0.
+    With x the mean way of the patch in the step, its slip velocity at the end of the stage is ``velocity_0`` + ``rate``
+    (x - ``way_0``); a damped patch that sticks drags with -``drag`` (x - ``way_0``), shared like the pressure.
+    """
+
+    relaxation: float  # the damper's time over the stage's beta
+    elastic_0: float  # N_el if it had no rate
+    eta_0: float
+    drag: float
+    way_0: float  # x if it had no rate
+    ratio: float  # the stage's length over its beta
+    rate: float  # 1/beta
+    velocity_0: float
+
+
+UNDAMPED = Damper(0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+
+
+class Load(NamedTuple):
+    """The normal force of the patch as a whole."""
+
+    elastic: float  # N_el
+    eta: float  # damping factor
+    eta_rate: float  # its derivative by N_el
+
+
+class Slip(NamedTuple):
+    """The slip of the patch as a whole, rolling included."""
+
+    way: float  # mean way along the floor since the step began, weighted by the load
+    way_0: float  # what it would be if it had no rate
+    velocity: float
+    rate: float  # derivative of the velocity by the way
+    drag: float  # of a sticking patch
+
+
+class PointForces(NamedTuple):
+    """Tangential forces of the points, and their derivatives."""
+
+    force: Any  # (n,)
+    share: Any  # (n,) by the damping factor eta
+    by_abscissa: Any  # (n,)
+    by_phi: Any  # (n,)
+    by_gap: Any  # (n, 5) by the gaps of two points before, the point, two points behind
+
+
+class Shared(NamedTuple):
+    """A tangential force on the patch as a whole, shared like the pressure, and its derivatives."""
+
+    acts: bool
+    force: float
+    by_way: float
+    by_elastic: float  # by N_el
+    damping: float  # the part of it that is a damper's and no friction
+    reach: float  # way over which it is about linear
+
+
+class Tractions(NamedTuple):
+    """What a friction law answers."""
+
+    points: PointForces
+    shared: Shared
+    energy: float  # stored
+    stuck: float  # length of the patch that sticks
+    keeps: Any  # (n,) bool: whose bristles outlast the step
+    feet: float  # how far the feet of the bristles slid in the step, where all slide
+
+
+class Resultants(NamedTuple):
+    """The patch as a whole."""
+
+    normal: float
+    friction: float
+    normal_energy: float
+    bristle_energy: float
+    length: float
+    stuck: float  # share of the length that sticks
+    way: float  # mean, along the floor in the step
+    low: float  # angles psi of the ends
+    high: float
+    elastic: float  # elastic part of the normal force
+    eta: float  # damping factor
+    damping: float  # part of the friction that is the damper's
+    beyond: float  # work of the bristles beyond their mean force times the mean way
+    steepness: float  # -dF/dx of a force shared by the patch as a whole, x its way
+    reach: float  # in x over which that is about linear
+    feet: float  # how far the feet of the bristles of a sliding patch slid in the step
+
+
+class Contact(NamedTuple):
+    """Forces of the floor on the rim, their tangent, and the state of the patch."""
+
+    force: Any  # (3,) generalised, on (V, h, phi)
+    nodal: Any  # (2 count + 1, 2) on the nodes, in the disk's axes
+    tangent: Any  # (n, n) derivative of (force, nodal) by (pose, u), n = 3 + 2 (2 count + 1)
+    res: Resultants
+    bristles: Bristles
+    outside: bool  # whether the window of rim is too short for the patch
+
+
+NOTHING = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, inf, 0.0)
+
+
+def no_bristles() -> Bristles:
+    """Those of a hoop off the floor."""
+    return Bristles(np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0, np.int8))

@@ -1,0 +1,61 @@
+"""The rim: where its elements and nodes are, and how far its points are over the floor.
+
+A function without a loop serves numbers in compiled code and arrays outside of it.
+"""
+
+from __future__ import annotations
+
+from math import floor, pi
+from typing import Any
+
+import numpy as np
+from numba.extending import register_jitable
+
+from rigid.kernel.compile import jit
+
+
+@register_jitable
+def shape_functions(xi: Any) -> tuple[Any, Any, Any]:
+    """Weights of the three nodes of a quadratic element at its coordinate ``xi``, 0..1."""
+    return (1 - xi) * (1 - 2 * xi), 4 * xi * (1 - xi), xi * (2 * xi - 1)
+
+
+@register_jitable
+def lift(psi: Any) -> Any:
+    """Height of the undeformed circle over its lowest point, at the angle ``psi`` from there."""
+    return 2 * np.sin(psi / 2) ** 2
+
+
+@register_jitable
+def gap_at(height: Any, psi: Any, u_y: Any) -> Any:
+    """Gap of a rim point displaced upward by ``u_y`` on a hoop whose centre is ``height`` above R."""
+    return height + lift(psi) + u_y
+
+
+@register_jitable
+def upward(u1: Any, u2: Any, s: Any, c: Any) -> Any:
+    """Vertical component of a displacement in the disk's axes; s, c are sine and cosine of phi."""
+    return u1 * c - u2 * s
+
+
+@register_jitable
+def sideways(u1: Any, u2: Any, s: Any, c: Any) -> Any:
+    """Horizontal component."""
+    return u1 * s + u2 * c
+
+
+@register_jitable
+def vertex_angle(vertex: Any, element: Any) -> Any:
+    """Angle at which rim element ``element`` begins; elements are counted on round and round."""
+    n = vertex.shape[0]
+    turn = element // n
+    return vertex[element - turn * n] + 2 * pi * turn
+
+
+@jit
+def element_at(vertex: Any, theta: float) -> int:
+    """Rim element that holds the material angle ``theta``."""
+    n = vertex.shape[0]
+    turn = int(floor((theta - vertex[0]) / (2 * pi)))
+    rest = theta - 2 * pi * turn
+    return int(np.searchsorted(vertex, rest, side="right")) - 1 + turn * n

@@ -1,0 +1,98 @@
+"""Which instants of a flexible motion become frames, and the hoop at each of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from meshes import Placement, SeriesError, frame_times
+from rigid import Pulse
+
+from ..models.state import State
+from ..motion import FlexibleMotion, Kept
+from ..time.tr_bdf2 import advanced
+
+Array = NDArray[np.float64]
+
+_AROUND = 0.25  # by default the frames begin and end this share of a pulse before and after it
+
+
+@dataclass(frozen=True, slots=True)
+class Instant:
+    """A frame to be: where the hoop is, and the ring's state if it is elastic there, with its neighbours."""
+
+    t: float
+    place: Placement
+    velocity_C: tuple[float, float]
+    omega: float
+    kept: Kept | None = None
+    state: State | None = None
+    before: State | None = None
+    after: State | None = None
+
+
+def times_of(motion: FlexibleMotion, frames: int, times: ArrayLike | None, pulse: int | None) -> Array:
+    """Times of the frames, in the scene's unit: those listed, or so many through a pulse, denser where N changes."""
+    end = motion.t_end
+    if times is not None:
+        listed = np.unique(np.asarray(times, dtype=float))
+        if not listed.size or not (listed[0] >= 0 and listed[-1] <= end * (1 + 1e-12)):
+            raise SeriesError(f"times are not possible: they must lie between 0 and {end:g}, the end of the motion.")
+        return listed
+    if frames < 2:
+        raise SeriesError(f"frames = {frames!r} is not possible: it takes at least 2.")
+    start = 0.0
+    if pulse is not None and motion.pulses:
+        if not 0 <= pulse < len(motion.pulses):
+            raise SeriesError(f"pulse = {pulse!r} is not possible: the motion has {len(motion.pulses)}.")
+        start, end = _around(motion, motion.pulses[pulse])
+    if not start < end:
+        raise SeriesError(f"there is no stretch of time to show from t = {start:g} on: {motion.ended}.")
+    history = motion.history
+    if history is None or not len(history.t):
+        return frame_times(start, end, frames)
+    return frame_times(start, end, frames, history.t, history.normal_force)
+
+
+def _around(motion: FlexibleMotion, pulse: Pulse) -> tuple[float, float]:
+    """From a little before a pulse to a little after it, as far as the hoop is flexible there."""
+    margin, unit = _AROUND * (pulse.t_end - pulse.t_start), motion.scene.time_unit
+    start, end = max(0.0, pulse.t_start - margin), min(motion.t_end, pulse.t_end + margin)
+    for kept in motion.kept:
+        first, last = kept.states[0].t * unit, kept.states[-1].t * unit
+        if first <= (pulse.t_start + pulse.t_end) / 2 <= last:
+            start, end = max(start, first), min(end, last)
+    return start, end
+
+
+def _instant(motion: FlexibleMotion, clocks: list[Array], t: float, told: float) -> Instant:
+    """The state at ``t``, in the solver's units; ``told`` is the same time in the scene's.
+
+    ``clocks`` are the times of the kept states.
+    """
+    for kept, steps in zip(motion.kept, clocks, strict=True):
+        first, last = steps[0], steps[-1]
+        if not first - 1e-12 * last <= t <= last * (1 + 1e-12):
+            continue
+        i = min(max(int(np.searchsorted(steps, t, side="right")) - 1, 0), len(steps) - 2)
+        before, after = kept.states[i], kept.states[i + 1]
+        state: State | None = before
+        if t > before.t:
+            state = after if t >= after.t else advanced(kept.hoop, before, t)
+        if state is None:
+            state = min(before, after, key=lambda s: abs(s.t - t))
+        place = Placement(float(state.pos[2]), state.x_C, 1 + float(state.pos[1]))
+        velocity = (float(state.vel[0] + state.vel[2]), float(state.vel[1]))
+        return Instant(told, place, velocity, float(state.vel[2]), kept, state, before, after)
+    now, R, unit = motion.at(told), motion.scene.hoop.R, motion.scene.velocity_unit
+    place = Placement(float(now.phi), float(now.x_C) / R, float(now.y_C) / R)
+    omega = float(now.omega) * motion.scene.time_unit
+    return Instant(told, place, (omega + float(now.slip_velocity) / unit, 0.0), omega)
+
+
+def instants_at(motion: FlexibleMotion, times: Array) -> list[Instant]:
+    """The hoop at times in the scene's unit."""
+    clocks = [np.array([state.t for state in kept.states]) for kept in motion.kept]
+    return [_instant(motion, clocks, float(t) / motion.scene.time_unit, float(t)) for t in times]

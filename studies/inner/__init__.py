@@ -1,0 +1,8 @@
+"""The inner problem at infinite stiffness: what happens within a patch's own time around an event of the rigid motion.
+
+``scales``    what a scene's compliance becomes when lengths, times and velocities are scaled with it
+``body``      the rigid hoop as its contact sees it     ``bristles``  the tangential side of the patch
+``march``     the equations in time                     ``creep``     what a patch in steady rolling must slip
+``events``    the instants to look at                   ``layers``    their inner problems solved
+``critical``  the damping below which the sequence of phases changes
+"""

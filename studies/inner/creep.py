@@ -1,0 +1,68 @@
+"""What a rolling patch must slip to carry a friction force: the outer solution of the inner problem.
+
+Where the forces change slowly the patch is in steady rolling and V follows F, N and Omega. It is the one effect of
+order eps that the contact's compliance has on the rigid motion: v = eps V instead of 0.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, sqrt
+
+from scipy.optimize import brentq
+
+from .march import BRUSH, REGULARISED, ScaledContact
+
+
+@dataclass(frozen=True, slots=True)
+class Creep:
+    """Steady rolling under given forces."""
+
+    slip: float
+    """V."""
+    drag: float
+    """Part of F that the damper carries, and not the bristles."""
+
+
+def half_width(normal: float) -> float:
+    """A, from N = (2/3) A^3."""
+    return (1.5 * normal) ** (1 / 3)
+
+
+def creep(contact: ScaledContact, normal: float, friction: float, omega: float) -> Creep:
+    """Steady rolling at ``omega`` under N and F; V is infinite where the law cannot carry F.
+
+    ``patch``: z = V (s + A)/|Omega|, so F = -kappa V (2 A)^2/(2 |Omega|) - theta kappa 2 A V: the damper carries its
+    share. ``brush``: the part b of the patch, from its leading edge, sticks, and
+
+        |F|/N = 3 mu_s (b^2 - b^3) + mu (1 - 3 b^2 + 2 b^3),   |V| = mu_s A (1 - b) |Omega|/kappa.
+
+    ``regularised``: F = -mu N V/sqrt(V^2 + V_s^2).
+    """
+    half, omega = half_width(normal), abs(omega)
+    if contact.law == REGULARISED:
+        used = friction / (contact.mu * normal)
+        return Creep(-contact.slip_scale * used / sqrt(1 - used * used) if abs(used) < 1 else -used * inf, 0.0)
+    if contact.law == BRUSH:
+        b = sticking_part(contact.mu_s, contact.mu, abs(friction) / normal)
+        size = contact.mu_s * half * (1 - b) * omega / contact.kappa
+        return Creep(-size if friction > 0 else size, 0.0)
+    transit = half / omega if omega > 0 else inf
+    return Creep(
+        -friction / (2 * half * contact.kappa * (transit + contact.theta)),
+        friction * contact.theta / (transit + contact.theta),
+    )
+
+
+def sticking_part(mu_s: float, mu: float, ratio: float) -> float:
+    """b of a rolling brush that carries F/N = ``ratio``, the larger of the two where there are two."""
+
+    def carried(b: float) -> float:
+        return 3 * mu_s * (b**2 - b**3) + mu * (1 - 3 * b**2 + 2 * b**3)
+
+    strongest = 2 * (mu_s - mu) / (3 * mu_s - 2 * mu) if mu_s > mu else 0.0
+    if ratio >= carried(strongest):
+        return strongest
+    if mu_s == mu:
+        return float((1 - ratio / mu) ** (1 / 3))
+    return float(brentq(lambda b: carried(b) - ratio, strongest, 1.0, xtol=1e-15))

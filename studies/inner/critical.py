@@ -1,0 +1,47 @@
+"""The critical damping: below it the transient at an event breaks the patch, and the sequence of phases is another."""
+
+from __future__ import annotations
+
+from math import inf
+
+import numpy as np
+
+from .body import Body
+from .creep import half_width
+from .events import Event
+from .layers import layer, outer_forces, period_of
+from .march import PATCH, ScaledContact
+
+_THETAS = np.geomspace(8.0, 1e-3, 40)  # of the patch's period over 2 pi: far over critical to next to none
+_ACCURACY = 1e-5
+
+
+def critical_theta(body: Body, contact: ScaledContact, event: Event) -> float | None:
+    """Largest relaxation time, on the tau clock, below which the patch does not follow the rigid hoop's phases alone.
+
+    0 where it does so without a damper, infinite where no damper is enough, None for a law that has no phases.
+    """
+    if contact.law != PATCH:
+        return None
+    period = period_of(body, event)
+    half = half_width(outer_forces(body, event, True)[0])
+    duration = 5 * period + 4 * half / abs(event.omega)  # overshoot comes in the first swings and passages
+
+    def follows(theta: float) -> bool:
+        return layer(body, contact._replace(theta=theta), event, duration).faithful
+
+    if follows(0.0):
+        return 0.0
+    scale = period / (2 * np.pi)
+    low, high = 0.0, inf
+    for theta in _THETAS * scale:
+        if not follows(theta):
+            low = theta
+            break
+        high = theta
+    if high == inf:
+        return inf
+    while high - low > _ACCURACY * high:
+        middle = (low + high) / 2
+        low, high = (low, middle) if follows(middle) else (middle, high)
+    return float(high)

@@ -1,0 +1,190 @@
+"""The layer at an event: its inner problem solved, and what is read off its history."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .body import Body, accelerations, contact_mobility, rolling_forces, sliding_force
+from .bristles import SIZE, Bristles, bristles, set_stretch
+from .creep import creep, half_width, sticking_part
+from .events import START, Event
+from .march import (
+    BRUSH,
+    COLUMNS,
+    HEIGHT,
+    OMEGA,
+    PATCH,
+    PSI,
+    RATE,
+    REGULARISED,
+    SLIDE_LEFT,
+    SLIDE_RIGHT,
+    SLIP,
+    STATE,
+    STICK,
+    ScaledContact,
+    System,
+    march,
+)  # fmt: skip
+
+Array = NDArray[np.float64]
+
+FINENESS = 0.1  # of the fastest time to a step: forces to 1e-4, times of switches to 1e-5
+_POINTS = 300  # of a brush to its patch
+_RELEASED = 0.95  # of the part that sticks at the most a brush carries, where its running away begins
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Layer:
+    """The history of an inner problem, in the scaled units of R = g = M = 1."""
+
+    event: Event
+    law: int
+    tau: Array
+    normal_force: Array
+    friction_force: Array
+    slip: Array
+    """V = v/eps."""
+    height: Array
+    """H = h/eps^2."""
+    mode: Array
+    switches: tuple[tuple[float, int], ...]
+    """(tau, mode) of every change of what the patch does."""
+    end: Array
+    """State at the end, see :mod:`studies.inner.march`."""
+    period: float
+    """Of the patch's approach, linearised where the layer tends."""
+
+    @property
+    def peak_ratio(self) -> float:
+        """Largest |F|/N."""
+        touching = self.normal_force > 1e-9 * self.normal_force.max()
+        return float((np.abs(self.friction_force[touching]) / self.normal_force[touching]).max())
+
+    @property
+    def resticks(self) -> float | None:
+        """tau from which on the patch sticks for good; None if it slides at the end, or has no stick."""
+        if self.law == REGULARISED or self.mode[-1] != STICK:
+            return None
+        slides = np.flatnonzero(self.mode != STICK)
+        return float(self.tau[slides[-1] + 1]) if slides.size else 0.0
+
+    def settled(self, normal: float, share: float = 0.02) -> float | None:
+        """tau from which on N is within a ``share`` of the force it tends to; None if it is not by the end."""
+        off = np.flatnonzero(np.abs(self.normal_force - normal) > share * normal)
+        if not off.size:
+            return 0.0
+        return float(self.tau[off[-1] + 1]) if off[-1] + 1 < self.tau.size else None
+
+    @property
+    def faithful(self) -> bool:
+        """Whether the patch does what the rigid hoop does, and nothing in between."""
+        wanted = STICK if self.event.behind is None else SLIDE_RIGHT if self.event.behind > 0 else SLIDE_LEFT
+        first = wanted if self.event.kind == START else STICK
+        sequence = [first, *(mode for _, mode in self.switches)]
+        return sequence == ([wanted] if first == wanted else [first, wanted]) and bool((self.normal_force > 0).all())
+
+
+def outer_forces(body: Body, event: Event, behind: bool) -> tuple[float, float]:
+    """(N, F) of the rigid hoop before or behind an event."""
+    pull = event.behind if behind else event.before
+    if pull is None:
+        return rolling_forces(body, event.psi, event.omega)[:2]
+    normal = sliding_force(body, event.psi, event.omega, pull)
+    return normal, pull * normal
+
+
+def period_of(body: Body, event: Event) -> float:
+    """Of small vibrations of the patch in height under the forces behind an event: omega^2 = 2 A d(ddot h)/dN."""
+    normal, friction = outer_forces(body, event, True)
+    by_normal, across, _ = contact_mobility(body, event.psi)
+    pull = 0.0 if event.behind is None else event.behind
+    return 2 * pi / sqrt(2 * half_width(normal) * (by_normal + pull * across))
+
+
+def layer(
+    body: Body,
+    contact: ScaledContact,
+    event: Event,
+    duration: float | None = None,
+    *,
+    fineness: float = FINENESS,
+    eps: float = 0.0,
+) -> Layer:
+    """Solve the inner problem of an event.
+
+    Parameters
+    ----------
+    duration : float, optional
+        In tau; by default ten periods and five passages of a point through the patch.
+    fineness : float
+        Step over the fastest time at work.
+    eps : float
+        0 is the inner problem; otherwise angle and phidot go on, as at that stiffness.
+    """
+    normal, friction = outer_forces(body, event, False)
+    half = half_width(normal)
+    period = period_of(body, event)
+    if duration is None:
+        duration = 10 * period + 10 * half / abs(event.omega)
+    state = np.zeros(STATE)
+    state[PSI], state[OMEGA], state[HEIGHT] = event.psi, event.omega, -(half**2) / 2
+    kept = bristles(2 * half / _POINTS)
+    mode = STICK
+    if event.kind == START:
+        state[SLIP] = creep(contact, normal, friction, event.omega).slip
+        if contact.law == PATCH:
+            mode = SLIDE_RIGHT if (event.behind or 0.0) > 0 else SLIDE_LEFT
+    if contact.law != REGULARISED:
+        pull = float(np.sign(friction)) * contact.mu
+        most = pull / contact.kappa
+        set_stretch(kept, half, np.array([-most * half**2 / 2, 0.0, most / 2]), contact.law == BRUSH)
+        kept.sliding[:] = np.sign(friction)
+    if contact.law == BRUSH and event.kind == START and contact.mu_s > contact.mu:
+        _break_away(contact, event, half, normal, friction, kept)
+    ends = np.array([duration, np.inf * np.sign(event.omega), fineness, 1.0])
+    records, switches, end = march(System(body, contact, eps), state, mode, kept, ends)
+    columns = dict(zip(COLUMNS, records.T, strict=True))
+    return Layer(
+        event=event,
+        law=contact.law,
+        **{name: columns[name] for name in ("tau", "normal_force", "friction_force", "slip", "height")},
+        mode=columns["mode"].astype(int),
+        switches=tuple((float(t), int(m)) for t, m in switches),
+        end=end,
+        period=period,
+    )
+
+
+def _break_away(
+    contact: ScaledContact, event: Event, half: float, normal: float, friction: float, kept: Bristles
+) -> None:
+    """A brush that has just begun to break: its leading part sticks in steady rolling, and slides behind that."""
+    part = sticking_part(contact.mu_s, contact.mu, abs(friction) / normal)
+    slip = creep(contact, normal, friction, event.omega).slip
+    low, high = kept.ends
+    for j in range(low, high + 1):
+        way = half + np.sign(event.omega) * j * kept.spacing
+        if way < _RELEASED * part * 2 * half:
+            kept.way[j % SIZE], kept.sliding[j % SIZE] = slip * way / abs(event.omega), 0
+
+
+def slip_behind(body: Body, contact: ScaledContact, event: Event) -> float:
+    """The V with which the outer motion begins behind an event.
+
+    Where the patch comes to roll it is the creep. Where it slides it is V less what the outer sliding makes of it, and
+    less what is still to come of the vibration of N, whose impulse is that of the height's rate.
+    """
+    normal, friction = outer_forces(body, event, True)
+    if event.behind is None:
+        return creep(contact, normal, friction, event.omega).slip
+    history = layer(body, contact, event)
+    by_normal, across, by_friction = contact_mobility(body, event.psi)
+    # of V and of H', by an N that brings F along
+    share = (across + event.behind * by_friction) / (by_normal + event.behind * across)
+    steady = accelerations(*body, event.psi, event.omega, normal, friction)[2]
+    return float(history.end[SLIP] - steady * history.tau[-1] - share * history.end[RATE])

@@ -1,0 +1,117 @@
+"""A rigid ring on a compliant floor through a whole pulse: the scaled equations at a finite eps.
+
+Nothing is predicted here; it is what predictions, and the flexible solver at great stiffness, can be held to, at any
+stiffness for the price of some hundred thousand explicit steps.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rigid import Scene
+
+from ..inner.body import rolling_forces, sliding_force
+from ..inner.bristles import SIZE, bristles, set_stretch
+from ..inner.creep import creep, half_width
+from ..inner.events import Passage, passage
+from ..inner.march import (
+    BRUSH,
+    FRICTION_IMPULSE,
+    FRICTION_WORK,
+    HEIGHT,
+    NORMAL_IMPULSE,
+    OMEGA,
+    PATCH,
+    PSI,
+    REGULARISED,
+    SLIDE_LEFT,
+    SLIDE_RIGHT,
+    SLIP,
+    STATE,
+    STICK,
+    System,
+    march,
+)  # fmt: skip
+from ..inner.scales import epsilon
+from ..running.files import StudyError
+
+_POINTS = 64  # of a brush to its patch where the pulse begins; at its peak there are several times as many
+_SPARSE = 1e9  # steps to a record: none but those at events
+
+
+@dataclass(frozen=True, slots=True)
+class Passed:
+    """Measures of a pulse, in the units of the scene."""
+
+    normal_impulse: float
+    friction_impulse: float
+    loss: float
+    """To friction and damper together."""
+    slips: int
+    """How often the patch broke or stuck."""
+
+    @property
+    def impulse_ratio(self) -> float:
+        """J_F/J_N."""
+        return self.friction_impulse / self.normal_impulse
+
+
+def go_through(scene: Scene, fineness: float = 0.1) -> Passed:
+    """The first pulse of a scene at its own foundation, from the state at which the flexible hoop is handed over."""
+    gained, switches = march_through(passage(scene), epsilon(scene), fineness)
+    gained, eps = gained * (1 + scene.hoop.mass_ratio), epsilon(scene)
+    return Passed(
+        float(gained[NORMAL_IMPULSE] * eps * scene.impulse_unit),
+        float(gained[FRICTION_IMPULSE] * eps * scene.impulse_unit),
+        float(-gained[FRICTION_WORK] * eps**2 * scene.energy_unit),
+        switches,
+    )
+
+
+def march_through(way: Passage, eps: float, fineness: float = 0.1) -> tuple[np.ndarray, int]:
+    """What the state of the march gains over a pulse (R = g = M = 1, scaled), and how often it breaks or sticks."""
+    state, mode, kept = _start(way, eps)
+    switches, before = 0, np.zeros(STATE)
+    for psi in way.edges:
+        if psi != way.start:
+            ends = np.array([np.inf, psi, fineness, _SPARSE])
+            records, turned, state = march(System(way.body, way.contact, eps), state, mode, kept, ends)
+            mode = int(records[-1, 5])
+            switches = len(turned)
+        if psi == way.edges[0]:
+            before = state
+    return state - before, switches
+
+
+def _start(way: Passage, eps: float) -> tuple[np.ndarray, int, object]:
+    """State, mode and bristles at the hand-over: the forces of the rigid hoop, at rest in the patch."""
+    first = way.stretches[0]
+    if first.pull is None:
+        normal, friction, _ = rolling_forces(way.body, first.psi_start, first.omega)
+    else:
+        normal = sliding_force(way.body, first.psi_start, first.omega, first.pull)
+        friction = first.pull * normal
+    half = half_width(normal)
+    state = np.zeros(STATE)
+    state[PSI], state[OMEGA], state[HEIGHT] = first.psi_start, first.omega, -(half**2) / 2
+    brush = way.contact.law == BRUSH
+    widest = half_width(2 * max(way.pulse.peak_normal_force / way.scene.force_unit, normal))  # N rings about its peak
+    if brush and _POINTS * widest / half > SIZE:
+        raise StudyError("The force of this pulse grows too much for the points of a brush to follow it.")
+    kept = bristles(2 * half / _POINTS)
+    mode = STICK
+    if first.pull is None:
+        undamped = way.contact if way.contact.law == REGULARISED else way.contact._replace(law=PATCH, theta=0.0)
+        slip = creep(undamped, normal, friction, first.omega).slip
+        curve = np.array([slip * half / abs(first.omega), slip / first.omega, 0.0])
+    else:
+        slip = way.first_slip / eps
+        curve = np.array([-(half**2) / 2, 0.0, 0.5]) * first.pull / way.contact.kappa
+        if way.contact.law == PATCH:
+            mode = SLIDE_RIGHT if first.pull > 0 else SLIDE_LEFT
+        kept.sliding[:] = np.sign(first.pull)
+    state[SLIP] = slip
+    set_stretch(kept, half, curve, brush)
+    return state, mode, kept

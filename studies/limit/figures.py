@@ -1,0 +1,101 @@
+"""The figures of the limit: the layers at the events, and the predicted approach beside what is observed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import degrees
+
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+
+from ..plots.style import OKABE_ITO, RIGID, STYLE, blank, colours, power_of_ten
+from ..running.measures import MEASURES
+from .damping import Spot
+from .study import LimitStudy
+
+_MARKS = {"rigid ring": ("o", "white"), "flexible": ("s", None)}
+
+
+def of_limit(study: LimitStudy) -> dict[str, Figure]:
+    """All figures by name."""
+    drawn = {"approach": approach(study)}
+    if study.events:
+        drawn["layers"] = layers(study)
+    return drawn
+
+
+def layers(study: LimitStudy) -> Figure:
+    """N, F and V through the layer of each event, over the rigid hoop's values before and behind it."""
+    with matplotlib.rc_context(STYLE):
+        figure = blank(3.6 * max(len(study.events), 2), 6.4)
+        grid = figure.subplots(3, len(study.events), sharex="col", squeeze=False)
+        for column, found in zip(grid.T, study.events, strict=True):
+            layer = found.layer
+            show = layer.tau <= min(layer.tau[-1], 6 * layer.period)
+            tau = layer.tau[show]
+            rows = (
+                (layer.normal_force, found.before[0], found.behind[0], "$N$"),
+                (layer.friction_force, found.before[1], found.behind[1], "$F$"),
+            )
+            for axes, (force, before, behind, symbol) in zip(column, rows, strict=False):
+                axes.plot(
+                    [-0.15 * tau[-1], 0, 0, tau[-1]], [before, before, behind, behind], color=RIGID, lw=2.6, alpha=0.3
+                )
+                axes.plot(tau, force[show], color=OKABE_ITO["kinetic"])
+                axes.set_ylabel(f"{symbol}$/(Mg)$")
+            column[2].plot(tau, layer.slip[show], color=OKABE_ITO["friction_loss"])
+            if found.event.behind is None:
+                column[2].axhline(found.creep, color=RIGID, lw=2.6, alpha=0.3)
+            column[2].set(ylabel=r"$V = v/\epsilon$", xlabel=r"$\tau = (t - t^*)/\epsilon$")
+            column[0].set_title(f"{found.event.kind}, {degrees(found.event.phi):.1f}°")
+        return figure
+
+
+def approach(study: LimitStudy) -> Figure:
+    """Distance to the limit against the foundation: the prediction as a line, without a fitted number."""
+    names = ("impulse_ratio", "normal_impulse", "friction_impulse")
+    with matplotlib.rc_context(STYLE):
+        figure = blank(11, 4)
+        seen = [sight.foundation for sight in study.sights] or [1e8, 1e13]
+        s = np.geomspace(min(*seen, 1e9) if seen else 1e8, max(*seen, 1e13), 60)
+        for axes, name in zip(figure.subplots(1, 3), names, strict=True):
+            term = study.prediction.terms[name]
+            line = np.array([float(term.at(study.small(x))) - term.limit for x in s])
+            axes.plot(s, np.abs(line), color=RIGID, label="predicted")
+            for solver, (mark, fill) in _MARKS.items():
+                points = [
+                    (sight.foundation, abs(study.distance(name, sight)[0]))
+                    for sight in study.sights
+                    if sight.solver == solver and name in sight.values
+                ]
+                if points:
+                    blue = OKABE_ITO["kinetic"]
+                    axes.plot(*np.array(points).T, mark, color=blue, markerfacecolor=fill or blue, label=solver)
+            axes.set(xscale="log", yscale="log", xlabel="foundation εR²/(mg)", title=MEASURES[name].symbol)
+            axes.legend()
+        figure.axes[0].set_ylabel("distance to the limit")
+        return figure
+
+
+def damping_figure(spots: Sequence[Spot]) -> Figure:
+    """The distance to the limit over the damping ratio, and beyond the predicted one over what decays in the stick."""
+    with matplotlib.rc_context(STYLE):
+        figure = blank(10, 4.2)
+        left, right = figure.subplots(1, 2)
+        foundations = sorted({spot.foundation for spot in spots})
+        for foundation, colour in zip(foundations, colours(len(foundations)), strict=True):
+            row = sorted((s for s in spots if s.foundation == foundation), key=lambda s: s.damping)
+            label = power_of_ten(foundation)
+            left.plot([s.damping for s in row], [s.impulse_ratio for s in row], "o-", color=colour, label=label, ms=3.5)
+            beyond = [(s.decay, s.impulse_ratio - s.predicted) for s in row if np.isfinite(s.decay)]
+            if beyond:
+                right.plot(*np.array(beyond).T, "o", color=colour, ms=4)
+        left.axhline(spots[0].limit, color=RIGID, lw=2.6, alpha=0.3)
+        left.set_xscale("symlog", linthresh=0.003)
+        left.set(xlabel="damping ratio", ylabel="$J_F/J_N$", xlim=(0, None))
+        left.legend(ncols=2, title="foundation εR²/(mg)")
+        right.axhline(0, color=RIGID, lw=2.6, alpha=0.3)
+        right.set_xscale("symlog", linthresh=0.3)
+        right.set(xlabel=r"$x = \zeta\omega T_{stick}$", ylabel="beyond the predicted distance", xlim=(0, None))
+        return figure

@@ -1,0 +1,211 @@
+"""The first-order prediction y = L + c eps of a pulse's measures, without a fitted number.
+
+L is the rigid value of the law's own hoop. At order eps the compliance does three things to the motion, and no more:
+where the hoop rolls its contact point creeps, v = eps V; at an event the patch passes from one steady state to the next
+in a layer whose impulses are those that change v by eps times the change of V, since dot h is of order eps^2 on both
+sides; and the next events come earlier or later for it. The layers' history does not enter, as long as the patch has
+come to rest in them. Laws without a jump at the start of a slip add a term of their own (:mod:`studies.limit.onset`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Scene
+
+from ..inner.body import arms, rolling_forces, rolling_inertia
+from ..inner.creep import creep
+from ..inner.events import REVERSAL, START, Event, Passage, Stretch, passage
+from ..inner.layers import slip_behind
+from ..inner.march import BRUSH, PATCH, REGULARISED
+from ..inner.scales import epsilon
+from . import onset
+from .outer import Shift, delay_of_break, delay_of_stop, grown, passed, roll_along, slide_along
+
+CREEP, NEXT, NEXT_OF_A_RING_WITH_MASS = 1.0, 2.0, 3 / 2
+"""Powers of eps by which rolling's creep changes a pulse, and of what comes behind it: the frequencies of an elastic
+ring with a mass are greater than the patch's by eps^(-1/2)."""
+
+BRUSH_DELAY, BRUSH_LAG, REGULARISED_GAIN = 2 / 3, 6 / 5, 4 / 5
+"""Those that the start of a slip adds where friction has no jump there, of eps (or v_s): see
+:mod:`studies.limit.onset`."""
+
+MEASURES = ("normal_impulse", "friction_impulse", "impulse_ratio", "friction_loss", "damping_loss")
+NOTHING = Shift(0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """A measure at great stiffness: limit + the sum of coefficient x^exponent."""
+
+    limit: float
+    powers: tuple[tuple[float, float], ...]
+    """(exponent, coefficient), the leading one first."""
+
+    @property
+    def coefficient(self) -> float:
+        """Of the leading power."""
+        return self.powers[0][1] if self.powers else 0.0
+
+    @property
+    def exponent(self) -> float:
+        """The leading power's."""
+        return self.powers[0][0] if self.powers else 1.0
+
+    def at(self, x: Any) -> Any:
+        """The measure at values of the small parameter."""
+        return self.limit + sum(c * np.asarray(x, float) ** p for p, c in self.powers)
+
+    def to_dict(self) -> dict[str, Any]:
+        """As JSON prints it."""
+        return {
+            "limit": self.limit,
+            "coefficient": self.coefficient,
+            "exponent": self.exponent,
+            "further": [{"coefficient": c, "exponent": p} for p, c in self.powers[1:]],
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Prediction:
+    """Limit and approach of the measures of a scene's first pulse."""
+
+    parameter: str
+    """What is small: "eps", the foundation eps_n R^2/(m g) to the power -1/3, or "v_s", the slip velocity scale of a
+    regularised law over sqrt(g R)."""
+    terms: dict[str, Term]
+    """By measure, in the units of the scene."""
+    complete: bool
+    """Whether all terms down to the order of the creep are there; otherwise those left out, smaller in the end, may be
+    the larger ones at stiffnesses that can be reached."""
+    exponents: tuple[float, ...]
+    """The leading powers of what is small, whether their coefficients are known or not; twice where it comes with a
+    logarithm too. What is small falls with the foundation to the power -1/3, a slip velocity scale because
+    :meth:`flexible.contact.laws.law.Law.stiffened` has it so."""
+
+    @property
+    def rates(self) -> tuple[float, ...]:
+        """The same as rates: powers of 1/foundation."""
+        return tuple(power / 3 for power in self.exponents)
+
+
+def predict(scene: Scene) -> Prediction:
+    """The approach of the scene's first pulse to its limit, for every stiffness at once.
+
+    Raises
+    ------
+    StudyError
+        See :func:`studies.inner.events.passage`.
+    """
+    way = passage(scene)
+    return _with_units(scene, way, powers(way))
+
+
+def powers(way: Passage) -> dict[float, NDArray[np.float64]]:
+    """Changes of J_F, J_N, energy and damping loss over a pulse, by the power of eps (or v_s); R = g = M = 1."""
+    law, mu_s, mu = way.contact.law, way.contact.mu_s, way.contact.mu
+    found: dict[float, NDArray[np.float64]] = {}
+    breaks = law == BRUSH and mu_s > mu  # then a term of lower order than the creep leads, and the next is not known
+    starts = [(i, event) for i, event in enumerate(way.events) if event.kind == START]
+    if law == REGULARISED:
+        way = replace(way, contact=way.contact._replace(slip_scale=1.0))
+    for number, event in starts:
+        if law == REGULARISED:
+            shift = onset.regularised_gain(way.body, way.contact, event)
+            _add(found, REGULARISED_GAIN, _walk(way, number + 1, shift, False))
+        elif breaks:
+            shift = onset.brush_delay(way.body, way.contact, event, way.scene.friction.mu_s)
+            _add(found, BRUSH_DELAY, _walk(way, number + 1, shift, False))
+        elif law == BRUSH:
+            _add(found, BRUSH_LAG, _walk(way, number + 1, onset.brush_lag(way.body, way.contact, event), False))
+    if not (starts and (breaks or law == REGULARISED)):
+        _add(found, CREEP, _walk(way, 0, _handed_over(way), True))
+    return found
+
+
+def _add(found: dict[float, NDArray[np.float64]], exponent: float, change: NDArray[np.float64]) -> None:
+    found[exponent] = found.get(exponent, 0.0) + change
+
+
+def _walk(way: Passage, number: int, shift: Shift, creeps: bool) -> NDArray[np.float64]:
+    """What a shift at the start of stretch ``number`` makes of J_F, J_N, energy and damping loss over the pulse;
+    ``creeps`` adds what the creep does from there on.
+    """
+    body = way.body
+    before = np.zeros(4)
+    for i in range(number, len(way.stretches)):
+        stretch = way.stretches[i]
+        low, high = sorted((stretch.psi_start, stretch.psi_end))
+        if low <= way.edges[0] < high or (i == 0 and way.edges[0] == way.start):
+            here, omega = _along(way, replace(stretch, psi_end=way.edges[0]), shift, creeps)
+            before = np.append(grown(body, way.edges[0], omega, way.slips[0], here), here.damping_loss)
+        shift, omega = _along(way, stretch, shift, creeps)
+        if i < len(way.events):
+            shift = _through(way, way.events[i], shift, creeps)
+    after = np.append(grown(body, way.edges[1], omega, way.slips[1], shift), shift.damping_loss)
+    return after - before
+
+
+def _handed_over(way: Passage) -> Shift:
+    """The flexible hoop takes phidot over, and creeps as an undamped patch would, or as the regularised law does."""
+    first = way.stretches[0]
+    if first.pull is not None:
+        return NOTHING
+    normal, friction, _ = rolling_forces(way.body, first.psi_start, first.omega)
+    undamped = way.contact if way.contact.law == REGULARISED else way.contact._replace(law=PATCH, theta=0.0)
+    return Shift(0.0, creep(undamped, normal, friction, first.omega).slip, 0.0)
+
+
+def _along(way: Passage, stretch: Stretch, shift: Shift, creeps: bool) -> tuple[Shift, float]:
+    if stretch.pull is None:
+        return roll_along(way.body, way.contact if creeps else None, stretch, shift)
+    return slide_along(way.body, stretch, shift)
+
+
+def _through(way: Passage, event: Event, shift: Shift, creeps: bool) -> Shift:
+    """The shift behind an event: it comes later, and its layer changes the slip."""
+    pulls = event.before, event.behind
+    body, contact = way.body, way.contact
+    where = (body, event.psi, event.omega)
+    if event.kind == START:
+        # without a jump it does not matter when it happens
+        if contact.mu_s == contact.mu or contact.law == REGULARISED:
+            return shift
+        later = delay_of_break(body, contact if creeps else None, way.scene.friction.mu_s, *where[1:], shift)
+        return passed(*where, shift, later, pulls)
+    assert event.before is not None
+    shift = passed(*where, shift, delay_of_stop(*where, shift, event.before), pulls)
+    if event.kind == REVERSAL and creeps:
+        change = slip_behind(body, contact, event)
+        _, b, _ = arms(body.e, body.one_minus_e, event.psi)
+        shift = replace(
+            shift, slip=shift.slip + change, omega=shift.omega - b * change / rolling_inertia(body, event.psi)
+        )
+    return shift
+
+
+def _with_units(scene: Scene, way: Passage, found: dict[float, NDArray[np.float64]]) -> Prediction:
+    pulse, mass = way.pulse, 1 + scene.hoop.mass_ratio
+    regularised = way.contact.law == REGULARISED
+    # eps is that of the total mass, the foundation's unit that of the disk
+    unit = 1.0 if regularised else epsilon(scene) * scene.contact.stiffness ** (1 / 3)
+    limits = [getattr(pulse, name, 0.0) for name in MEASURES]
+    powers: list[list[tuple[float, float]]] = [[] for _ in MEASURES]
+    for exponent in sorted(found):
+        friction, normal, energy, damped = found[exponent] * mass * unit**exponent
+        friction, normal = friction * scene.impulse_unit, normal * scene.impulse_unit
+        ratio = (friction - pulse.impulse_ratio * normal) / pulse.normal_impulse
+        losses = (-energy - damped) * scene.energy_unit, damped * scene.energy_unit
+        for kept, value in zip(powers, (normal, friction, ratio, *losses), strict=True):
+            kept.append((exponent, float(value)))
+    terms = {name: Term(float(limit), tuple(kept)) for name, limit, kept in zip(MEASURES, limits, powers, strict=True)}
+    # CREEP follows where an onset leads; where it leads itself, the onset's lag or the next order
+    behind = NEXT_OF_A_RING_WITH_MASS if scene.hoop.mass_ratio > 0 else NEXT
+    leading = sorted({*found, CREEP, behind})[:2]
+    if BRUSH_DELAY in found:  # the runaway takes its time from the creep, as a logarithm
+        leading.append(CREEP)
+    return Prediction("v_s" if regularised else "eps", terms, CREEP in found, tuple(leading))

@@ -1,0 +1,282 @@
+"""Where a compliant hoop's pulse tends to as stiffness grows, how fast, and what its damping must be for that.
+
+The answer comes from the inner problems of the rigid hoop's own events and from its own sensitivities; no stiffness is
+run for it. Beside it stand what is observed: a rigid ring on a compliant floor, and the flexible solver, at a few great
+stiffnesses.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from flexible.contact.laws.listing import LAWS
+from rigid import Run, Scene, scene_to_dict, simulate
+
+from ..inner.creep import creep
+from ..inner.critical import critical_theta
+from ..inner.events import Event, passage
+from ..inner.layers import Layer, layer, outer_forces
+from ..inner.march import PATCH
+from ..inner.scales import damping_of
+from ..running.case import Case
+from ..running.files import StudyError
+from ..running.runs import run_cases
+from ..running.workers import Here, Pool
+from .compliant import go_through
+from .prediction import Prediction, predict
+
+OBSERVED = ("impulse_ratio", "friction_impulse", "normal_impulse", "friction_loss")
+"""Measures that are predicted and observed."""
+
+FOUNDATIONS = (1e10, 1e11, 1e12)
+"""At which the rigid ring is observed; a decade makes the distance 2.15 times smaller."""
+
+
+@dataclass(frozen=True, slots=True)
+class EventFound:
+    """An event of the rigid motion and its inner problem."""
+
+    event: Event
+    before: tuple[float, float]
+    """(N, F) of the rigid hoop before it, over the weight of the whole hoop."""
+    behind: tuple[float, float]
+    """Behind it."""
+    layer: Layer
+    """History on the clock tau = (t - t*)/eps."""
+    critical_damping: float | None
+    """Damping ratio below which the patch breaks or sticks once more than the rigid hoop; None without phases."""
+    creep: float
+    """V towards which the layer goes; 0 where the hoop slides."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """As JSON prints it."""
+        return {
+            "kind": self.event.kind,
+            "t": self.event.t,
+            "phi": self.event.phi,
+            "omega": self.event.omega,
+            "normal_force": [self.before[0], self.behind[0]],
+            "friction_force": [self.before[1], self.behind[1]],
+            "peak_ratio": self.layer.peak_ratio,
+            "critical_damping": self.critical_damping,
+            "resticks": self.layer.resticks,
+            "settles": self.layer.settled(self.behind[0]),
+            "creep": self.creep,
+            "period": self.layer.period,
+        }
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """A pulse observed at a finite stiffness."""
+
+    solver: str
+    """Who saw it: "rigid ring" or "flexible"."""
+    foundation: float
+    """eps_n R^2/(m g)."""
+    values: dict[str, float]
+    """Measures."""
+    errors: dict[str, float]
+    """Their numerical errors, where the solver knows them."""
+    failure: str = ""
+    """Why there are none."""
+
+
+@dataclass(frozen=True, slots=True)
+class Other:
+    """A way to be compliant, and where it leads."""
+
+    name: str
+    """Law and damping."""
+    impulse_ratio: tuple[float, float]
+    """J_F/J_N in the limit; without damping, where there is none, the least and the largest of those observed."""
+    prediction: Prediction | None = None
+    """How it comes there, at this scene's damping; None where that is not predicted."""
+
+
+@dataclass(frozen=True, slots=True)
+class LimitStudy:
+    """What the study found."""
+
+    scene: Scene
+    """As it was studied, with its damping."""
+    events: tuple[EventFound, ...]
+    """Of the first pulse and the stretch before it in which the flexible hoop settles."""
+    prediction: Prediction
+    """Limit and approach."""
+    separate: float
+    """Foundation from which on the layers are over before the next event comes, so that the prediction holds;
+    infinite where a layer does not settle: without damping."""
+    sights: tuple[Sight, ...]
+    """What was observed."""
+    others: tuple[Other, ...]
+    """What the same hoop tends to under other compliances, this one's among them."""
+
+    def small(self, foundation: float) -> float:
+        """The prediction's small parameter at a foundation."""
+        if self.prediction.parameter == "eps":
+            return foundation ** (-1 / 3)
+        return float(_at(self.scene, foundation).contact.slip_velocity_scale)
+
+    def distance(self, name: str, sight: Sight) -> tuple[float, float]:
+        """(observed, predicted) distance of a measure from its limit."""
+        term = self.prediction.terms[name]
+        return sight.values[name] - term.limit, float(term.at(self.small(sight.foundation))) - term.limit
+
+    def to_dict(self) -> dict[str, Any]:
+        """The study as JSON prints it; coefficients are distances over the leading power of the small parameter."""
+        observed: dict[str, Any] = {}
+        for name in OBSERVED:
+            power = self.prediction.terms[name].exponent
+            rows = []
+            for sight in self.sights:
+                row: dict[str, Any] = {"solver": sight.solver, "foundation": sight.foundation}
+                if sight.failure:
+                    row["failure"] = sight.failure
+                elif name in sight.values:
+                    scale = self.small(sight.foundation) ** power
+                    found, foreseen = self.distance(name, sight)
+                    row |= {"value": sight.values[name], "coefficient": found / scale, "predicted": foreseen / scale}
+                    if name in sight.errors:
+                        row["numerical_error"] = sight.errors[name]
+                else:
+                    continue
+                rows.append(row)
+            observed[name] = rows
+        return {
+            "scene": scene_to_dict(self.scene),
+            "events": [found.to_dict() for found in self.events],
+            "parameter": self.prediction.parameter,
+            "complete": self.prediction.complete,
+            "prediction": {name: term.to_dict() for name, term in self.prediction.terms.items()},
+            "separate": self.separate,
+            "others": [{"name": other.name, "impulse_ratio": list(other.impulse_ratio)} for other in self.others],
+            "observed": observed,
+        }
+
+
+def limit_study(
+    scene: Scene,
+    *,
+    damping: float | None = None,
+    foundations: Sequence[float] = FOUNDATIONS,
+    flexible: Sequence[float] = (),
+    pool: Pool | None = None,
+    out: Any = None,
+    progress: Callable[[float], None] | None = None,
+) -> LimitStudy:
+    """Solve the limit of a scene's first pulse.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its foundation does not matter.
+    damping : float, optional
+        Damping ratio of the patch; by default the scene's own.
+    foundations : sequence of float
+        Where a rigid ring on a compliant floor is observed.
+    flexible : sequence of float
+        Where the flexible solver is, its bending stiffness raised in the scene's proportion.
+    pool, out, progress
+        For the flexible solver's runs, see :func:`studies.running.runs.run_cases`.
+
+    Raises
+    ------
+    StudyError
+        There is no pulse, or there is more in it than rolling and sliding.
+    """
+    if damping is not None:
+        scene = scene.replace(contact={"damping": damping})
+    scene = scene.replace(run=Run(until="pulse"))
+    way = passage(scene)
+    prediction = predict(scene)
+    found = []
+    for event in way.events:
+        theta = critical_theta(way.body, way.contact, event)
+        behind = outer_forces(way.body, event, True)
+        slow = creep(way.contact, *behind, event.omega).slip if event.behind is None else 0.0
+        found.append(
+            EventFound(
+                event, outer_forces(way.body, event, False), behind, layer(way.body, way.contact, event),
+                None if theta is None else damping_of(scene, theta), slow,
+            )
+        )  # fmt: skip
+    sights = [_ring(scene, foundation) for foundation in foundations]
+    sights += _flexible(scene, prediction, flexible, pool or Here(), out, progress)
+    return LimitStudy(scene, tuple(found), prediction, _separate(scene, found), tuple(sights), _others(scene))
+
+
+def _others(scene: Scene) -> tuple[Other, ...]:
+    """The limits of the three laws, and what is seen of a patch without a damper."""
+    found = []
+    for name, law in LAWS.items():
+        pulses = simulate(scene.replace(friction={"mu_s": law.static_coefficient(scene.friction)})).pulses
+        if pulses:
+            found.append(Other(f"{name}, any damping", (pulses[0].impulse_ratio,) * 2, _foreseen(scene, name)))
+    ideal = next(name for name, law in LAWS.items() if law.code == PATCH)
+    undamped = scene.replace(contact={"law": ideal, "damping": 0.0})
+    seen = [go_through(_at(undamped, foundation)).impulse_ratio for foundation in FOUNDATIONS]
+    return (*found, Other(f"{ideal}, no damping", (min(seen), max(seen))))
+
+
+def _foreseen(scene: Scene, law: str) -> Prediction | None:
+    try:
+        return predict(scene.replace(contact={"law": law}))
+    except StudyError:  # its pulse has more in it than this scene's
+        return None
+
+
+def _separate(scene: Scene, found: Sequence[EventFound]) -> float:
+    """The foundation at which each layer takes as long as the stretch that follows it."""
+    least = 0.0
+    for now, following in itertools.pairwise(found):
+        time = following.event.t - now.event.t
+        settles = now.layer.settled(now.behind[0])
+        if settles is None:
+            return float("inf")
+        # eps settles = time, eps that of the whole mass
+        least = max(least, (settles / time) ** 3 * (1 + scene.hoop.mass_ratio))
+    return least
+
+
+def _at(scene: Scene, foundation: float) -> Scene:
+    """The scene at another foundation; its ring, and what its law ties to the foundation, go with it."""
+    factor = foundation / scene.contact.stiffness
+    tied = LAWS[scene.contact.law].stiffened(scene.contact, factor)
+    ring = {"bending_stiffness": scene.ring.bending_stiffness * factor}
+    return scene.replace(contact={"stiffness": foundation, **tied}, ring=ring)
+
+
+def _ring(scene: Scene, foundation: float) -> Sight:
+    seen = go_through(_at(scene, foundation))
+    values = {
+        "impulse_ratio": seen.impulse_ratio,
+        "friction_impulse": seen.friction_impulse,
+        "normal_impulse": seen.normal_impulse,
+    }
+    return Sight("rigid ring", foundation, values, {})
+
+
+def _flexible(
+    scene: Scene,
+    prediction: Prediction,
+    foundations: Sequence[float],
+    pool: Pool,
+    out: Any,
+    progress: Callable[[float], None] | None,
+) -> list[Sight]:
+    if not foundations:
+        return []
+    against = tuple((name, prediction.terms[name].limit) for name in ("impulse_ratio", "friction_loss"))
+    cases = [Case("flexible", _at(scene, foundation), against) for foundation in foundations]
+    sights = []
+    for foundation, outcome in zip(foundations, run_cases(cases, pool, out, progress), strict=True):
+        if outcome.failure:
+            sights.append(Sight("flexible", foundation, {}, {}, outcome.failure))
+            continue
+        values = {name: outcome.pulses[0][name] for name in OBSERVED}
+        sights.append(Sight("flexible", foundation, values, {n: outcome.numerical_error[0][n] for n in OBSERVED}))
+    return sights

@@ -1,0 +1,180 @@
+"""What is told of the limit, in rows and sentences; the screen and the page print the same."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import degrees, isfinite
+from typing import Any
+
+from ..plots.sheet import Column, Sheet, number
+from ..running.measures import MEASURES
+from .damping import Spot
+from .study import OBSERVED, LimitStudy
+
+
+def event_sheet(study: LimitStudy) -> Sheet:
+    """Events, and what their layers do; forces before and behind, over the weight of the whole hoop."""
+    found = study.events
+    return Sheet(
+        "Events of the first pulse, their layers on the clock τ = (t − t*)/ε",
+        [Column("event", [e.event.kind for e in found], words=True)],
+        [
+            Column("phi\n[deg]", [f"{degrees(e.event.phi):.3f}" for e in found]),
+            Column("phidot\n[sqrt(g/R)]", [number(e.event.omega, 5) for e in found]),
+            Column("N before\n[Mg]", [number(e.before[0], 5) for e in found]),
+            Column("behind\n[Mg]", [number(e.behind[0], 5) for e in found], joined=True),
+            Column("F before\n[Mg]", [number(e.before[1], 5) for e in found]),
+            Column("behind\n[Mg]", [number(e.behind[1], 5) for e in found], joined=True),
+            Column("largest\n|F|/N", [number(e.layer.peak_ratio, 4) for e in found]),
+            Column("sticks\nfrom τ", [number(e.layer.resticks, 4) for e in found]),
+            Column("critical\ndamping", [number(e.critical_damping, 4) for e in found]),
+        ],
+    )
+
+
+_SYMBOLS = {"eps": "ε", "v_s": "v_s"}
+
+
+def _symbol(study: LimitStudy) -> str:
+    return _SYMBOLS[study.prediction.parameter]
+
+
+def term_sheet(study: LimitStudy) -> Sheet:
+    """The prediction."""
+    terms = study.prediction.terms
+    powers = [" ".join(f"{c:+.5g} {_symbol(study)}^{p:.3g}" for p, c in term.powers) or "0" for term in terms.values()]
+    names = [MEASURES[name].heading(study.scene).replace("\n", " ") for name in terms]
+    return Sheet(
+        "Prediction: limit and approach",
+        [Column("measure", names, words=True)],
+        [
+            Column("limit", [number(term.limit) for term in terms.values()]),
+            Column("approach", powers, words=True),
+        ],
+    )
+
+
+def sight_sheet(study: LimitStudy) -> Sheet:
+    """Predicted and observed distances, over the leading power of the small parameter."""
+    rows = []
+    for sight in study.sights:
+        for name in OBSERVED:
+            scale = study.small(sight.foundation) ** study.prediction.terms[name].exponent
+            if name not in sight.values or scale == 0:
+                continue
+            found, foreseen = study.distance(name, sight)
+            error = f"{sight.errors[name] / scale:.2g}" if name in sight.errors else "-"
+            share = f"{found / foreseen:.3f}" if foreseen else "-"
+            rows.append(
+                (sight.solver, number(sight.foundation, 3), MEASURES[name].symbol, number(sight.values[name]),
+                 number(found / scale, 4), error, number(foreseen / scale, 4), share)
+            )  # fmt: skip
+    heads = (
+        "observed by",
+        "foundation",
+        "measure",
+        "value",
+        "distance\nover power",
+        "±",
+        "predicted",
+        "observed/\npredicted",
+    )
+    columns = [
+        Column(head, cells, words=head in ("observed by", "measure"), joined=head == "±")
+        for head, cells in zip(heads, zip(*rows, strict=True) if rows else [()] * len(heads), strict=True)
+    ]
+    return Sheet("Distance to the limit, observed and predicted", columns[:3], columns[3:])
+
+
+def map_sheet(spots: Sequence[Spot]) -> Sheet:
+    """J_F/J_N, foundations across and damping ratios down."""
+    ratios = sorted({spot.damping for spot in spots})
+    columns = []
+    for foundation in sorted({spot.foundation for spot in spots}):
+        row = {spot.damping: spot.impulse_ratio for spot in spots if spot.foundation == foundation}
+        columns.append(Column(number(foundation, 3), [f"{row[ratio]:.5f}" for ratio in ratios]))
+    return Sheet(
+        "J_F/J_N over damping ratio and foundation", [Column("damping", [number(ratio) for ratio in ratios])], columns
+    )
+
+
+def limit_sheets(study: LimitStudy) -> list[Any]:
+    """The answer in words, the events, the prediction and what is observed."""
+    failed = [f"Foundation {number(s.foundation, 3)} failed: {s.failure}" for s in study.sights if s.failure]
+    return [
+        verdict(study),
+        *damping_sentences(study),
+        "J_F/J_N by what is compliant: " + "; ".join(other_sentences(study)) + ".",
+        *([event_sheet(study)] if study.events else []),
+        term_sheet(study),
+        sight_sheet(study),
+        *failed,
+    ]
+
+
+def verdict(study: LimitStudy) -> str:
+    """The answer."""
+    term = study.prediction.terms["impulse_ratio"]
+    paper = study.others[0].impulse_ratio[0] if study.others else float("nan")
+    same = abs(term.limit - paper) < 1e-12
+    law = study.scene.contact.law
+    words = (
+        f"The {law} law tends to J_F/J_N = {term.limit:.6f}, "
+        + ("the paper's pulse" if same else f"another pulse than the paper's {paper:.6f}")
+        + f", like {term.coefficient:+.4g} {_symbol(study)}^{term.exponent:.3g}"
+    )
+    small = (
+        "ε the foundation ε_n R²/(m g) to the power −1/3"
+        if study.prediction.parameter == "eps"
+        else "v_s its slip velocity scale over sqrt(gR), which falls with the foundation as the patch's width does"
+    )
+    told = f"{words}, {small}."
+    if not study.prediction.complete:
+        told += (
+            " The slip starts where friction has no jump, which gives that power; the terms behind it, of the order of"
+            " the creep, are not predicted, and may be the larger ones at any stiffness within reach."
+        )
+    return told
+
+
+def damping_sentences(study: LimitStudy) -> list[str]:
+    """What damping is needed, and from where on the prediction holds."""
+    critical = [e.critical_damping for e in study.events if e.critical_damping is not None]
+    said = []
+    if critical:
+        largest = max(critical)
+        ratio = study.scene.contact.damping
+        if largest == 0:
+            said.append("Its patch passes every event without breaking anew, even undamped.")
+        else:
+            above = "above" if ratio > largest else "below"
+            said.append(
+                f"Below a damping ratio of {number(largest, 4)} the transient breaks the patch again; this scene's "
+                f"{number(ratio, 4)} is {above} it."
+            )
+    if study.separate == 0:
+        pass
+    elif isfinite(study.separate):
+        said.append(f"The layers are over before the next event from a foundation of {number(study.separate, 2)} on.")
+    else:
+        said.append(
+            "A layer does not settle: no limit is predicted without damping, and the numbers hold for the least of it."
+        )
+    return said
+
+
+def other_sentences(study: LimitStudy) -> list[str]:
+    """Which compliances tend where."""
+    said = []
+    for other in study.others:
+        low, high = other.impulse_ratio
+        if low != high:
+            said.append(f"{other.name}: {low:.4f} to {high:.4f}, no limit seen")
+            continue
+        words = f"{other.name}: {low:.5f}"
+        if other.prediction is not None:
+            term = other.prediction.terms["impulse_ratio"]
+            symbol = _SYMBOLS[other.prediction.parameter]
+            words += f", like {term.coefficient:+.3g} {symbol}^{term.exponent:.3g}"
+        said.append(words)
+    return said

@@ -1,0 +1,209 @@
+"""Steps that end at an event, or cannot be solved: events are located, failures are told, contact opens and closes."""
+
+import itertools
+from math import pi
+
+import numpy as np
+import pytest
+from scenes import HOOP, flying
+
+import flexible
+import flexible.time.adaptive
+import rigid
+from flexible.contact.laws.patch import SLIDE_RIGHT, STICK
+from flexible.handover import Pose, equilibrium, hand_over
+from flexible.models.full import FullHoop
+from flexible.models.reduced import ReducedHoop
+from flexible.models.stage import largest
+from flexible.time.adaptive import Limits, march
+from flexible.time.events import Ends, locate
+from flexible.time.tr_bdf2 import MarchError, attempt, restart
+from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
+
+#: slips out of rolling a moment after its release
+SLIPPING = HOOP.replace(release={"phi0": 1.5, "omega0": 1.0}, hoop={"mass_ratio": 0.0}, friction={"mu_s": 0.35})
+
+
+def start_of(scene, model=ReducedHoop):
+    return model(scene), hand_over(model(scene), rigid.simulate(scene), 0.0)
+
+
+def numbered(root, unsolved=(2.0, 3.0)):
+    """Steps that are their own length and are past ``root``; lengths inside ``unsolved`` cannot be solved."""
+    tried = []
+
+    def step(h):
+        tried.append(h)
+        return None if unsolved[0] < h < unsolved[1] else h
+
+    return step, (lambda h: (h - root) / 1e-9), tried
+
+
+@pytest.mark.parametrize("root", [1e-7, 0.2, 0.5, 0.999])
+def test_an_event_is_located_around_lengths_that_cannot_be_solved(root):
+    """A third of the bracket fails, the event outside it is found to its tolerance all the same."""
+    step, past, tried = numbered(root, (0.21, 0.49))
+    found = locate(step, past, 1.0, past(0.0), 1.0)
+    assert found.at_event
+    assert 0 <= past(found.trial) <= 1
+    assert len(tried) < 60  # bisection alone takes 30 from 1 to 1e-9, and six lengths at most are tried for each
+
+
+def test_an_event_among_lengths_that_cannot_be_solved_is_not_taken_for_located():
+    """The step then ends before it; where no length can be solved there is no step."""
+    step, past, _ = numbered(0.3, (0.21, 0.49))
+    found = locate(step, past, 1.0, past(0.0), 1.0)
+    assert not found.at_event
+    assert found.trial <= 0.21
+    step, past, _ = numbered(0.3, (0.0, 1.0))
+    assert locate(step, past, 1.0, past(0.0), 1.0).trial is None
+
+
+def test_a_jump_is_located_in_time():
+    """A function without a zero, -1 before 0.3 and 1e12 after: the bracket tells, to its share 1e-10 of the step."""
+    found = locate(lambda h: h, lambda h: 1e12 if h > 0.3 else -1.0, 1.0, -1.0, 1.0)
+    assert found.at_event
+    assert 0.3 < found.trial < 0.3 + 1e-10
+
+
+@pytest.mark.parametrize("failing", [0.5, 1.0])
+def test_no_step_passes_its_event_where_shorter_ones_fail(failing, monkeypatch):
+    """Whenever the end of a sticking is to be located, some or all shorter steps fail: |F| <= mu_s N stays true."""
+    hoop, start = start_of(SLIPPING)
+    mu_s = SLIPPING.friction.mu_s
+
+    def fails(model, old, h):
+        trial = attempt(model, old, h)
+        if trial is not None and abs(trial.state.friction_force) > mu_s * trial.state.normal_force:
+            fails.longest = h, old.t
+        known = fails.longest is not None and fails.longest[1] == old.t
+        return None if known and (1 - failing) * fails.longest[0] < h < fails.longest[0] else trial
+
+    fails.longest = None
+    monkeypatch.setattr(flexible.time.adaptive, "attempt", fails)
+    _, records, _, ended = march(hoop, start, Ends(t=0.5), 1e-3, Limits(most=400))
+    assert fails.longest is not None  # it did come to an end
+    assert records[-1].t <= 0.5 + 1e-12
+    for record in records:
+        if record.mode == STICK:  # Newton's tolerance of 1e-9 (1 + N) on both forces
+            assert abs(record.friction_force) <= mu_s * record.normal_force + 3e-9 * (1 + record.normal_force)
+    assert failing < 1 or "no step however short" in ended
+
+
+def test_a_number_that_is_none_is_not_passed_over():
+    assert largest(np.array([1.0, -2.0])) == 2.0
+    for bad in (np.nan, np.inf):
+        for place in range(3):
+            values = np.array([1.0, 2.0, 3.0])
+            values[place] = bad
+            assert largest(values) == np.inf
+
+
+@pytest.mark.parametrize("model", [ReducedHoop, FullHoop])
+@pytest.mark.parametrize("place", [0, 1, 2, 5])
+def test_a_state_that_is_no_number_is_a_failed_step(model, place):
+    """In any coordinate, rates and accelerations too, whichever comparison it meets first."""
+    hoop, start = start_of(HOOP.replace(release={"phi0": 1.5, "omega0": 1.0}), model)
+    assert attempt(hoop, start, 1e-5) is not None
+    for name in ("vel", "acc"):
+        field = getattr(start, name).copy()
+        field[place] = np.nan
+        broken = start.__class__(**{**{k: getattr(start, k) for k in start.__slots__}, name: field})
+        assert attempt(hoop, broken, 1e-5) is None
+    pos = start.pos.copy()
+    pos[place] = np.nan
+    broken = start.__class__(**{**{k: getattr(start, k) for k in start.__slots__}, "pos": pos})
+    with pytest.raises(MarchError):
+        restart(hoop, broken, STICK)
+
+
+def test_a_singular_ring_is_a_failed_step_and_no_start(monkeypatch):
+    """scipy's sparse factors say RuntimeError: a stage that cannot be solved, and an equilibrium that is not there."""
+    scene = HOOP.replace(release={"phi0": 1.5, "omega0": 1.0}, hoop={"mass_ratio": 0.0})
+    hoop, start = start_of(scene, FullHoop)
+    nothing = hoop.ring.tangent(start.pos[3:]) * 0
+    monkeypatch.setattr(hoop.ring, "tangent", lambda u: nothing)
+    hoop._factored = None
+    assert attempt(hoop, start, 1e-5) is None
+    with pytest.raises(MarchError, match="no equilibrium"):
+        equilibrium(hoop, Pose(pi, 0.0, 0.0, 1.0, 0.1, Kind.ROLL))
+
+
+def opening(bending, foundation, mu_s=0.538, rtol=1e-3):
+    """An undamped patch that spins, opens and closes in the pulse of a small disk."""
+    return Scene(
+        Hoop(k=0.0515, r=1.158, mass_ratio=0.0), Friction(mu_s, 0.38), Release(26 * pi / 180), Run(until="pulse"),
+        ring=Ring(bending_stiffness=bending), contact=Contact(stiffness=foundation, damping=0.0),
+        solve=Solve(rtol=rtol),
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("mode", [STICK, SLIDE_RIGHT])
+def test_a_restart_moves_nothing(mode):
+    """A patch 1e-12 deep, as one that just opens: the law of friction changes, N does not.
+
+    A stage of 1e-7 moves the hoop by its acceleration times 1e-14, here half of that depth.
+    """
+    scene = opening(1e7, 1e12)
+    hoop = ReducedHoop(scene)
+    spacing = hoop.law.parameters.spacing
+    lowest = round((pi - 3.0916) / spacing)  # the point at the bottom, which alone is in so thin a patch
+    pos, vel = np.array([0.0, -1e-12, pi - lowest * spacing]), np.array([0.0, -1e-3, 6.9])
+    state = restart(hoop, flying(hoop, pos, vel), mode)
+    again = restart(hoop, state, mode)
+    assert abs(state.acc[1]) > 10
+    assert 0 < state.res.normal < 1e-3
+    slack = 1e-9 * 1e-3  # Newton's tolerance, of displacements that are forces over the patch's own stiffness
+    assert again.res.normal == pytest.approx(state.res.normal, rel=1e-6, abs=slack)
+
+
+@pytest.mark.parametrize(
+    ("bending", "foundation", "rtol"),
+    [(1e7, 1e12, 3e-4), (1e7, 1e13, 3e-3), (1e8, 1e12, 3e-3), (1e8, 1e13, 1e-3), (1e9, 1e13, 1e-3), (1e10, 1e14, 3e-3)],
+)
+@pytest.mark.slow
+def test_a_patch_that_opens_and_closes_is_integrated_through(bending, foundation, rtol):
+    """Each of them ended on the way; the undamped patch has a scatter, between .149 of the rigid hoop and .176."""
+    motion = flexible.simulate(opening(bending, foundation, rtol=rtol))
+    assert motion.completed, motion.ended
+    assert motion.pulses[0].time_off_floor > 0  # it does open
+    assert 0.148 < motion.pulses[0].friction_impulse / motion.pulses[0].normal_impulse < 0.177
+
+
+def test_one_coefficient_of_friction_does_not_stick_and_slip_without_end():
+    """mu_s = mu, undamped: where N falls faster than the bristles let go the patch slides on; the brush agrees.
+
+    Their rigid limit is the same hoop. 1e-3 of J_N: some patch widths, (1.5 N/eps)^(1/3) = 5e-4 at N = 100.
+    """
+    scene = opening(1e10, 1e12, mu_s=0.38)
+    patch, brush = (flexible.simulate(scene.replace(contact={"law": law})) for law in ("patch", "brush"))
+    assert patch.completed, patch.ended
+    exact = rigid.simulate(scene).pulses[0]
+    for motion in (patch, brush):
+        pulse = motion.pulses[0]
+        assert pulse.friction_impulse == pytest.approx(exact.friction_impulse, abs=1e-3 * exact.normal_impulse)
+
+
+def test_order_across_the_start_of_slip():
+    """Equal steps over a stick that breaks: its event is located, so the end keeps the order 2 of the integrator.
+
+    A soft floor and two modes, as for the order without events; the time of the event is of that order too.
+    """
+    scene = HOOP.replace(
+        hoop={"mass_ratio": 0.0}, release={"phi0": 1.5, "omega0": 1.0}, contact={"stiffness": 1e4},
+        friction={"mu_s": 0.82, "mu": 0.6},  # F/N is .795 at first and grows
+    )  # fmt: skip
+    hoop = ReducedHoop(scene, modes=2)
+    start = hand_over(hoop, rigid.simulate(scene.replace(friction={"mu_s": 9.0, "mu": 9.0})), 0.0)
+    steps = 0.1 / np.array([50, 100, 200, 1600])
+    ends = []
+    for step in steps:
+        last, records, _, ended = march(hoop, start, Ends(t=0.1), 0.5, Limits(step, step))
+        assert not ended
+        breaks = [b.t for a, b in itertools.pairwise(records) if a.mode == STICK != b.mode]
+        assert breaks
+        ends.append([breaks[0], last.pos[2], last.vel[2], records[-1].friction_impulse])
+    errors = np.abs(np.array(ends[:-1]) - ends[-1])
+    for column in errors.T:
+        slope = np.polyfit(np.log(steps[:-1]), np.log(column), 1)[0]
+        assert slope == pytest.approx(2, abs=0.4)  # three halvings; the last is an eighth of the finest

@@ -1,0 +1,113 @@
+"""Several swings and pulses in one run, flexible throughout or in the pulses only: ends, hand-back, turns, pulses."""
+
+from math import pi
+
+import numpy as np
+import pytest
+from scenes import HOOP
+
+import flexible
+import rigid
+from rigid import Kind
+
+#: stiff enough that the flexible hoop's turns are the rigid one's to the patch's half-width, (1.5/eps)^(1/3) = 2e-3;
+#: slow at the bottom, so that a swing takes few steps
+STIFF = HOOP.replace(
+    hoop={"k": 0.3, "mass_ratio": 0.0}, release={"phi0": 2.2}, ring={"bending_stiffness": 1e5},
+    contact={"stiffness": 1e8, "damping": 1.0}, solve={"resolve": "all"},
+)  # fmt: skip
+REACH = (1.5 / 1e8) ** (1 / 3)
+
+
+@pytest.mark.parametrize("turns", [1, 2])
+def test_turns_end_a_run_where_they_are(turns):
+    """phidot = 0 at the end, not a step later, and as many turns as asked for, told or not."""
+    scene = STIFF.replace(run={"turns": turns})
+    exact = rigid.simulate(scene)
+    told = []
+    for motion in (flexible.simulate(scene), flexible.simulate(scene, progress=lambda share: told.append(share))):
+        assert motion.completed, motion.ended
+        assert motion.ended == exact.ended
+        assert len(motion.turns) == turns
+        end = motion.phases[-1].t_end
+        assert abs(float(motion.at(end).omega)) < 1e-8  # the tolerance of a turn is 1e-9 sqrt(g/R)
+        assert end == pytest.approx(motion.turns[-1].t, abs=1e-8)
+        assert end == pytest.approx(exact.phases[-1].t_end, rel=5 * REACH)
+    assert told
+
+
+@pytest.mark.parametrize("friction", [(3.0, 3.0), (0.35, 0.3)])
+def test_a_run_to_rest_ends_where_the_rigid_hoop_would_slip_no_more(friction):
+    """With the rigid solver's own reason, near its own instant: whole swings later or earlier are a failure."""
+    scene = STIFF.replace(run={"until": "rest"}, friction=dict(zip(("mu_s", "mu"), friction, strict=True)))
+    exact, motion = rigid.simulate(scene), flexible.simulate(scene)
+    assert motion.completed
+    assert motion.ended.split(";")[0] == exact.ended.split(";")[0]
+    # it is asked at turns: of the first one after the last slip
+    last = max((phase.t_end for phase in exact.phases if phase.kind != Kind.ROLL), default=0.0)
+    turn = next(turn.t for turn in exact.turns if turn.t >= last)
+    assert motion.phases[-1].t_end == pytest.approx(turn, rel=5 * REACH)
+
+
+def test_a_smooth_floor_is_no_run_without_end():
+    for resolve in ("pulses", "all"):
+        scene = STIFF.replace(run={"until": "rest"}, friction={"mu_s": 0.0, "mu": 0.0}, solve={"resolve": resolve})
+        motion = flexible.simulate(scene)
+        assert motion.completed
+        assert "slides for ever" in motion.ended
+
+
+def test_one_turn_after_the_other_is_one_motion():
+    """Swing by swing is no seam: nothing jumps, and the energy handed over is nothing."""
+    motion = flexible.simulate(STIFF.replace(run={"turns": 2}), history=True)
+    t = motion.history.t
+    assert (np.diff(t) >= 0).all()
+    assert np.abs(np.diff(motion.history.phi)).max() < 0.05 * 3  # largest step times the largest phidot
+    assert abs(motion.ledger.hand_over) < 1e-12
+    assert motion.pulses[0].phi_end > motion.pulses[0].phi_start
+    assert motion.pulses[1].phi_end < motion.pulses[1].phi_start
+
+
+@pytest.mark.parametrize("resolve", ["pulses", "all"])
+def test_several_pulses_in_one_run(resolve):
+    """Each is measured over the rigid pulse of its own swing; x_C goes on, as the sum of rolling and slip says.
+
+    dx_C/dt = v + R dphi/dt, by a quadrature of what ``at`` tells; at hand-overs v changes by the creep, of order REACH.
+    """
+    scene = STIFF.replace(run={"turns": 2}, solve={"resolve": resolve})
+    motion, exact = flexible.simulate(scene), rigid.simulate(scene)
+    assert len(motion.pulses) == len(exact.pulses) == 2
+    assert len(motion.turns) == 2
+    for pulse, other in zip(motion.pulses, exact.pulses, strict=True):
+        assert pulse.normal_impulse == pytest.approx(other.normal_impulse, rel=5 * REACH)
+        assert pulse.phi_start == pytest.approx(other.phi_start, abs=5 * REACH)
+    for turn, other in zip(motion.turns, exact.turns, strict=True):
+        assert turn.t == pytest.approx(other.t, rel=5 * REACH)
+        assert turn.phi == pytest.approx(other.phi, abs=5 * REACH * pi)
+    for before, after in zip(motion.phases, motion.phases[1:], strict=False):
+        assert after.t_start == pytest.approx(before.t_end, abs=1e-12)
+        assert after.phi_start == pytest.approx(before.phi_end, abs=1e-9)
+    t = np.linspace(0, motion.phases[-1].t_end * (1 - 1e-12), 40_001)
+    now = motion.at(t)
+    rate = now.slip_velocity + now.omega
+    rolled = np.concatenate([[0.0], np.cumsum((rate[1:] + rate[:-1]) / 2 * np.diff(t))])
+    assert np.abs(now.x_C - now.x_C[0] - rolled).max() < 2 * REACH
+
+
+def test_the_error_of_the_impulses_follows_rtol():
+    """rtol is what it says: J_N of a pulse without events is within rtol of its limit, and better with rtol, order 1.
+
+    A sliding pulse on a soft floor, where steps and not points bound the error.
+    """
+    scene = STIFF.replace(
+        friction={"mu_s": 0.05, "mu": 0.05}, release={"phi0": 2.2, "omega0": 0.5}, contact={"stiffness": 1e5},
+        run={"until": "pulse"}, solve={"resolve": "pulses"},
+    )  # fmt: skip
+    rtols = np.array([3e-2, 1e-2, 3e-3, 1e-3])
+    found = [flexible.simulate(scene.replace(solve={"rtol": rtol})).pulses[0] for rtol in [*rtols, 1e-5]]
+    for name in ("normal_impulse", "friction_impulse"):
+        values = np.array([getattr(pulse, name) for pulse in found])
+        errors = np.abs(values[:-1] - values[-1])
+        assert (errors < rtols * abs(found[-1].normal_impulse)).all()
+        slope = np.polyfit(np.log(rtols), np.log(errors), 1)[0]
+        assert slope > 0.6  # 1 by the step control, less the luck of single steps
