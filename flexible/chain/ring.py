@@ -175,12 +175,12 @@ class _Shape:
         """Displacement of the rim's nodes by the sections that are free, (2 n_rim, 3 n)."""
         return rim_matrix(self.rod, self.still, self.nodes)[1]
 
-    def modes(self, count: int) -> Array:
-        """The slowest vibrations of the undeformed chain, (3 n, count), orthonormal in the mass."""
+    @cached_property
+    def shapes(self) -> Array:
+        """Vibrations of the undeformed chain, (3 n, 3 n), the slowest first, orthonormal in the mass."""
         weight = np.column_stack([self.rod.mass, self.rod.mass, self.rod.turning])[1:-1].ravel() ** -0.5
         matrix = weight[:, None] * dense_stiffness(self.rod, self.still)[3:-3, 3:-3] * weight
-        shapes: Array = weight[:, None] * np.linalg.eigh(matrix)[1][:, :count]
-        return shapes
+        return np.asarray(weight[:, None] * np.linalg.eigh(matrix)[1], dtype=float)
 
     @cached_property
     def missing(self) -> Array:

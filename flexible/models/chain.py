@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import splu
 
 from rigid import Scene
 
@@ -61,7 +63,7 @@ class ChainHoop(RimContact):
         #: momenta of the slow vibrations, by which steps are chosen, of a rate of the sections
         self._slow = np.zeros((0, len(mass)))
         if scene.hoop.mass_ratio > 0:
-            self._slow = (mass[:, None] * self.ring.shape.modes(SLOW)).T / np.sqrt(scene.hoop.mass_ratio)
+            self._slow = (mass[:, None] * self.ring.shape.shapes[:, :SLOW]).T / np.sqrt(scene.hoop.mass_ratio)
 
     @property
     def coordinates(self) -> int:
@@ -182,30 +184,30 @@ class RestingChain:
         matrix = dense_stiffness(self.ring.chain.rod, q)[3:-3, 3:-3] + share * self.inertia
         blocks, force = no_blocks(len(q)), np.zeros_like(q)
         elastic(self.ring.chain.rod, q, force, blocks.diagonal, blocks.up, blocks.down)
-        self.inverse = np.linalg.inv(matrix)
+        self._solve = splu(csc_matrix(matrix)).solve
         pull = force[1:-1].ravel() + share * (self.inertia @ self.coordinates + self.load)
-        self.base = self.coordinates - self.inverse @ pull
-        self._known: dict[Window, tuple[Array, Array, Array]] = {}
+        self.base = self.coordinates - self._solve(pull)
+        self._known: dict[Window, tuple[Array, Array, Array, Array]] = {}
 
-    def _window(self, window: Window) -> tuple[Array, Array, Array]:
-        """Displacement of the nodes, its derivatives by the sections, and the compliance that the chain lacks."""
+    def _window(self, window: Window) -> tuple[Array, Array, Array, Array]:
+        """Of the nodes: displacement, derivatives by the sections, these' answer to forces, what the chain lacks."""
         if window not in self._known:
             ring, q = self.ring, self._padded()
             number, nodes = ring.window(*window)
             moved, rows = rim_matrix(ring.chain.rod, q, nodes)
             turn = follow(ring.chain.rod, q, nodes)[2]
             yields = turned(ring.missing(number, number), turn, turn)
-            self._known[window] = moved.ravel(), rows, yields
+            self._known[window] = moved.ravel(), rows, self._solve(rows.T.copy()), yields
         return self._known[window]
 
     def response(self, window: Window) -> tuple[Array, Array]:
         """See :class:`flexible.models.equilibrium.RestingRing`."""
-        moved, rows, yields = self._window(window)
-        return moved + rows @ (self.base - self.coordinates), yields + rows @ self.inverse @ rows.T
+        moved, rows, answer, yields = self._window(window)
+        return moved + rows @ (self.base - self.coordinates), yields + rows @ answer
 
     def move(self, window: Window, force: Array) -> float:
         """See :class:`flexible.models.equilibrium.RestingRing`."""
-        moved = self.base + self.inverse @ (self._window(window)[1].T @ force)
+        moved = self.base + self._window(window)[2] @ force
         change = float(np.abs(moved - self.coordinates).max() / max(np.abs(moved).max(), 1e-300))
         self.coordinates = moved
         return change

@@ -94,7 +94,7 @@ def soft_flight(step, t_end=0.15):
     pos, vel = np.zeros(3 + hoop.coordinates), np.zeros(3 + hoop.coordinates)
     pos[1:3] = 5.0, 0.4
     vel[:3] = -0.5, 0.2, 1.5
-    swing = hoop.ring.shape.modes(1)[:, 0]
+    swing = hoop.ring.shape.shapes[:, :1][:, 0]
     vel[3:] = swing / np.abs(swing.reshape(-1, 3)[:, :2]).max()
     _, records, states = steps_of(hoop, restart(hoop, flying(hoop, pos, vel), 0), t_end, step)
     return hoop, records, states
@@ -167,3 +167,21 @@ def test_a_stiff_hoop_is_the_reduced_one():
 
 def test_level_by_name():
     assert isinstance(hoop_of(COARSE.replace(solve={"level": "chain"})), ChainHoop)
+
+
+@pytest.mark.slow
+def test_a_soft_pulse_against_all_nodes(monkeypatch):
+    """The first pulse at E I = 10, where the rim turns by 0.03, on the same mesh: a percent in all that is measured.
+
+    At rtol = 1e-3 each of them is off by up to half a percent by itself.
+    """
+    scene = HOOP.replace(ring={"bending_stiffness": 10.0}, hoop={"mass_ratio": 0.05})
+    found = []
+    for kind in (ChainHoop, ExactHoop):
+        monkeypatch.setattr("flexible.solve.hoop_of", lambda inner, kind=kind: kind(inner, through=2))
+        pulse = flexible.simulate(scene).pulses[0]
+        ratio = pulse.friction_impulse / pulse.normal_impulse
+        found.append([
+            pulse.normal_impulse, ratio, pulse.peak_normal_force, pulse.friction_loss, pulse.time_off_floor,
+        ])  # fmt: skip
+    assert np.array(found[0]) == pytest.approx(found[1], rel=0.01)
