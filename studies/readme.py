@@ -39,6 +39,8 @@ RIGID = "hoop bench rigid --peers --json --out bench"
 FLEXIBLE = "hoop bench flexible --peers --json --out bench"
 SCALING = "hoop bench scaling --json --out bench"
 STRESS = "hoop stress --scenes 1200 --seed 4 --json --out stress"
+EXAMPLES = ("rigid-motion", "batch-map", "pulse", "stiffness-study", "fields-in-pyvista", "own-friction-law")
+"""Those of :mod:`studies.examples`, whose pictures stand in the README of this package."""
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,10 @@ PICTURES = (
     Picture("bench-flexible.png", (FLEXIBLE,), "bench/bench-flexible.png"),
     Picture("bench-scaling.png", (SCALING,), "bench/bench-scaling.png"),
     Picture("margins.png", (STRESS,), "stress/stress.png"),
+    *(
+        Picture(f"example-{name}.png", (f"python -m studies.examples.{name.replace('-', '_')}",), f"{name}.png")
+        for name in EXAMPLES
+    ),
 )
 
 
@@ -216,10 +222,10 @@ class Bench:
             It failed.
         """
         click.echo(f"$ {command}", err=True)
-        start = [sys.executable, "-c", "from studies.cli import main; main()"]
-        done = subprocess.run(
-            [*start, *shlex.split(command)[1:]], cwd=self.folder, stdout=subprocess.PIPE, text=True, check=False
-        )
+        program, *words = shlex.split(command)
+        hoop = [] if program == "python" else ["-c", "from studies.cli import main; main()"]
+        call = [sys.executable, *hoop, *words]
+        done = subprocess.run(call, cwd=self.folder, stdout=subprocess.PIPE, text=True, check=False)
         if done.returncode:
             raise StudyError(f"{command} ended with {done.returncode}.")
         return done.stdout

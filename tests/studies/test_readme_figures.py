@@ -14,7 +14,8 @@ TEXT = (readme.ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def test_every_picture_has_its_command_and_none_is_unused():
-    shown = set(re.findall(r"\]\(\.images/([^)]+)\)", TEXT))
+    pages = TEXT + (readme.ROOT / "studies" / "README.md").read_text(encoding="utf-8")
+    shown = set(re.findall(r"\]\((?:\.\./)?\.images/([^)]+)\)", pages))
     assert shown == {picture.name for picture in readme.PICTURES}
     assert shown == {path.name for path in readme.IMAGES.iterdir()}
 

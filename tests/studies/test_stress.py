@@ -92,6 +92,7 @@ def test_a_crash_and_a_run_without_end_are_told():
     assert "2 not: cut at the work bound (1, 2)" in report.text()
 
 
+@pytest.mark.slow
 def test_a_few_of_each_kind(hoop, tmp_path):
     """36 scenes and the cycles, through processes, report and figure: none crashes, none breaks an invariant."""
     status, out, err = hoop("stress", "--quick", "--scenes", 36, "--json", "--out", tmp_path)
