@@ -11,9 +11,10 @@ A :class:`rigid.Scene` goes in, a :class:`FlexibleMotion` comes out::
 In the order in which they build on each other:
 
 ``ring``      its elasticity and inertia, from the mesh to modes and static compliance
+``chain``     the same as parts between rigid sections that turn and move far
 ``contact``   points of the rim near the floor, the foundation under them, friction along it: a law is one file of
               ``contact.laws``, which also says which rigid hoop the flexible one becomes as its stiffness grows
-``models``    a hoop that can be moved in time: reduced, all nodes, geometrically exact
+``models``    a hoop that can be moved in time: reduced, all nodes, geometrically exact, chain
 ``time``      one implicit step; adaptive steps with located events
 ``handover``  where a flexible segment begins: in the equilibrium of a rigid motion
 ``solve``     simulate(scene); ``builder`` what a motion is put together from, ``segment`` records read as phases and

@@ -17,6 +17,7 @@ from rigid import Kind, Motion, Side
 from .contact.laws.law import Rolling
 from .contact.points.data import NOTHING, no_bristles
 from .contact.points.rim import lift, sideways, upward
+from .models.chain import ChainHoop
 from .models.equilibrium import Patch, settle
 from .models.full import FullHoop
 from .models.reduced import ReducedHoop
@@ -24,7 +25,7 @@ from .models.state import State
 from .time.tr_bdf2 import MarchError, restart
 
 Array = NDArray[np.float64]
-Hoop = ReducedHoop | FullHoop
+Hoop = ReducedHoop | FullHoop | ChainHoop
 
 # Time between the equilibria of which rates are made, in the time in which the forces change. Its square is the error
 # of the rates; a shorter one sees how the patch's height ripples as point after point comes to bear (measured at a

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rigid import Motion, Phase, Pulse
 
 if TYPE_CHECKING:
+    from .models.chain import ChainHoop
     from .models.full import FullHoop
     from .models.reduced import ReducedHoop
     from .models.state import State
@@ -96,7 +97,7 @@ class History:
 class Kept:
     """States of the ring at every accepted step of one flexible segment, in the solver's units (R = m = g = 1)."""
 
-    hoop: ReducedHoop | FullHoop
+    hoop: ReducedHoop | FullHoop | ChainHoop
     states: tuple[State, ...]
 
     def __repr__(self) -> str:

@@ -127,9 +127,9 @@ class Solve:
 
     Parameters
     ----------
-    level : {"auto", "reduced", "full", "exact"}
-        Reduced modes with static correction, every node of the ring, or the geometrically exact ring;
-        "auto" takes the cheapest that the scene allows.
+    level : {"auto", "reduced", "full", "exact", "chain"}
+        Reduced modes with static correction, every node of the ring, every node of the geometrically exact ring, or a
+        chain of parts that bend and turn far; "auto" takes one of the first and third that the scene allows.
     resolve : {"pulses", "all"}
         Flexible inside the pulses only, with the rigid closed form between them, or flexible throughout.
     start : {"equilibrium", "undeformed"}
@@ -147,7 +147,7 @@ class Solve:
     elements: int = 240
 
     def __post_init__(self) -> None:
-        require_choice("solve.level", self.level, ("auto", "reduced", "full", "exact"))
+        require_choice("solve.level", self.level, ("auto", "reduced", "full", "exact", "chain"))
         require_choice("solve.resolve", self.resolve, ("pulses", "all"))
         require_choice("solve.start", self.start, ("equilibrium", "undeformed"))
         require("solve.rtol", self.rtol, 1e-12, 0.5, "the tolerance lies between 1e-12 and 0.5")

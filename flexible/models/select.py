@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 
 from rigid import Scene
 
+from .chain import ChainHoop
 from .exact import ExactHoop
 from .full import FullHoop
 from .reduced import ReducedHoop
 from .state import State
 
 Array = NDArray[np.float64]
-Hoop = ReducedHoop | FullHoop
+Hoop = ReducedHoop | FullHoop | ChainHoop
 
 #: E I/(m g R^2) below which "auto" takes the exact ring. In a pulse that begins undeformed at phi = 2.9 with
 #: phidot = 4 (k = 0.1, r = 1.02, m_h/m = 0.1; E I/(m g R^2) = 0.63 for E b R/(m g) = 1e6) linear and exact part in
@@ -36,6 +37,8 @@ def hoop_of(scene: Scene) -> Hoop:
         level = "exact" if scene.ring.bending_stiffness < SOFT else "reduced"
     if level == "reduced":
         return ReducedHoop(scene)
+    if level == "chain":
+        return ChainHoop(scene)
     return ExactHoop(scene) if level == "exact" else FullHoop(scene)
 
 
@@ -44,7 +47,7 @@ class Range:
 
     def __init__(self, hoop: Hoop) -> None:
         self.hoop = hoop
-        self.linear = not isinstance(hoop, ExactHoop)
+        self.linear = not isinstance(hoop, ExactHoop | ChainHoop)
         self.furthest = 0.0
         self.phi = 0.0
 

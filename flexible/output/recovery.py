@@ -21,7 +21,9 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from meshes import gauss_gradient, nodal_gradient
+from rigid import SceneError
 
+from ..models.chain import ChainHoop
 from ..models.exact import ExactHoop
 from ..models.full import FullHoop
 from ..models.reduced import ReducedHoop
@@ -167,8 +169,16 @@ class ExactInterior(Interior):
         return np.stack([turned[:, 0, 0], turned[:, 1, 1], turned[:, 0, 1]], axis=1)
 
 
-def interior_of(hoop: ReducedHoop | FullHoop) -> Interior:
-    """The interior of a hoop of any level."""
+def interior_of(hoop: ReducedHoop | FullHoop | ChainHoop) -> Interior:
+    """The interior of a hoop of any level but the chain, which knows only its sections and its rim.
+
+    Raises
+    ------
+    SceneError
+        The hoop is a chain.
+    """
+    if isinstance(hoop, ChainHoop):
+        raise SceneError("solve.level = 'chain' has no fields inside the ring: use 'exact' for a series of them.")
     mass = hoop.scene.hoop.mass_ratio
     if isinstance(hoop, ReducedHoop):
         return ReducedInterior(hoop.ring, mass)

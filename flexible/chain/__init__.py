@@ -1,0 +1,12 @@
+"""The ring as a chain of parts between rigid sections: geometrically exact, at the price of the reduced one.
+
+``section``    what a section and the two ends at the weld give way, measured on scikit-fem's quads
+``corotated``  parts that turn and move far
+``rim``        which follows them
+``inertia``    of the sections, in the frame that floats on the disk
+``ring``       the chain of a scene, and the compliance of its wall that a chain lacks
+``bordered``   the matrix of it all, eliminated down to a small core
+``whole``      frame and chain as one vector
+``touch``      the rim at the floor
+``stage``      one implicit stage
+"""

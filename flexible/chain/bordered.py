@@ -1,0 +1,269 @@
+"""A cyclic block-tridiagonal matrix with a border, in compiled code: the chain of sections, the frame, the floor.
+
+Sections near the floor are *kept*, and so is the first one: with the frame and the rim they make a small dense system,
+the core. All others are eliminated before, in runs from one kept section to the next, which border on the one at their
+beginning as they border on the frame. It is the first section for all runs, unless the kept ones lie on both sides of
+the weld and leave a single run.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid.kernel.compile import jit
+
+Array = NDArray[np.float64]
+FRAME = 3
+
+
+class Blocks(NamedTuple):
+    """Newton's matrix; sections are counted from 0 to n + 1, of which both ends are held.
+
+    Attributes
+    ----------
+    diagonal : (n + 2, 3, 3) array
+    up, down : (n + 1, 3, 3) arrays
+        Row i, column i + 1; and row i + 1, column i. Behind the last free section n comes the first.
+    columns, rows : (n + 2, 3, 6), (n + 2, 6, 3) arrays
+        Border: the frame, then a kept section (filled in by the elimination).
+    corner : (6, 6) array
+    """
+
+    diagonal: Array
+    up: Array
+    down: Array
+    columns: Array
+    rows: Array
+    corner: Array
+
+
+class Factors(NamedTuple):
+    """What is left of a matrix after the elimination.
+
+    Attributes
+    ----------
+    order : (m, 2) int array
+        Eliminated sections in turn, and the section that each is passed on to.
+    inverse, ahead, beside, back : (m, 3, 3), (m, 3, 3), (m, 3, 6), (m, 3, 3) arrays
+        Inverse of the pivot; it times the block ahead and times the border; the block back from there.
+    rows : (m, 6, 3) array
+        Border below.
+    kept : (k,) int array
+        Kept sections.
+    far : int
+        Place in ``kept`` of the one in the border.
+    core : (3 + 3 k + r, 3 + 3 k + r) array
+        Frame, kept sections, and whatever else the caller adds.
+    """
+
+    order: Any
+    inverse: Array
+    ahead: Array
+    beside: Array
+    back: Array
+    rows: Array
+    kept: Any
+    far: int
+    core: Array
+
+
+@jit
+def no_blocks(sections: int) -> Any:
+    """All zero, for this number of sections, ends included."""
+    return Blocks(
+        np.zeros((sections, 3, 3)),
+        np.zeros((sections - 1, 3, 3)),
+        np.zeros((sections - 1, 3, 3)),
+        np.zeros((sections, 3, 6)),
+        np.zeros((sections, 6, 3)),
+        np.zeros((6, 6)),
+    )
+
+
+@jit
+def _invert(matrix: Any, at: int, inverse: Any, to: int) -> None:
+    """Inverse of a 3 x 3 block."""
+    a, b, c = matrix[at, 0, 0], matrix[at, 0, 1], matrix[at, 0, 2]
+    d, e, f = matrix[at, 1, 0], matrix[at, 1, 1], matrix[at, 1, 2]
+    g, h, k = matrix[at, 2, 0], matrix[at, 2, 1], matrix[at, 2, 2]
+    first, second, third = e * k - f * h, f * g - d * k, d * h - e * g
+    scale = 1 / (a * first + b * second + c * third)
+    inverse[to, 0, 0], inverse[to, 1, 0], inverse[to, 2, 0] = first * scale, second * scale, third * scale
+    inverse[to, 0, 1], inverse[to, 1, 1], inverse[to, 2, 1] = (
+        (c * h - b * k) * scale,
+        (a * k - c * g) * scale,
+        (b * g - a * h) * scale,
+    )
+    inverse[to, 0, 2], inverse[to, 1, 2], inverse[to, 2, 2] = (
+        (b * f - c * e) * scale,
+        (c * d - a * f) * scale,
+        (a * e - b * d) * scale,
+    )
+
+
+@jit
+def _eliminate(blocks: Any, i: int, here: int, there: int, factors: Any) -> None:
+    """Eliminate one section: what it leaves for later, and what it adds to the next one and to the border."""
+    diagonal, columns, rows, corner = blocks.diagonal, blocks.columns, blocks.rows, blocks.corner
+    inverse, ahead, beside, back, below = factors
+    forth, at = (blocks.up, here) if there > here else (blocks.down, there)
+    return_way = blocks.down if there > here else blocks.up
+    _invert(diagonal, here, inverse, i)
+    for a in range(3):
+        for b in range(3):
+            back[i, a, b] = return_way[at, a, b]
+            ahead[i, a, b] = 0.0
+        for b in range(6):
+            below[i, b, a] = rows[here, b, a]
+            beside[i, a, b] = 0.0
+        for c in range(3):
+            value = inverse[i, a, c]
+            for b in range(3):
+                ahead[i, a, b] += value * forth[at, c, b]
+            for b in range(6):
+                beside[i, a, b] += value * columns[here, c, b]
+    for a in range(3):
+        for c in range(3):
+            value = back[i, a, c]
+            for b in range(3):
+                diagonal[there, a, b] -= value * ahead[i, c, b]
+            for b in range(6):
+                columns[there, a, b] -= value * beside[i, c, b]
+    for a in range(6):
+        for c in range(3):
+            value = below[i, a, c]
+            for b in range(3):
+                rows[there, a, b] -= value * ahead[i, c, b]
+            for b in range(6):
+                corner[a, b] -= value * beside[i, c, b]
+
+
+@jit
+def _turns(keeps: Any) -> tuple[Any, int]:
+    """Order of elimination, and the kept section that all runs begin at; section 1 must be kept."""
+    n = keeps.shape[0] - 2
+    order = np.empty((n, 2), np.int64)
+    count, far, last = 0, 1, n
+    while not keeps[last]:  # back from the last section, behind which comes the first
+        order[count, 0], order[count, 1] = last, last - 1
+        count += 1
+        last -= 1
+    for i in range(2, last):
+        if not keeps[i]:
+            if keeps[i - 1]:
+                far = i - 1
+            order[count, 0], order[count, 1] = i, i + 1
+            count += 1
+    return order[:count], far
+
+
+@jit
+def factor(blocks: Any, keeps: Any, rest: int) -> Any:
+    """Eliminate all sections but those flagged; ``rest`` unknowns of the core are left to the caller.
+
+    The blocks are used up.
+    """
+    n = keeps.shape[0] - 2
+    order, far = _turns(keeps)
+    m = order.shape[0]
+    inverse, ahead, back = np.empty((m, 3, 3)), np.empty((m, 3, 3)), np.empty((m, 3, 3))
+    beside, below = np.empty((m, 3, 6)), np.empty((m, 6, 3))
+    for i in range(m):
+        here, there = order[i, 0], order[i, 1]
+        if there > here and here == far + 1:
+            blocks.columns[here, :, FRAME:] = blocks.down[far]
+            blocks.rows[here, FRAME:, :] = blocks.up[far]
+        elif here == n:
+            blocks.columns[here, :, FRAME:] = blocks.up[n]
+            blocks.rows[here, FRAME:, :] = blocks.down[n]
+        _eliminate(blocks, i, here, there, (inverse, ahead, beside, back, below))
+    kept = np.flatnonzero(keeps)
+    core = np.zeros((FRAME + 3 * kept.shape[0] + rest, FRAME + 3 * kept.shape[0] + rest))
+    core[:FRAME, :FRAME] = blocks.corner[:FRAME, :FRAME]
+    place = 0
+    for k in range(kept.shape[0]):
+        i, at = kept[k], FRAME + 3 * k
+        core[at : at + 3, at : at + 3] = blocks.diagonal[i]
+        core[at : at + 3, :FRAME] = blocks.columns[i, :, :FRAME]
+        core[:FRAME, at : at + 3] = blocks.rows[i, :FRAME, :]
+        if k > 0 and kept[k - 1] == i - 1:
+            core[at : at + 3, at - 3 : at] = blocks.down[i - 1]
+            core[at - 3 : at, at : at + 3] = blocks.up[i - 1]
+        if i == n:
+            core[at : at + 3, FRAME : FRAME + 3] += blocks.up[n]
+            core[FRAME : FRAME + 3, at : at + 3] += blocks.down[n]
+        if i == far:
+            place = k
+    f = slice(FRAME + 3 * place, FRAME + 3 * place + 3)
+    for k in range(kept.shape[0]):
+        here = slice(FRAME + 3 * k, FRAME + 3 * k + 3)
+        core[here, f] += blocks.columns[kept[k], :, FRAME:]
+        core[f, here] += blocks.rows[kept[k], FRAME:, :]
+    core[f, f] += blocks.corner[FRAME:, FRAME:]
+    core[:FRAME, f] += blocks.corner[:FRAME, FRAME:]
+    core[f, :FRAME] += blocks.corner[FRAME:, :FRAME]
+    return Factors(order, inverse, ahead, beside, back, below, kept, place, core)
+
+
+@jit
+def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]:
+    """Solve for one right-hand side: frame (3,), sections (n + 2, 3), rest (r,); the solution as (3 + 3 n,) and (r,).
+
+    Raises
+    ------
+    LinAlgError
+        The core is singular.
+    """
+    order, kept, far = factors.order, factors.kept, factors.far
+    inverse, ahead, beside, back, below = (
+        factors.inverse, factors.ahead, factors.beside, factors.back, factors.rows,
+    )  # fmt: skip
+    size, m = factors.core.shape[0], order.shape[0]
+    border = np.zeros(6)
+    right = sections.copy()
+    for i in range(m):
+        here, there = order[i, 0], order[i, 1]
+        for a in range(3):
+            pivot = inverse[i, a, 0] * right[here, 0] + inverse[i, a, 1] * right[here, 1]
+            pivot += inverse[i, a, 2] * right[here, 2]
+            for b in range(3):
+                right[there, b] -= back[i, b, a] * pivot
+            for b in range(6):
+                border[b] -= below[i, b, a] * pivot
+    known = np.zeros(size)
+    for a in range(FRAME):
+        known[a] = frame[a] + border[a]
+    for k in range(kept.shape[0]):
+        for a in range(3):
+            known[FRAME + 3 * k + a] = right[kept[k], a]
+            if k == far:
+                known[FRAME + 3 * k + a] += border[FRAME + a]
+    after = FRAME + 3 * kept.shape[0]
+    for a in range(rest.shape[0]):
+        known[after + a] = rest[a]
+    found = np.linalg.solve(factors.core, known)
+    x = np.zeros(right.shape)
+    for k in range(kept.shape[0]):
+        for a in range(3):
+            x[kept[k], a] = found[FRAME + 3 * k + a]
+    border[:FRAME] = found[:FRAME]
+    border[FRAME:] = x[kept[far]]
+    for j in range(m):
+        i = m - 1 - j
+        here, there = order[i, 0], order[i, 1]
+        for a in range(3):
+            value = 0.0
+            for b in range(3):
+                value += inverse[i, a, b] * right[here, b] - ahead[i, a, b] * x[there, b]
+            for b in range(6):
+                value -= beside[i, a, b] * border[b]
+            x[here, a] = value
+    vector = np.empty(FRAME + 3 * (x.shape[0] - 2))
+    vector[:FRAME] = found[:FRAME]
+    for i in range(1, x.shape[0] - 1):
+        for a in range(3):
+            vector[3 * i + a] = x[i, a]
+    return vector, found[after:].copy()

@@ -1,0 +1,186 @@
+"""Elasticity and rim of a chain of rod parts that turn and move far, in compiled code.
+
+A *section* of the ring is rigid: it moves by (u1, u2) and turns by phi, all relative to the disk's frame. A *part*
+between two sections is elastic. What deforms it is seen from its chord: the chord's elongation e and the angles that
+its two sections make with it. In these three the part is linear, since each of many parts bends little; everything
+else, however large the rotation, is geometry (corotational formulation, Crisfield 1990). Elongation and angles are made
+from displacements, so that nothing cancels:
+
+    e = (2 D.d + d.d)/(l' + l),   alpha = atan2(D x d, l^2 + D.d),   tau = phi - alpha,      d = u_2 - u_1.
+"""
+
+from __future__ import annotations
+
+from math import atan2, sqrt
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid.kernel.compile import jit
+
+Array = NDArray[np.float64]
+
+
+class Rod(NamedTuple):
+    """A ring cut into n + 1 parts by n sections; the first and the last section, 0 and n + 1, are welded to the disk.
+
+    Attributes
+    ----------
+    theta : (n + 2,) array
+        Angle of each section, ascending from one end of the weld round to the other.
+    place : (n + 2, 2) array
+        Its centre of mass, undeformed.
+    local : (n + 1, 3, 3) array
+        Stiffness of each part in (e, tau_1, tau_2).
+    across : (3, 3) array
+        Of the first part by the last one, through the wall over the weld.
+    mass, turning : (n + 2,) arrays
+        Mass of each section, and its moment of inertia about its centre of mass.
+    curve : (n + 2, 3) array
+        Weights that make dphi/dtheta at a section of phi of the one before, itself, the one behind.
+    offset : float
+        Of the rim from the centres of mass.
+    pinch : float
+        What the rim sinks where the ring bends by dphi/dtheta = 1, for a wall that is stretched gets thinner.
+    """
+
+    theta: Array
+    place: Array
+    local: Array
+    across: Array
+    mass: Array
+    turning: Array
+    curve: Array
+    offset: float
+    pinch: float
+
+
+@jit
+def chord(rod: Any, q: Any, p: int) -> Any:
+    """Direction and length of a part's chord, and the three strains of the part."""
+    a1, a2 = rod.place[p + 1, 0] - rod.place[p, 0], rod.place[p + 1, 1] - rod.place[p, 1]
+    d1, d2 = q[p + 1, 0] - q[p, 0], q[p + 1, 1] - q[p, 1]
+    dot, square = a1 * d1 + a2 * d2, a1 * a1 + a2 * a2
+    x1, x2 = a1 + d1, a2 + d2
+    now = sqrt(x1 * x1 + x2 * x2)
+    alpha = atan2(a1 * d2 - a2 * d1, square + dot)
+    longer = (2 * dot + d1 * d1 + d2 * d2) / (now + sqrt(square))
+    return x1 / now, x2 / now, now, np.array([longer, q[p, 2] - alpha, q[p + 1, 2] - alpha])
+
+
+@jit
+def _strained(local: Any, strain: Any, stress: Any) -> None:
+    """Add the stress of a strain."""
+    for i in range(3):
+        for j in range(3):
+            stress[i] += local[i, j] * strain[j]
+
+
+@jit
+def directions(t1: float, t2: float, now: float, by: Any) -> None:
+    """Derivatives (3, 6) of the strains of a part by the coordinates of its sections."""
+    by[:] = 0.0
+    by[0, 0], by[0, 1], by[0, 3], by[0, 4] = -t1, -t2, t1, t2
+    for i in (1, 2):
+        by[i, 0], by[i, 1], by[i, 3], by[i, 4] = -t2 / now, t1 / now, t2 / now, -t1 / now
+    by[1, 2] = by[2, 5] = 1.0
+
+
+@jit
+def _stiffen(t1: float, t2: float, now: float, stress: Any, local: Any, by: Any, tangent: Any) -> None:
+    """Second derivatives (6, 6) of a part's energy."""
+    for k in range(6):
+        for m in range(6):
+            tangent[m, k] = 0.0
+        for i in range(3):
+            value = local[i, 0] * by[0, k] + local[i, 1] * by[1, k] + local[i, 2] * by[2, k]
+            for m in range(6):
+                tangent[m, k] += by[i, m] * value
+    pull, turn = stress[0] / now, (stress[1] + stress[2]) / (now * now)
+    g11 = pull * t2 * t2 - 2 * turn * t1 * t2
+    g12 = -pull * t1 * t2 + turn * (t1 * t1 - t2 * t2)
+    g22 = pull * t1 * t1 + 2 * turn * t1 * t2
+    for a in (0, 3):
+        for b in (0, 3):
+            sign = 1.0 if a == b else -1.0
+            tangent[a, b] += sign * g11
+            tangent[a, b + 1] += sign * g12
+            tangent[a + 1, b] += sign * g12
+            tangent[a + 1, b + 1] += sign * g22
+
+
+@jit
+def elastic(rod: Any, q: Any, force: Any, diagonal: Any, up: Any, down: Any) -> float:
+    """Strain energy of the chain; its forces and its tangent are added.
+
+    Parameters
+    ----------
+    rod : Rod
+    q : (n + 2, 3) array
+        Displacement and rotation of all sections; those of the weld are zero.
+    force : (n + 2, 3) array
+    diagonal : (n + 2, 3, 3) array
+    up, down : (n + 1, 3, 3) arrays
+        Derivatives of the forces on section i by i + 1, and on i + 1 by i; those behind n are on n by 1, and on 1 by n.
+    """
+    energy = 0.0
+    last = rod.local.shape[0] - 1
+    by, tangent = np.empty((3, 6)), np.empty((6, 6))
+    for p in range(last + 1):
+        t1, t2, now, strain = chord(rod, q, p)
+        stress = np.zeros(3)
+        _strained(rod.local[p], strain, stress)
+        if p == 0:
+            _strained(rod.across, chord(rod, q, last)[3], stress)
+        elif p == last:
+            _strained(rod.across.T, chord(rod, q, 0)[3], stress)
+        directions(t1, t2, now, by)
+        _stiffen(t1, t2, now, stress, rod.local[p], by, tangent)
+        for i in range(3):
+            energy += strain[i] * stress[i] / 2
+            for k in range(3):
+                force[p, k] += by[i, k] * stress[i]
+                force[p + 1, k] += by[i, 3 + k] * stress[i]
+        for i in range(3):
+            for j in range(3):
+                diagonal[p, i, j] += tangent[i, j]
+                diagonal[p + 1, i, j] += tangent[3 + i, 3 + j]
+                if 0 < p < last:
+                    up[p, i, j] += tangent[i, 3 + j]
+                    down[p, i, j] += tangent[3 + i, j]
+    _add_across(rod, q, up[last], down[last])
+    return energy
+
+
+@jit
+def strain_energy(rod: Any, q: Any) -> float:
+    """Strain energy of the chain, see :func:`elastic`."""
+    energy = 0.0
+    last = rod.local.shape[0] - 1
+    for p in range(last + 1):
+        strain = chord(rod, q, p)[3]
+        stress = np.zeros(3)
+        _strained(rod.local[p], strain, stress)
+        if p == 0:
+            _strained(2 * rod.across, chord(rod, q, last)[3], stress)
+        energy += (strain[0] * stress[0] + strain[1] * stress[1] + strain[2] * stress[2]) / 2
+    return energy
+
+
+@jit
+def _add_across(rod: Any, q: Any, up: Any, down: Any) -> None:
+    """What the last section feels of the first, and the first of the last."""
+    last = rod.local.shape[0] - 1
+    first, final = np.empty((3, 6)), np.empty((3, 6))
+    t1, t2, now, _ = chord(rod, q, 0)
+    directions(t1, t2, now, first)
+    t1, t2, now, _ = chord(rod, q, last)
+    directions(t1, t2, now, final)
+    for i in range(3):
+        for j in range(3):
+            for a in range(3):
+                for b in range(3):
+                    value = first[i, 3 + a] * rod.across[i, j] * final[j, b]
+                    down[a, b] += value
+                    up[b, a] += value

@@ -1,0 +1,223 @@
+"""Inertia of the disk and of the ring's sections in the frame that floats on the disk.
+
+The frame and its unknowns are those of :mod:`flexible.ring.frame`. The ring's mass sits at its sections, at their
+centres of mass y = Y + u, where it turns as well; that of the weld and the half parts beside it belongs to the frame.
+Per unit mass the force on a section is
+
+    A + alpha J y + 2 omega J u' - omega^2 y + u'',        and the moment alpha + phi'' about its centre,
+
+so that inertia is linear in the sections' rates, however far they turn.
+"""
+
+from __future__ import annotations
+
+from math import cos, sin
+from typing import Any, NamedTuple
+
+from rigid.kernel.compile import jit
+
+from .corotated import Rod
+
+
+class Body(NamedTuple):
+    """What moves with the frame.
+
+    Attributes
+    ----------
+    offset, disk_inertia : float
+        Of the disk's centre from C; about itself (m = 1).
+    weld_mass, weld_moment, weld_inertia : float
+        Of the ring at the weld: mass, first moment along y1 and moment of inertia about C.
+    ring_mass : float
+        All of the ring.
+    """
+
+    offset: float
+    disk_inertia: float
+    weld_mass: float
+    weld_moment: float
+    weld_inertia: float
+    ring_mass: float
+
+
+class Chain(NamedTuple):
+    """All that moves: frame and sections."""
+
+    body: Body
+    rod: Rod
+
+
+@jit
+def _disk(body: Any, pos: Any, vel: Any, acc: Any, beta: float, corner: Any, frame: Any) -> None:
+    """Add what belongs to the disk."""
+    offset = body.offset
+    s, c = sin(pos[2]), cos(pos[2])
+    w, alpha = vel[2], acc[2]
+    ax, ay = acc[0] + alpha, acc[1] + 1.0
+    r1, r2 = 1 / beta, 1 / beta**2
+    dx = ax + offset * (alpha * c - w * w * s)
+    dy = ay - offset * (alpha * s + w * w * c)
+    dx_phi = offset * (-alpha * s - w * w * c - 2 * w * s * r1 + c * r2) + r2
+    dy_phi = -offset * (alpha * c - w * w * s + 2 * w * c * r1 + s * r2)
+    lever = 1 + offset * c
+    frame[0] += dx
+    frame[1] += dy
+    frame[2] += dx * lever - dy * offset * s + body.disk_inertia * alpha
+    corner[0, 0] += r2
+    corner[0, 2] += dx_phi
+    corner[1, 1] += r2
+    corner[1, 2] += dy_phi
+    corner[2, 0] += lever * r2
+    corner[2, 1] -= offset * s * r2
+    corner[2, 2] += dx_phi * lever - (dx + dy_phi) * offset * s - dy * offset * c + body.disk_inertia * r2
+
+
+@jit
+def inertia(chain: Any, pose: Any, rates: Any, changes: Any, beta: float, blocks: Any, frame: Any, force: Any) -> None:
+    """Add inertial forces and gravity, and their derivatives by an increment, see :func:`flexible.ring.frame.inertia`.
+
+    Parameters
+    ----------
+    chain : Chain
+    pose, rates, changes : tuples
+        (V, h, phi) and (n + 2, 3) of the sections; their velocities and accelerations.
+    beta : float
+    blocks : Blocks
+        Of which diagonal, columns, rows and corner are added to.
+    frame, force : (3,), (n + 2, 3) arrays
+        Generalised forces on the frame, forces and moment on the sections.
+    """
+    body, rod = chain
+    (pos, q), (vel, qv), (acc, qa) = pose, rates, changes
+    _disk(body, pos, vel, acc, beta, blocks.corner, frame)
+    if body.ring_mass == 0:
+        return
+    corner = blocks.corner
+    s, c = sin(pos[2]), cos(pos[2])
+    w, alpha = vel[2], acc[2]
+    ax, ay = acc[0] + alpha, acc[1] + 1.0
+    r1, r2 = 1 / beta, 1 / beta**2
+    a1, a2 = ax * s + ay * c, ax * c - ay * s
+    a1_phi, a2_phi = a2 + s * r2, -a1 + c * r2
+    # force along y1, y2 and moment about C of the whole ring, and derivatives by phi; then by V and h, with A alone
+    f1 = body.weld_mass * a1 - w * w * body.weld_moment
+    f2 = body.weld_mass * a2 + alpha * body.weld_moment
+    moment = body.weld_moment * a2 + body.weld_inertia * alpha
+    f1_phi = body.weld_mass * a1_phi - 2 * w * r1 * body.weld_moment
+    f2_phi = body.weld_mass * a2_phi + r2 * body.weld_moment
+    moment_phi = body.weld_moment * a2_phi + body.weld_inertia * r2
+    sum1, sum2 = body.weld_moment, 0.0
+    own, across = r2 - w * w, alpha + 2 * w * r1
+    diagonal, columns, rows = blocks.diagonal, blocks.columns, blocks.rows
+    mass, turning, place = rod.mass, rod.turning, rod.place
+    for i in range(1, mass.shape[0] - 1):
+        m, j = mass[i], turning[i]
+        y1, y2 = place[i, 0] + q[i, 0], place[i, 1] + q[i, 1]
+        v1, v2 = qv[i, 0], qv[i, 1]
+        p1 = m * (a1 - alpha * y2 - 2 * w * v2 - w * w * y1 + qa[i, 0])
+        p2 = m * (a2 + alpha * y1 + 2 * w * v1 - w * w * y2 + qa[i, 1])
+        p3 = j * (alpha + qa[i, 2])
+        p1_phi = m * (a1_phi - r2 * y2 - 2 * r1 * v2 - 2 * w * r1 * y1)
+        p2_phi = m * (a2_phi + r2 * y1 + 2 * r1 * v1 - 2 * w * r1 * y2)
+        force[i, 0] += p1
+        force[i, 1] += p2
+        force[i, 2] += p3
+        f1 += p1
+        f2 += p2
+        moment += y1 * p2 - y2 * p1 + p3
+        f1_phi += p1_phi
+        f2_phi += p2_phi
+        moment_phi += y1 * p2_phi - y2 * p1_phi + j * r2
+        sum1 += m * y1
+        sum2 += m * y2
+        diagonal[i, 0, 0] += m * own
+        diagonal[i, 1, 1] += m * own
+        diagonal[i, 0, 1] -= m * across
+        diagonal[i, 1, 0] += m * across
+        diagonal[i, 2, 2] += j * r2
+        columns[i, 0, 0] += m * s * r2
+        columns[i, 1, 0] += m * c * r2
+        columns[i, 0, 1] += m * c * r2
+        columns[i, 1, 1] -= m * s * r2
+        columns[i, 0, 2] += p1_phi
+        columns[i, 1, 2] += p2_phi
+        columns[i, 2, 2] += j * r2
+        # by u1: (p1, p2) change by m (own, across), by u2: by m (-across, own)
+        gx = m * (own * s + across * c)
+        rows[i, 0, 0] += gx
+        rows[i, 1, 0] += m * (own * c - across * s)
+        rows[i, 2, 0] += gx + m * (y1 * across - y2 * own) + p2
+        gx = m * (own * c - across * s)
+        rows[i, 0, 1] += gx
+        rows[i, 1, 1] -= m * (across * c + own * s)
+        rows[i, 2, 1] += gx + m * (y1 * own + y2 * across) - p1
+        rows[i, 2, 2] += j * r2
+    fx, fy = f1 * s + f2 * c, f1 * c - f2 * s
+    frame[0] += fx
+    frame[1] += fy
+    frame[2] += fx + moment
+    for k in range(2):
+        b1, b2 = (s * r2, c * r2) if k == 0 else (c * r2, -s * r2)
+        gx = body.ring_mass * (b1 * s + b2 * c)
+        corner[0, k] += gx
+        corner[1, k] += body.ring_mass * (b1 * c - b2 * s)
+        corner[2, k] += gx + sum1 * b2 - sum2 * b1
+    fx_phi = f1_phi * s + f2_phi * c + fy
+    corner[0, 2] += fx_phi
+    corner[1, 2] += f1_phi * c - f2_phi * s - fx
+    corner[2, 2] += fx_phi + moment_phi
+
+
+@jit
+def energies(chain: Any, pos: Any, q: Any, vel: Any, qv: Any) -> tuple[float, float]:
+    """Kinetic energy and gravity (0 with the hoop's centre at the floor)."""
+    body, rod = chain
+    offset = body.offset
+    s, c = sin(pos[2]), cos(pos[2])
+    w = vel[2]
+    vx, vy = vel[0] + w, vel[1]
+    dx, dy = vx + offset * w * c, vy - offset * w * s
+    kinetic = (dx * dx + dy * dy + body.disk_inertia * w * w) / 2
+    height = 1 + pos[1]
+    gravity = height + offset * c
+    if body.ring_mass == 0:
+        return kinetic, gravity
+    c1, c2 = vx * s + vy * c, vx * c - vy * s
+    kinetic += body.weld_mass * (vx * vx + vy * vy) / 2 + body.weld_moment * c2 * w + body.weld_inertia * w * w / 2
+    gravity += body.weld_mass * height + body.weld_moment * c
+    for i in range(1, rod.mass.shape[0] - 1):
+        y1, y2 = rod.place[i, 0] + q[i, 0], rod.place[i, 1] + q[i, 1]
+        v1, v2 = c1 + qv[i, 0] - w * y2, c2 + qv[i, 1] + w * y1
+        spin = w + qv[i, 2]
+        kinetic += (rod.mass[i] * (v1 * v1 + v2 * v2) + rod.turning[i] * spin * spin) / 2
+        gravity += rod.mass[i] * (height + y1 * c - y2 * s)
+    return kinetic, gravity
+
+
+@jit
+def momenta(chain: Any, pos: Any, q: Any, error: Any, qe: Any, frame: Any, force: Any) -> None:
+    """Mass matrix times a rate: (3,), (n + 2, 3), filled in; rates of the frame are those of (V, h, phi)."""
+    body, rod = chain
+    offset = body.offset
+    s, c = sin(pos[2]), cos(pos[2])
+    ax, ay, alpha = error[0] + error[2], error[1], error[2]
+    dx, dy = ax + offset * alpha * c, ay - offset * alpha * s
+    frame[0], frame[1] = dx, dy
+    frame[2] = dx * (1 + offset * c) - dy * offset * s + body.disk_inertia * alpha
+    force[:] = 0.0
+    if body.ring_mass == 0:
+        return
+    a1, a2 = ax * s + ay * c, ax * c - ay * s
+    f1, f2 = body.weld_mass * a1, body.weld_mass * a2 + alpha * body.weld_moment
+    moment = body.weld_moment * a2 + body.weld_inertia * alpha
+    for i in range(1, rod.mass.shape[0] - 1):
+        y1, y2 = rod.place[i, 0] + q[i, 0], rod.place[i, 1] + q[i, 1]
+        force[i, 0] = rod.mass[i] * (a1 - alpha * y2 + qe[i, 0])
+        force[i, 1] = rod.mass[i] * (a2 + alpha * y1 + qe[i, 1])
+        force[i, 2] = rod.turning[i] * (alpha + qe[i, 2])
+        f1 += force[i, 0]
+        f2 += force[i, 1]
+        moment += y1 * force[i, 1] - y2 * force[i, 0] + force[i, 2]
+    frame[0] += f1 * s + f2 * c
+    frame[1] += f1 * c - f2 * s
+    frame[2] += f1 * s + f2 * c + moment

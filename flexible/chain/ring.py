@@ -1,0 +1,253 @@
+"""The ring as a chain of parts: a geometrically exact ring of a few hundred unknowns, condensed from the quads.
+
+Each part is a rod with the compliance that :mod:`flexible.chain.section` measured on the mesh, exact for the small
+bending within it; :mod:`flexible.chain.corotated` makes it turn and move far. What a rod lacks, the giving way of the
+wall right under a load on the rim, is a static compliance: that of the mesh minus that of the undeformed chain, for
+rim nodes near each other. The chain's answer to small loads on the rim is therefore that of the mesh to round-off; what
+is left is the square of the rotation within a part, the inertia of what is smaller than one, and the strain that
+is not small (a wall bent to the radius r strains by half a wall over r).
+"""
+
+from __future__ import annotations
+
+from functools import cached_property, lru_cache
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Scene
+
+from ..ring.fem import Ring, membrane_stiffness
+from ..ring.reduction import body_of
+from .bordered import no_blocks
+from .corotated import Rod, elastic
+from .inertia import Body, Chain
+from .rim import RimNodes, follow
+from .section import LOADED, RodCompliance, mass_radius, radial, rod_compliance
+
+Array = NDArray[np.float64]
+
+
+def chord_strains(one: Array, two: Array, moves: int) -> Array:
+    """(3, 3): (e, tau_1, tau_2) of a part by the coordinates of its section 1 or 2, the other one held."""
+    along = two - one
+    length = float(np.hypot(*along))
+    t1, t2 = along / length
+    sign = 2 * moves - 3
+    return np.array(
+        [
+            [sign * t1, sign * t2, 0.0],
+            [sign * t2 / length, -sign * t1 / length, 2.0 - moves],
+            [sign * t2 / length, -sign * t1 / length, moves - 1.0],
+        ]
+    )
+
+
+def in_strains(compliance: Array, by: Array) -> Array:
+    """Stiffness in the strains that coordinates make, from the compliance of these coordinates."""
+    inverse = np.linalg.inv(by)
+    stiffness = inverse.T @ np.linalg.inv(compliance) @ inverse
+    return (stiffness + stiffness.T) / 2
+
+
+def curve_weights(theta: Array) -> Array:
+    """Weights of the parabola's slope through three neighbours, (n, 3); zero at the ends."""
+    weights = np.zeros((len(theta), 3))
+    before, behind = np.diff(theta)[:-1], np.diff(theta)[1:]
+    weights[1:-1, 0] = -behind / (before * (before + behind))
+    weights[1:-1, 1] = (behind - before) / (before * behind)
+    weights[1:-1, 2] = before / (behind * (before + behind))
+    return weights
+
+
+def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
+    """The ring between the ends of the weld as a chain at E b = 1 and unit mass of the ring; ``pinch`` is left at 0."""
+    inner, weld = ring.mesh.inner / ring.mesh.outer, ring.mesh.weld_half_angle
+    theta = np.concatenate([[weld], np.linspace(compliance.weld, 2 * pi - compliance.weld, parts - 1), [2 * pi - weld]])
+    a = compliance.radius
+    place = a * np.column_stack([np.cos(theta), np.sin(theta)])
+    piece = float(theta[2] - theta[1])
+    even = in_strains(compliance.piece(piece), chord_strains(a * radial(0.0), a * radial(piece), 2))
+    by = np.zeros((6, 6))
+    by[:3, :3], by[3:, 3:] = chord_strains(place[0], place[1], 2), chord_strains(place[-2], place[-1], 1)
+    ends = in_strains(compliance.ends, by)
+    local = np.stack([ends[:3, :3], *[even] * (parts - 2), ends[3:, 3:]])
+    mass = np.zeros(parts + 1)
+    mass[1:-1] = (theta[2:] - theta[:-2]) / (4 * pi)
+    turning = mass * ((1 + inner**2) / 2 - a**2)
+    return Rod(theta, place, local, ends[:3, 3:].copy(), mass, turning, curve_weights(theta), 1 - a, 0.0)
+
+
+def make_body(scene: Scene, rod: Rod) -> Body:
+    """What of the hoop moves with the frame; together with the rod's sections it has the ring's mass and inertia."""
+    whole = body_of(scene)
+    square = (rod.place**2).sum(axis=1)
+    return Body(
+        whole.offset,
+        whole.disk_inertia,
+        float(whole.ring_mass - rod.mass.sum()),
+        float(-(rod.mass @ rod.place[:, 0])),
+        float(whole.ring_inertia - rod.mass @ square - rod.turning.sum()),
+        whole.ring_mass,
+    )
+
+
+def dense_stiffness(rod: Rod, q: Array) -> Array:
+    """Stiffness of the chain at some displacement, (3 (n + 2), 3 (n + 2))."""
+    sections = len(rod.theta)
+    blocks = no_blocks(sections)
+    elastic(rod, q, np.zeros((sections, 3)), blocks.diagonal, blocks.up, blocks.down)
+    matrix = np.zeros((sections, 3, sections, 3))
+    i = np.arange(sections)
+    matrix[i, :, i, :] = blocks.diagonal
+    here, there = i[:-1], np.append(i[1:-1], 1)  # behind the last free section comes the first
+    matrix[here, :, there, :] += blocks.up
+    matrix[there, :, here, :] += blocks.down
+    return matrix.reshape(3 * sections, 3 * sections)
+
+
+def rim_matrix(rod: Rod, q: Array, nodes: RimNodes) -> tuple[Array, Array]:
+    """Displacement of nodes of the rim, (m, 2), and its derivatives by the free sections, (2 m, 3 n)."""
+    moved, by, _ = follow(rod, q, nodes)
+    matrix = np.zeros((len(moved), 2, len(rod.theta) + 2, 3))
+    for k, part in enumerate(nodes.part):
+        if part >= 0:
+            matrix[k, :, part : part + 4] = by[k, :, :12].reshape(2, 4, 3)
+        matrix[k, :, 2] += by[k, :, 12:15]
+        matrix[k, :, -3] += by[k, :, 15:]
+    return moved, matrix[:, :, 2:-2].reshape(2 * len(moved), -1)
+
+
+class _Shape:
+    """What of a chain depends on its shape alone: at E b = 1 and unit mass."""
+
+    def __init__(self, ring: Ring, parts: int) -> None:
+        mesh = ring.mesh
+        self.ring = ring
+        self.compliance = rod_compliance(ring, 2 * (pi - mesh.weld_half_angle) / parts)
+        self.rod = make_rod(self.compliance, ring, parts)
+        theta = mesh.rim_theta % (2 * pi)
+        inside = np.abs(mesh.rim_theta) > mesh.weld_half_angle
+        part = np.clip(np.searchsorted(self.rod.theta, theta, side="right") - 1, 0, parts - 1)
+        xi = (theta - self.rod.theta[part]) / np.diff(self.rod.theta)[part]
+        self.still = np.zeros((parts + 1, 3))
+        self.nodes = RimNodes(np.where(inside, part, -1), np.where(inside, xi, 0.0), np.zeros((len(theta), 2, 6)))
+        self._complete()
+
+    @cached_property
+    def inverse(self) -> Array:
+        """Compliance of the sections that are free."""
+        inverse = np.linalg.inv(dense_stiffness(self.rod, self.still)[3:-3, 3:-3])
+        return np.asarray(inverse, dtype=float)
+
+    def _complete(self) -> None:
+        """How the mesh's rim moves more than the chain's under loads far away; by least squares.
+
+        It sinks with the bending, which is ``pinch``, and near the weld it follows the first and the last part, which
+        is ``root``.
+        """
+        theta = self.ring.mesh.rim_theta
+        loaded = np.array([int(np.argmin(np.abs(theta - angle))) for angle in LOADED])
+        columns = (2 * loaded[:, None] + np.arange(2)).ravel()
+        moved = self.ring.rim_block(np.arange(2 * len(theta)), columns)
+        turned = self.inverse @ rim_matrix(self.rod, self.still, self.nodes)[1][columns].T
+        misfit = (moved - rim_matrix(self.rod, self.still, self.nodes)[1] @ turned).reshape(len(theta), 2, 6)
+        clear = np.flatnonzero((np.abs(theta) > LOADED[0] / 4) & (np.abs(theta) < LOADED[0] * 0.8))
+        outward = np.stack([np.cos(theta[clear]), np.sin(theta[clear])], axis=1)
+        sunk = -np.einsum("ni,nim->nm", outward, misfit[clear])
+        bend = np.gradient(turned.reshape(-1, 3, 6)[:, 2], self.rod.theta[1:-1], axis=0)
+        at = theta[clear] % (2 * pi)
+        there = np.stack([np.interp(at, self.rod.theta[1:-1], column) for column in bend.T], axis=1)
+        self.rod = self.rod._replace(pinch=float((sunk * there).sum() / (there * there).sum()))
+
+        turned = self.inverse @ rim_matrix(self.rod, self.still, self.nodes)[1][columns].T
+        misfit = (moved - rim_matrix(self.rod, self.still, self.nodes)[1] @ turned).reshape(len(theta), 2, 6)
+        first, last = turned[:3], turned[-3:]
+        place = self.rod.place
+        strains = [chord_strains(place[0], place[1], 2) @ first, chord_strains(place[-2], place[-1], 1) @ last]
+        root = misfit @ np.linalg.inv(np.concatenate(strains))
+        root[np.abs(theta) > self.compliance.weld] = 0.0
+        self.nodes = self.nodes._replace(root=np.ascontiguousarray(root))
+
+    @cached_property
+    def rim(self) -> Array:
+        """Displacement of the rim's nodes by the sections that are free, (2 n_rim, 3 n)."""
+        return rim_matrix(self.rod, self.still, self.nodes)[1]
+
+    @cached_property
+    def shapes(self) -> Array:
+        """Vibrations of the undeformed chain, (3 n, 3 n), the slowest first, orthonormal in the mass."""
+        weight = np.column_stack([self.rod.mass, self.rod.mass, self.rod.turning])[1:-1].ravel() ** -0.5
+        matrix = weight[:, None] * dense_stiffness(self.rod, self.still)[3:-3, 3:-3] * weight
+        return np.asarray(weight[:, None] * np.linalg.eigh(matrix)[1], dtype=float)
+
+    @cached_property
+    def missing(self) -> Array:
+        """Static displacement of the rim under unit forces on it that the chain lacks, (2 n_rim, 2 n_rim).
+
+        Right over a section the chain gives way a little more than the mesh, for a load on the rim spreads over half a
+        wall before it bends the ring. A wall does not push back: of the difference the positive part is kept.
+        """
+        lacks = self.ring.rim_compliance - self.rim @ self.inverse @ self.rim.T
+        values, vectors = np.linalg.eigh(lacks)
+        positive = values > 0
+        return (vectors[:, positive] * values[positive]) @ vectors[:, positive].T
+
+
+@lru_cache(maxsize=8)
+def _shape(ring: Ring, parts: int) -> _Shape:
+    return _Shape(ring, parts)
+
+
+class ChainRing:
+    """The chain of a scene's ring, R = m = g = 1.
+
+    Parameters
+    ----------
+    scene : Scene
+    ring : Ring
+    parts : int
+
+    Attributes
+    ----------
+    chain : Chain
+    nodes : RimNodes
+        Of the whole rim.
+    vertex : (n_elements,) array
+        Angles at which rim elements begin.
+    """
+
+    def __init__(self, scene: Scene, ring: Ring, parts: int) -> None:
+        self.shape = _shape(ring, parts)
+        self.ring = ring
+        self.stiffness = membrane_stiffness(scene)
+        unit, mass = self.shape.rod, scene.hoop.mass_ratio
+        rod = unit._replace(
+            local=unit.local * self.stiffness,
+            across=unit.across * self.stiffness,
+            mass=unit.mass * mass,
+            turning=unit.turning * mass,
+        )
+        self.chain = Chain(make_body(scene, rod), rod)
+        self.nodes = self.shape.nodes
+        self.vertex = np.ascontiguousarray(ring.mesh.rim_theta[::2])
+
+    @property
+    def sections(self) -> int:
+        """Number of sections that are free."""
+        return len(self.chain.rod.theta) - 2
+
+    def window(self, first: int, count: int) -> tuple[NDArray[np.int64], RimNodes]:
+        """Rim nodes of ``count`` elements from ``first`` on: their numbers, and what they follow."""
+        number = np.arange(2 * first, 2 * (first + count) + 1) % (2 * len(self.vertex))
+        every = self.nodes
+        return number, RimNodes(every.part[number], every.xi[number], every.root[number])
+
+    def missing(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> Array:
+        """Compliance between rim nodes that the chain lacks, (2 rows, 2 columns)."""
+        rows, columns = (np.column_stack([2 * nodes, 2 * nodes + 1]).ravel() for nodes in (rows, columns))
+        return self.shape.missing[np.ix_(rows, columns)] / self.stiffness
+
+
+__all__ = ["ChainRing", "dense_stiffness", "make_rod", "mass_radius", "rim_matrix"]

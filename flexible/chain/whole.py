@@ -1,0 +1,74 @@
+"""Frame and chain as one vector (V, h, phi, then u1, u2 and the rotation of each free section in turn)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from rigid.kernel.compile import jit
+
+from .bordered import FRAME, no_blocks, solve
+from .corotated import elastic, strain_energy
+from .inertia import energies, inertia, momenta
+
+
+@jit
+def sections(vector: Any) -> Any:
+    """Rows of the sections, those of the weld included."""
+    n = (vector.shape[0] - FRAME) // 3
+    rows = np.zeros((n + 2, 3))
+    for i in range(n):
+        for a in range(3):
+            rows[1 + i, a] = vector[FRAME + 3 * i + a]
+    return rows
+
+
+@jit
+def balance(chain: Any, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
+    """Sections, and the forces of inertia, gravity and strain: derivatives, on the frame, on the sections."""
+    q = sections(pos)
+    blocks = no_blocks(q.shape[0])
+    frame, force = np.zeros(FRAME), np.zeros(q.shape)
+    elastic(chain.rod, q, force, blocks.diagonal, blocks.up, blocks.down)
+    inertia(chain, (pos, q), (vel, sections(vel)), (acc, sections(acc)), beta, blocks, frame, force)
+    return q, blocks, frame, force
+
+
+@jit
+def held(chain: Any, pos: Any, vel: Any) -> tuple[float, float, float]:
+    """Kinetic energy, gravity and strain energy of the chain."""
+    q = sections(pos)
+    kinetic, gravity = energies(chain, pos, q, vel, sections(vel))
+    return kinetic, gravity, strain_energy(chain.rod, q)
+
+
+@jit
+def passed_on(factors: Any, chain: Any, pos: Any, error: Any, beta: float) -> Any:
+    """An error of velocities or positions as a step passes it on: (M + beta C + beta^2 K)^-1 M times it."""
+    q = sections(pos)
+    frame, force = np.empty(FRAME), np.empty(q.shape)
+    momenta(chain, pos, q, error, sections(error), frame, force)
+    rest = np.zeros(factors.core.shape[0] - FRAME - 3 * factors.kept.shape[0])
+    return solve(factors, frame / beta**2, force / beta**2, rest)[0]
+
+
+@jit
+def errors(
+    factors: Any, chain: Any, pos: Any, vel: Any, acc: Any, beta: float, error: Any, moved: Any
+) -> tuple[Any, float]:
+    """Errors of velocities and positions as the step passes them on; see :func:`flexible.models.stage.filtered_errors`.
+
+    Returns
+    -------
+    error : (3 + 3 n,) array
+        That of the velocities.
+    energy : float
+        What comes with both, beyond the work of the floor's forces.
+    """
+    rate, way = passed_on(factors, chain, pos, error, beta), passed_on(factors, chain, pos, moved, beta)
+    after = held(chain, pos + way / 2, vel + rate / 2)
+    before = held(chain, pos - way / 2, vel - rate / 2)
+    _, _, frame, force = balance(chain, pos, vel, acc, 1.0)
+    work = (frame * way[:FRAME]).sum() + (force * sections(way)).sum()
+    return rate, after[0] + after[1] + after[2] - before[0] - before[1] - before[2] - work

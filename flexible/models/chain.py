@@ -1,0 +1,213 @@
+"""The hoop whose ring is a chain of parts, see :mod:`flexible.chain`: geometrically exact, stages in compiled code."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csc_matrix
+from scipy.sparse.linalg import splu
+
+from rigid import Scene
+
+from ..chain.bordered import Factors, no_blocks
+from ..chain.corotated import elastic
+from ..chain.rim import follow
+from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
+from ..chain.stage import solve_stage
+from ..chain.touch import Facing, rise, turned
+from ..chain.whole import errors, held, sections
+from ..contact.points.data import Before, Damper, Rim
+from ..ring.fem import ring_of
+from .rim_contact import POINTS, RimContact
+from .stage import Predictor, largest
+from .state import Errors, Stage, State
+
+Array = NDArray[np.float64]
+Window = tuple[int, int]
+
+PER_PART = 1  # rim elements to a part: with two the wall's own compliance is half as large again right over a section
+THROUGH = 2  # elements through the wall of the mesh that the chain is condensed from
+SLOW = 24  # modes of the ring by whose error steps are chosen, as many as the reduced ring has
+
+
+class ChainHoop(RimContact):
+    """Frame and chain of a scene's hoop; see :class:`flexible.models.state.Model`.
+
+    ``State.pos`` is (V, h, phi, then u1, u2 and the rotation of each section in turn).
+
+    Parameters
+    ----------
+    parts : int, optional
+        Of the chain; one to ``PER_PART`` rim elements by default.
+    points, tolerance :
+        See :class:`flexible.models.rim_contact.RimContact`.
+    through : int
+        Elements through the wall of the mesh.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        parts: int | None = None,
+        points: int = POINTS,
+        tolerance: float = 1e-9,
+        through: int = THROUGH,
+    ) -> None:
+        parts = scene.solve.elements // PER_PART if parts is None else parts
+        self.ring = ChainRing(scene, ring_of(scene, through), parts)
+        super().__init__(scene, self.ring.vertex, points, tolerance)
+        self._missing: dict[Window, Array] = {}
+        self._looked = (0.0, 0.0)
+        rod = self.ring.chain.rod
+        mass = np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1].ravel()
+        #: momenta of the slow vibrations, by which steps are chosen, of a rate of the sections
+        self._slow = np.zeros((0, len(mass)))
+        if scene.hoop.mass_ratio > 0:
+            self._slow = (mass[:, None] * self.ring.shape.shapes[:, :SLOW]).T / np.sqrt(scene.hoop.mass_ratio)
+
+    @property
+    def coordinates(self) -> int:
+        """Number of coordinates of the ring in ``State.pos``."""
+        return 3 * self.ring.sections
+
+    def _lacking(self, window: Window) -> Array:
+        """Compliance of the rim nodes of a window that the chain lacks."""
+        key = (window[0] % len(self.vertex), window[1])
+        if key not in self._missing:
+            number = self.ring.window(*key)[0]
+            self._missing[key] = self.ring.missing(number, number)
+        return self._missing[key]
+
+    def displacement(self, state: State, window: Window) -> Array:
+        """Displacement of the rim nodes of a window."""
+        return state.u if window == state.window else self._beyond(state, window)[0]
+
+    def _beyond(self, state: State, window: Window) -> tuple[Array, Array]:
+        """Displacement of the rim nodes of a window, and what of it the sections do not account for."""
+        ring, q = self.ring, sections(state.pos)
+        here, nodes = ring.window(*window)
+        moved, _, turn = follow(ring.chain.rod, q, nodes)
+        if window == state.window:
+            return state.u, state.u - moved
+        if state.res.normal == 0:
+            return moved, np.zeros_like(moved)
+        there, nodes = ring.window(*state.window)
+        turn_there = follow(ring.chain.rod, q, nodes)[2]
+        gives = (turned(ring.missing(here, there), turn, turn_there) @ state.nodal.ravel()).reshape(-1, 2)
+        return moved + gives, gives
+
+    def _reach(self, pos: Array) -> tuple[float, float]:
+        """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is."""
+        ring = self.ring
+        gap, psi = rise(ring.chain.rod, sections(pos), ring.nodes, self._rim_theta, pos[2], pos[1])
+        below = psi[gap <= max(0.0, gap.min())]
+        return float(below.min()), float(below.max())
+
+    def stage(
+        self,
+        old: State,
+        mode: int,
+        damper: Damper,
+        predictor: Predictor,
+        near: Stage | None = None,
+    ) -> Stage:
+        """See :class:`flexible.models.state.Model`."""
+        ring = self.ring
+        massless = ring.chain.body.ring_mass == 0
+        if massless:  # no inertia to go by: from where the ring was
+            guess = predictor.guess.copy()
+            guess[3:] = old.pos[3:] - predictor.pos[3:]
+            predictor = predictor._replace(guess=guess)
+        expected = predictor.pos + predictor.guess
+        if near is None:
+            low, high = self._reach(expected)
+            if old.res.normal > 0:
+                low, high = min(low, old.res.low), max(high, old.res.high)
+            self._looked = low, high
+        low, high = self._looked  # both stages of a step look where the first one does
+        margin = 0.3 * (high - low) + 0.1 * self.element
+        for _ in range(4):
+            window = self.window(float(expected[2]), low, high, margin)
+            u_old, beyond = self._beyond(old, window)
+            facing = Facing(Rim(window[0], ring.vertex), ring.window(*window)[1], self._lacking(window))
+            before = Before(old.pos[:3], u_old, old.bristles)
+            iterations, d, u, factors, contact = solve_stage(
+                ring.chain, facing, self.law.parameters, mode, before, damper, predictor, (beyond, self.tolerance)
+            )
+            if iterations != -2:
+                break
+            margin = 2 * margin + self.element
+        acc = d / predictor.beta**2
+        if massless:
+            acc[3:] = 0.0
+        return Stage(iterations >= 0, d, acc, factors, window, u, contact.nodal, contact.res, contact.bristles)
+
+    def energies(self, state: State) -> tuple[float, float, float]:
+        """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
+        kinetic, gravity, strain = held(self.ring.chain, state.pos, state.vel)
+        if state.res.normal > 0:
+            strain += float((state.nodal * self._beyond(state, state.window)[1]).sum()) / 2
+        return kinetic, gravity, strain
+
+    def errors(self, state: State, beta: float, matrix: Factors, error: Array, moved: Array) -> Errors:
+        """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
+        chain = self.ring.chain
+        rate, energy = errors(matrix, chain, state.pos, state.vel, state.acc, beta, error, moved)
+        slow = np.abs(self._slow @ rate[3:]).max(initial=0.0) / (1 + chain.body.ring_mass) ** 0.5
+        return Errors(largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow])), float(energy))
+
+    def resting(self, omega: float, alpha: float, a1: float, a2: float) -> RestingChain:
+        """The ring at rest in a frame with these rates and this acceleration of C, gravity included."""
+        return RestingChain(self.ring, omega, alpha, np.array([a1, a2]))
+
+
+class RestingChain:
+    """See :class:`flexible.models.equilibrium.RestingRing`."""
+
+    def __init__(self, ring: ChainRing, omega: float, alpha: float, acceleration: Array) -> None:
+        self.ring = ring
+        rod = ring.chain.rod
+        self.coordinates = np.zeros(3 * ring.sections)
+        turn = alpha * np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]]) - omega**2 * np.diag([1.0, 1, 0])
+        y = np.column_stack([rod.place, np.ones(len(rod.mass))])[1:-1]
+        weights = np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1]
+        load = y @ turn.T + np.array([*acceleration, alpha])
+        self.load = (weights * load).ravel()
+        self.inertia = np.kron(np.diag(rod.mass[1:-1]), turn)
+
+    def _padded(self) -> Array:
+        return np.concatenate([np.zeros(3), self.coordinates, np.zeros(3)]).reshape(-1, 3)
+
+    def linearise(self, share: float) -> None:
+        """See :class:`flexible.models.equilibrium.RestingRing`."""
+        q = self._padded()
+        matrix = dense_stiffness(self.ring.chain.rod, q)[3:-3, 3:-3] + share * self.inertia
+        blocks, force = no_blocks(len(q)), np.zeros_like(q)
+        elastic(self.ring.chain.rod, q, force, blocks.diagonal, blocks.up, blocks.down)
+        self._solve = splu(csc_matrix(matrix)).solve
+        pull = force[1:-1].ravel() + share * (self.inertia @ self.coordinates + self.load)
+        self.base = self.coordinates - self._solve(pull)
+        self._known: dict[Window, tuple[Array, Array, Array, Array]] = {}
+
+    def _window(self, window: Window) -> tuple[Array, Array, Array, Array]:
+        """Of the nodes: displacement, derivatives by the sections, these' answer to forces, what the chain lacks."""
+        if window not in self._known:
+            ring, q = self.ring, self._padded()
+            number, nodes = ring.window(*window)
+            moved, rows = rim_matrix(ring.chain.rod, q, nodes)
+            turn = follow(ring.chain.rod, q, nodes)[2]
+            yields = turned(ring.missing(number, number), turn, turn)
+            self._known[window] = moved.ravel(), rows, self._solve(rows.T.copy()), yields
+        return self._known[window]
+
+    def response(self, window: Window) -> tuple[Array, Array]:
+        """See :class:`flexible.models.equilibrium.RestingRing`."""
+        moved, rows, answer, yields = self._window(window)
+        return moved + rows @ (self.base - self.coordinates), yields + rows @ answer
+
+    def move(self, window: Window, force: Array) -> float:
+        """See :class:`flexible.models.equilibrium.RestingRing`."""
+        moved = self.base + self._window(window)[2] @ force
+        change = float(np.abs(moved - self.coordinates).max() / max(np.abs(moved).max(), 1e-300))
+        self.coordinates = moved
+        return change

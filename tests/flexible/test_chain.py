@@ -1,0 +1,187 @@
+"""The hoop on a chain of parts: its inertia, free flight, equilibria and pulses against the other levels."""
+
+import numpy as np
+import pytest
+from scenes import HOOP, energy, flying, steps_of
+
+import flexible
+from flexible.chain.bordered import no_blocks
+from flexible.chain.inertia import energies, inertia, momenta
+from flexible.chain.whole import sections
+from flexible.handover import Pose, equilibrium
+from flexible.models.chain import ChainHoop
+from flexible.models.exact import ExactHoop
+from flexible.models.select import hoop_of
+from flexible.time.tr_bdf2 import restart
+from rigid import Kind
+
+COARSE = HOOP.replace(solve={"elements": 48})
+
+
+@pytest.fixture(scope="module")
+def hoop():
+    return ChainHoop(COARSE)
+
+
+def motion(hoop, seed=0, size=0.1):
+    """Position, velocity, acceleration with everything in motion."""
+    rng = np.random.default_rng(seed)
+    n = 3 + hoop.coordinates
+    pos = size * rng.standard_normal(n)
+    pos[2] = 1.1
+    return pos, rng.standard_normal(n), rng.standard_normal(n)
+
+
+def forces(hoop, pos, vel, acc, beta=1.0):
+    ring = hoop.ring
+    blocks = no_blocks(ring.sections + 2)
+    frame, force = np.zeros(3), np.zeros((ring.sections + 2, 3))
+    q, qv, qa = (sections(x) for x in (pos, vel, acc))
+    inertia(ring.chain, (pos, q), (vel, qv), (acc, qa), beta, blocks, frame, force)
+    return np.concatenate([frame, force[1:-1].ravel()]), blocks
+
+
+def test_tangent_of_the_inertia(hoop):
+    """Central differences, 1e-6 of the largest."""
+    beta = 0.3
+    pos, vel, acc = motion(hoop)
+    rng = np.random.default_rng(5)
+    way = rng.standard_normal(len(pos))
+    blocks = forces(hoop, pos, vel, acc, beta)[1]
+    exact = np.zeros_like(way)
+    exact[:3] = blocks.corner[:3, :3] @ way[:3]
+    rows = way[3:].reshape(-1, 3)
+    exact[:3] += np.einsum("iab,ib->a", blocks.rows[1:-1, :3], rows)
+    exact[3:] = (np.einsum("iab,ib->ia", blocks.diagonal[1:-1], rows) + blocks.columns[1:-1, :, :3] @ way[:3]).ravel()
+    step = 1e-6 * way
+    after, before = (forces(hoop, pos + d, vel + d / beta, acc + d / beta**2, beta)[0] for d in (step, -step))
+    assert np.abs((after - before) / 2e-6 - exact).max() < 1e-6 * np.abs(exact).max()
+
+
+def test_power_of_the_inertia(hoop):
+    """Force times velocity is the rate of kinetic energy and gravity, for any motion."""
+    pos, vel, acc = motion(hoop, 1)
+    ring = hoop.ring
+
+    def held(t):
+        x, v = pos + t * vel + t * t / 2 * acc, vel + t * acc
+        return sum(energies(ring.chain, x, sections(x), v, sections(v)))
+
+    rate = (held(1e-5) - held(-1e-5)) / 2e-5
+    assert rate == pytest.approx(forces(hoop, pos, vel, acc)[0] @ vel, rel=1e-7)
+
+
+def test_momenta_are_the_mass_times_rates(hoop):
+    """What a change of accelerations adds to the forces."""
+    pos, vel, acc = motion(hoop, 2)
+    frame, force = np.empty(3), np.empty((hoop.ring.sections + 2, 3))
+    momenta(hoop.ring.chain, pos, sections(pos), vel, sections(vel), frame, force)
+    expected = forces(hoop, pos, vel, acc + vel)[0] - forces(hoop, pos, vel, acc)[0]
+    assert np.concatenate([frame, force[1:-1].ravel()]) == pytest.approx(expected, rel=1e-10, abs=1e-10)
+
+
+def momentum(hoop, state):
+    """Linear momentum (x, y)."""
+    frame, force = np.empty(3), np.empty((hoop.ring.sections + 2, 3))
+    pos, vel = state.pos, state.vel
+    momenta(hoop.ring.chain, pos, sections(pos), vel, sections(vel), frame, force)
+    return frame[:2]
+
+
+def soft_flight(step, t_end=0.15):
+    """A hoop of E I = 1 that flies, turns, and swings so far that its rim moves by a twentieth of R."""
+    hoop = ChainHoop(COARSE.replace(ring={"bending_stiffness": 1.0}, hoop={"mass_ratio": 1.0}))
+    pos, vel = np.zeros(3 + hoop.coordinates), np.zeros(3 + hoop.coordinates)
+    pos[1:3] = 5.0, 0.4
+    vel[:3] = -0.5, 0.2, 1.5
+    swing = hoop.ring.shape.shapes[:, :1][:, 0]
+    vel[3:] = swing / np.abs(swing.reshape(-1, 3)[:, :2]).max()
+    _, records, states = steps_of(hoop, restart(hoop, flying(hoop, pos, vel), 0), t_end, step)
+    return hoop, records, states
+
+
+def test_free_flight_of_a_soft_hoop():
+    """Linear and angular momentum, less gravity's, and energy drift at the integrator's order, two, from small numbers.
+
+    They are kept to the integrator's error, not to round-off: the unknowns are positions in a turning frame.
+    """
+    errors = []
+    for step in (1e-3, 5e-4):
+        hoop, records, states = soft_flight(step)
+        first, last = states[0], states[-1]
+        assert np.abs(sections(last.pos)[:, :2]).max() > 0.05
+        change = momentum(hoop, last) - momentum(hoop, first)
+        change[1] += (1 + hoop.ring.chain.body.ring_mass) * last.t
+        spin = angular(hoop, last) - angular(hoop, first)
+        errors.append([*np.abs(change), abs(spin), abs(energy(records[-1]) - energy(records[0]))])
+    rates = np.log2(np.array(errors[0]) / np.array(errors[1]))
+    assert (rates > 1.7).all(), errors
+    assert max(errors[1]) < 1e-4
+
+
+def angular(hoop, state):
+    """Angular momentum about the centre of mass, clockwise: free flight keeps it."""
+    ring, pos, vel = hoop.ring, state.pos, state.vel
+    (body, rod), q, rate = ring.chain, sections(pos), sections(vel)
+    y, w = rod.place + q[:, :2], vel[2]
+    mass = rod.mass
+    c, s = np.cos(pos[2]), np.sin(pos[2])
+    v1, v2 = (vel[0] + w) * s + vel[1] * c, (vel[0] + w) * c - vel[1] * s
+    v = np.array([v1, v2]) + rate[:, :2] + w * np.column_stack([-y[:, 1], y[:, 0]])
+    total = 1 + body.ring_mass
+    centre = (mass @ y + [body.weld_moment + body.offset, 0.0]) / total
+    rigid = np.array([(body.weld_mass + 1) * v1, (body.weld_mass + 1) * v2 + w * (body.weld_moment + body.offset)])
+    p = mass @ v + rigid
+    about = mass @ (y[:, 0] * v[:, 1] - y[:, 1] * v[:, 0]) + rod.turning @ (w + rate[:, 2])
+    about += body.weld_moment * v2 + body.weld_inertia * w
+    about += body.offset * (v2 + w * body.offset) + body.disk_inertia * w
+    return about - (centre[0] * p[1] - centre[1] * p[0])
+
+
+@pytest.mark.parametrize(("stiffness", "pose"), [
+    (10.0, Pose(2.6, 3.0, 0.0, 5.0, 0.5, Kind.ROLL)),
+    (10.0, Pose(3.0, 3.0, 0.0, 20.0, 2.0, Kind.ROLL)),
+    (1.0, Pose(2.2, 1.0, 0.0, 1.3, -0.2, Kind.ROLL)),
+])  # fmt: skip
+def test_equilibria_against_all_nodes(stiffness, pose):
+    """Sag of soft rings under N, F and inertia, and their strain energy, against the exact ring on the same mesh.
+
+    The parts bend by up to 0.02 each, the square of which is 4e-4. Over a section the rim gives way by up to
+    2/(E b) too much, which is kept from pushing back.
+    """
+    scene = HOOP.replace(ring={"bending_stiffness": stiffness}, hoop={"mass_ratio": 0.05})
+    chain, exact = ChainHoop(scene), ExactHoop(scene, through=2)
+    a, b = equilibrium(chain, pose), equilibrium(exact, pose)
+    assert [a.res.normal, a.res.friction] == pytest.approx([pose.normal_force, pose.friction_force], abs=1e-8)
+    assert a.pos[1] == pytest.approx(b.pos[1], rel=5e-4, abs=2 * pose.normal_force / chain.ring.stiffness)
+    assert chain.energies(a)[2] == pytest.approx(exact.energies(b)[2], rel=5e-4)
+
+
+def test_a_stiff_hoop_is_the_reduced_one():
+    """A pulse at E I = 1e3, where the linear ring is exact: impulses to the tolerance of the march."""
+    scene = HOOP.replace(release={"phi0": 2.4, "omega0": 1.5})
+    pulses = [flexible.simulate(scene.replace(solve={"level": level})).pulses[0] for level in ("reduced", "chain")]
+    a, b = (np.array([p.normal_impulse, p.friction_impulse, p.friction_loss]) for p in pulses)
+    assert np.abs(a - b).max() < 1e-3 * a[0]
+
+
+def test_level_by_name():
+    assert isinstance(hoop_of(COARSE.replace(solve={"level": "chain"})), ChainHoop)
+
+
+@pytest.mark.slow
+def test_a_soft_pulse_against_all_nodes(monkeypatch):
+    """The first pulse at E I = 10, where the rim turns by 0.03, on the same mesh: a percent in all that is measured.
+
+    At rtol = 1e-3 each of them is off by up to half a percent by itself.
+    """
+    scene = HOOP.replace(ring={"bending_stiffness": 10.0}, hoop={"mass_ratio": 0.05})
+    found = []
+    for kind in (ChainHoop, ExactHoop):
+        monkeypatch.setattr("flexible.solve.hoop_of", lambda inner, kind=kind: kind(inner, through=2))
+        pulse = flexible.simulate(scene).pulses[0]
+        ratio = pulse.friction_impulse / pulse.normal_impulse
+        found.append([
+            pulse.normal_impulse, ratio, pulse.peak_normal_force, pulse.friction_loss, pulse.time_off_floor,
+        ])  # fmt: skip
+    assert np.array(found[0]) == pytest.approx(found[1], rel=0.01)

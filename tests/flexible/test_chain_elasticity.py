@@ -1,0 +1,271 @@
+"""The elasticity of the chain: its section, closed forms of rings, large deflections, and the mesh it comes from."""
+
+from math import cos, log, pi, sin
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_bvp
+
+from flexible.chain.bordered import FRAME, Blocks, factor, no_blocks, solve
+from flexible.chain.corotated import Rod, elastic
+from flexible.chain.rim import RimNodes, follow, rim_curvature
+from flexible.chain.ring import _Shape, chord_strains, curve_weights, dense_stiffness, in_strains, rim_matrix
+from flexible.chain.section import RodCompliance, radial, rod_compliance
+from flexible.ring.fem import Ring
+from meshes import ring_mesh
+
+
+@pytest.fixture(scope="module")
+def thin():
+    """The chain of r = 1.02, of two elements through the wall."""
+    return _Shape(Ring(ring_mesh(1 / 1.02, 1.0, 240, 2), 0.3), 120)
+
+
+def closed(parts, stretch=1e-9):
+    """A ring of unit radius and bending stiffness without a wall, held at its section at theta = 0 and cut there."""
+    compliance = RodCompliance(1.0, np.diag([stretch, stretch, 1.0]), 0.0, np.zeros((6, 6)), 0.0)
+    theta = np.linspace(0, 2 * pi, parts + 1)
+    place = np.column_stack([np.cos(theta), np.sin(theta)])
+    step = 2 * pi / parts
+    local = in_strains(compliance.piece(step), chord_strains(radial(0.0), radial(step), 2))
+    mass = np.full(parts + 1, step)
+    return Rod(
+        theta, place, np.stack([local] * parts), np.zeros((3, 3)), mass, 0 * mass, curve_weights(theta), 0.0, 0.0
+    )
+
+
+def forces_of(rod, q):
+    blocks, force = no_blocks(len(q)), np.zeros_like(q)
+    energy = elastic(rod, q, force, blocks.diagonal, blocks.up, blocks.down)
+    return energy, force
+
+
+def test_section_of_a_thick_ring():
+    """Under a moment alone dphi/dtheta is 8 (b^2 - a^2)/N (Timoshenko and Goodier, sec. 29), with E = 1, b = 1.
+
+    Four elements through the wall: their error falls as the wall over them to the fourth power, some 1e-5. What is left
+    of any form of three resultants is 1e-4 of the energy at most.
+    """
+    a = 1 / 1.2
+    compliance = rod_compliance(Ring(ring_mesh(a, 1.0, 240, 4), 0.3), 0.05)
+    exact = 8 * (1 - a**2) / ((1 - a**2) ** 2 - 4 * a**2 * log(a) ** 2)
+    assert compliance.section[2, 2] == pytest.approx(exact, rel=3e-5)
+    assert compliance.misfit < 1e-4
+
+
+def test_clamped_ring_in_closed_form():
+    """Radial and tangential compliance at an angle from the weld, in a^3/(E I) of a clamped thin ring: printed digits.
+
+    180 degrees is the ring pinched by two opposite forces, (pi/4 - 2/pi) P a^3/(E I). A load is met at a section, where
+    the parts are exact however few they are.
+    """
+    rod = closed(72)
+    compliance = np.linalg.inv(dense_stiffness(rod, np.zeros((73, 3)))[3:-3, 3:-3])
+    for degrees, expected, digits in (
+        (5, 2.14e-4, 5e-7), (10, 1.65e-3, 5e-6), (30, 3.68e-2, 5e-5), (45, 0.10267, 5e-6), (90, 0.35032, 5e-6),
+        (120, 0.35252, 5e-6), (180, pi / 4 - 2 / pi, 1e-8),
+    ):  # fmt: skip
+        i = 3 * (degrees // 5 - 1)
+        outward = radial(degrees * pi / 180)
+        assert outward @ compliance[i : i + 2, i : i + 2] @ outward == pytest.approx(expected, abs=digits)
+    assert compliance[3 * 35 + 1, 3 * 35 + 1] == pytest.approx(1.08295, abs=5e-6)
+
+
+def test_frequencies_of_a_thin_ring():
+    """omega^2 = n^2 (n^2 - 1)^2/(n^2 + 1) of a free ring (E I = rho A = a = 1), at second order in the parts."""
+    errors = []
+    for parts in (24, 48):
+        rod = closed(parts)
+        matrix = np.zeros((3 * parts, 3 * parts))
+        for p in range(parts):
+            one, two = rod.place[p], rod.place[p + 1]
+            by = np.hstack([chord_strains(one, two, 1), chord_strains(one, two, 2)])
+            at = np.r_[3 * p : 3 * p + 3, 3 * ((p + 1) % parts) : 3 * ((p + 1) % parts) + 3]
+            matrix[np.ix_(at, at)] += by.T @ rod.local[p] @ by
+        # rotations without inertia follow
+        turns = np.arange(2, 3 * parts, 3)
+        moves = np.setdiff1d(np.arange(3 * parts), turns)
+        stiffness = matrix[np.ix_(moves, moves)] - matrix[np.ix_(moves, turns)] @ np.linalg.solve(
+            matrix[np.ix_(turns, turns)], matrix[np.ix_(turns, moves)]
+        )
+        squares = np.linalg.eigvalsh(stiffness / (2 * pi / parts))[3:9:2]
+        n = np.array([2, 3, 4])
+        errors.append(np.abs(squares / (n**2 * (n**2 - 1) ** 2 / (n**2 + 1)) - 1))
+    assert errors[1].max() < 2e-2
+    assert (np.log2(errors[0] / errors[1]) > 1.7).all()
+
+
+def elastica(closing):
+    """Force (in E I/a^2) that closes an inextensible ring's diameter by ``closing`` radii: a quarter of it as a BVP.
+
+    From the load to the side: psi'' = -(P/2) cos(psi), the tangent's angle psi from 0 to -pi/2, height by sin(psi).
+    """
+
+    def rates(s, y, p):
+        return np.stack([y[1], -p[0] / 2 * np.cos(y[0]), np.sin(y[0])])
+
+    def ends(ya, yb, p):
+        return np.array([ya[0], yb[0] + pi / 2, ya[2], yb[2] + 1 - closing / 2])
+
+    s = np.linspace(0, pi / 2, 50)
+    force = 0.0
+    guess = np.stack([-s, -np.ones_like(s), -(1 - np.cos(s))])
+    for share in np.linspace(0.1, 1, 10):  # follow the branch from the circle
+        target = share * closing
+        found = solve_bvp(
+            rates, lambda a, b, p, t=target: np.array([a[0], b[0] + pi / 2, a[2], b[2] + 1 - t / 2]), s, guess,
+            p=[force], tol=1e-10, max_nodes=20000,
+        )  # fmt: skip
+        assert found.success
+        guess, force = found.sol(s), found.p[0]
+    assert np.abs(ends(found.sol(0), found.sol(pi / 2), found.p)).max() < 1e-8
+    return force
+
+
+def pinched(parts, closing):
+    """The same force of the chain: the section at theta = pi pushed toward the one that is held."""
+    rod = closed(parts, stretch=1e-6)
+    q = np.zeros((parts + 1, 3))
+    push = 3 * (parts // 2)
+    free = np.setdiff1d(np.arange(3, 3 * parts), [push])
+    count = 50
+    for _ in range(count):
+        matrix = dense_stiffness(rod, q)
+        q[parts // 2, 0] += closing / count
+        q.reshape(-1)[free] -= np.linalg.solve(matrix[np.ix_(free, free)], matrix[free, push] * closing / count)
+        for _ in range(30):
+            force = forces_of(rod, q)[1].ravel()[free]
+            if np.abs(force).max() < 1e-7:
+                break
+            step = np.linalg.solve(dense_stiffness(rod, q)[np.ix_(free, free)], force)
+            q.reshape(-1)[free] -= step
+        else:
+            pytest.fail("no equilibrium")
+    return forces_of(rod, q)[1].ravel()[push]
+
+
+def test_elastica():
+    """A ring pinched to half its diameter, against the elastica: second order in the parts, 1e-3 with 120.
+
+    The closed form of small deflections, P = 1/0.1488 per radius, is 20 % off there.
+    """
+    exact = elastica(1.0)
+    errors = np.array([abs(pinched(parts, 1.0) / exact - 1) for parts in (30, 60, 120)])
+    assert abs(1 / (pi / 4 - 2 / pi) / exact - 1) > 0.1
+    assert errors[2] < 1e-3
+    assert np.log2(errors[:-1] / errors[1:]) == pytest.approx(2, abs=0.3)
+
+
+def bent(shape, size=0.3, seed=0):
+    """A chain that is bent far, at random but smoothly."""
+    rng = np.random.default_rng(seed)
+    theta = shape.rod.theta
+    q = np.zeros((len(theta), 3))
+    for n in (1, 2, 3):
+        q += size * rng.standard_normal(3) * np.sin(n * (theta - theta[0]) * pi / (theta[-1] - theta[0]))[:, None]
+    return q
+
+
+def test_forces_and_tangent_of_the_chain(thin):
+    """The energy's derivatives by central differences; the tangent is symmetric."""
+    rod, q = thin.rod, bent(thin)
+    rng = np.random.default_rng(1)
+    way = np.zeros_like(q)
+    way[1:-1] = rng.standard_normal((len(q) - 2, 3))
+    e = 1e-6
+    work = (forces_of(rod, q + e * way)[0] - forces_of(rod, q - e * way)[0]) / (2 * e)
+    assert work == pytest.approx((forces_of(rod, q)[1] * way).sum(), rel=1e-7)
+    tangent = dense_stiffness(rod, q)[3:-3, 3:-3]
+    assert np.abs(tangent - tangent.T).max() < 1e-12 * np.abs(tangent).max()
+    found = (forces_of(rod, q + e * way)[1] - forces_of(rod, q - e * way)[1])[1:-1].ravel() / (2 * e)
+    assert np.abs(found - tangent @ way[1:-1].ravel()).max() < 1e-6 * np.abs(found).max()
+
+
+def test_a_turned_chain_has_no_strain(thin):
+    """Parts far from the weld, moved as one rigid body: their forces are round-off of the stiffness."""
+    rod, turn = thin.rod, 0.7
+    place = rod.place
+    q = np.zeros((len(place), 3))
+    c, s = cos(turn), sin(turn)
+    q[:, 0] = (c - 1) * place[:, 0] - s * place[:, 1] + 0.3
+    q[:, 1] = s * place[:, 0] + (c - 1) * place[:, 1]
+    q[:, 2] = turn
+    inside = forces_of(rod, q)[1][3:-3]
+    assert np.abs(inside).max() < 1e-13 * np.abs(rod.local[5]).max()
+
+
+def test_derivatives_of_the_rim(thin):
+    """First derivatives everywhere, second ones away from the weld, by central differences."""
+    rod, q = thin.rod, bent(thin, 0.1)
+    near = np.abs(thin.ring.mesh.rim_theta) < 0.5
+    nodes = RimNodes(*(column[near] for column in thin.nodes))
+    rng = np.random.default_rng(2)
+    way = np.zeros_like(q)
+    way[1:-1] = rng.standard_normal((len(q) - 2, 3))
+    e = 1e-6
+    found = (follow(rod, q + e * way, nodes)[0] - follow(rod, q - e * way, nodes)[0]).ravel() / (2 * e)
+    matrix = rim_matrix(rod, q, nodes)[1]
+    assert np.abs(found - matrix @ way[1:-1].ravel()).max() < 1e-7 * np.abs(found).max()
+
+    at = np.flatnonzero((nodes.part > 2) & (nodes.part < len(q) - 5))
+    force = rng.standard_normal((len(at), 2))
+    some = RimNodes(*(column[at] for column in nodes))
+    change = (rim_matrix(rod, q + e * way, some)[1] - rim_matrix(rod, q - e * way, some)[1]) / (2 * e)
+    exact = np.zeros((len(q) + 2, 3))
+    for k, part in enumerate(some.part):
+        second = np.zeros((12, 12))
+        rim_curvature(rod, q, part, some.xi[k], force[k, 0], force[k, 1], second)
+        padded = np.concatenate([np.zeros((1, 3)), way, np.zeros((1, 3))])
+        exact[part : part + 4] += (second @ padded[part : part + 4].ravel()).reshape(4, 3)
+    assert np.abs(change.T @ force.ravel() - exact[2:-2].ravel()).max() < 1e-6 * np.abs(exact).max()
+
+
+def test_the_chain_is_the_mesh_for_small_loads(thin):
+    """Compliance of the rim, chain and what it lacks together, against the mesh: 1e-5 of the largest.
+
+    Over the weld, where nothing is a thousandth of that, half a percent: what its neighbours lack is kept positive.
+    """
+    mesh = thin.ring.rim_compliance
+    whole = thin.rim @ thin.inverse @ thin.rim.T + thin.missing
+    assert np.abs(whole - mesh).max() < 1e-5 * np.abs(mesh).max()
+    over = np.flatnonzero(np.repeat(np.abs(thin.ring.mesh.rim_theta) < 0.04, 2))
+    assert np.abs(whole - mesh)[np.ix_(over, over)].max() < 5e-3 * np.abs(mesh[np.ix_(over, over)]).max()
+    assert np.linalg.eigvalsh(thin.missing).min() > -1e-9 * np.abs(mesh).max()
+
+
+def test_vibrations_of_the_chain_are_those_of_the_mesh(thin):
+    """The 12 slowest of the clamped ring: lumped masses are of second order, 4e-4 where a wave takes 20 parts."""
+    squares = thin.ring.modes(12)[0]
+    shapes = thin.shapes[:, :12]
+    stiffness = dense_stiffness(thin.rod, thin.still)[3:-3, 3:-3]
+    found = np.einsum("in,ij,jn->n", shapes, stiffness, shapes)
+    assert found == pytest.approx(squares, rel=2e-3)
+
+
+@pytest.mark.parametrize("kept", [[], [7, 8, 9], [2, 3], [10, 11], [2, 3, 11]])
+def test_bordered_elimination(kept):
+    """Against a dense solve of the same cyclic matrix, for patches anywhere on the ring."""
+    n = 11
+    rng = np.random.default_rng(len(kept))
+    blocks = Blocks(*(rng.standard_normal(part.shape) for part in no_blocks(n + 2)))
+    blocks.diagonal[:] += 8 * np.eye(3)
+    blocks.columns[:, :, FRAME:], blocks.rows[:, FRAME:], blocks.corner[FRAME:] = 0, 0, 0
+    blocks.corner[:, FRAME:] = 0
+    blocks.corner[:FRAME, :FRAME] += 8 * np.eye(3)
+    size = 3 + 3 * n
+    dense = np.zeros((size, size))
+    dense[:3, :3] = blocks.corner[:3, :3]
+    for i in range(1, n + 1):
+        at, behind = slice(3 * i, 3 * i + 3), slice(3 * (i % n) + 3, 3 * (i % n) + 6)
+        dense[at, at] += blocks.diagonal[i]
+        dense[at, behind] += blocks.up[i]
+        dense[behind, at] += blocks.down[i]
+        dense[at, :3], dense[:3, at] = blocks.columns[i, :, :3], blocks.rows[i, :3]
+    keeps = np.zeros(n + 2, bool)
+    keeps[[1, *kept]] = True
+    known = rng.standard_normal((n + 2, 3))
+    known[[0, -1]] = 0
+    frame = rng.standard_normal(3)
+    found = solve(factor(blocks, keeps, 0), frame, known, np.empty(0))[0]
+    exact = np.linalg.solve(dense, np.concatenate([frame, known[1:-1].ravel()]))
+    assert found == pytest.approx(exact, rel=1e-10, abs=1e-12)
