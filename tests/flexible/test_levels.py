@@ -32,7 +32,7 @@ def scene_b(stiffness=1e8, **solve):
         Release(2.9, 4.0),
         Run(t_end=0.1426),
         ring=Ring(bending_stiffness=stiffness * WALL**3 / 12),
-        contact=Contact(law="brush", stiffness=1.0404e7, tangential_ratio=1.0),
+        contact=Contact(law="brush", stiffness=1.0404e7, tangential_ratio=1.0, damping=0.0),
         solve=Solve(resolve="all", start="undeformed", **solve),
     )
 
