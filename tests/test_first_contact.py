@@ -49,7 +49,7 @@ def sh(line: str, folder: Path) -> str:
     return done.stdout
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("order", [("job", "tests"), ("tests", "job")], ids=" then ".join)
 def test_the_two_set_up_lines_in_either_order(tmp_path, order):
     here = clone(tmp_path / "hoop-pulse")

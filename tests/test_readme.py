@@ -49,7 +49,7 @@ def test_quick_commands_run_in_their_order(tmp_path: Path) -> None:
         run(command, tmp_path)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_long_commands_run(tmp_path: Path) -> None:
     for command in commands():
         if not quick(command):

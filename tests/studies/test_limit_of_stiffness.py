@@ -91,7 +91,7 @@ def test_the_two_laws_differ_by_more_than_their_uncertainty():
     assert abs(paper.impulse_ratio - brush.impulse_ratio) > 1e-2
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("k", [0.1, 0.25])
 @pytest.mark.parametrize("mass_ratio", [0.0, 0.01, 0.1])
 @pytest.mark.parametrize(("law", "mu_s"), LAWS)

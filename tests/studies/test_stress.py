@@ -90,7 +90,7 @@ def test_a_crash_and_a_run_without_end_are_told():
     assert "2 not: cut at the work bound (1, 2)" in report.text()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_few_of_each_kind(hoop, tmp_path):
     """36 scenes and the cycles, through processes, report and figure: none crashes, none breaks an invariant."""
     status, out, err = hoop("stress", "--quick", "--scenes", 36, "--json", "--out", tmp_path)
@@ -103,7 +103,7 @@ def test_a_few_of_each_kind(hoop, tmp_path):
     assert (tmp_path / "stress.png").stat().st_size > 10_000
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_quick_stress(hoop, tmp_path):
     """Rigid and flexible scenes and a thousand cycles: none crashes, none hangs, none breaks an invariant."""
     status, out, err = hoop("stress", "--quick", "--json", "--out", tmp_path)
@@ -121,7 +121,7 @@ def test_quick_stress(hoop, tmp_path):
     assert (tmp_path / "stress.png").stat().st_size > 10_000
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_another_sequence():
     report = run.run_stress(scenes=300, seed=1)
     assert not report.failures, report.text()
