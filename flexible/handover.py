@@ -22,7 +22,7 @@ from .models.equilibrium import Patch, settle
 from .models.full import FullHoop
 from .models.reduced import ReducedHoop
 from .models.state import State
-from .time.tr_bdf2 import MarchError, restart
+from .time.step import MarchError, restart
 
 Array = NDArray[np.float64]
 Hoop = ReducedHoop | FullHoop | ChainHoop

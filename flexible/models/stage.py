@@ -1,13 +1,11 @@
-"""One implicit step of the reduced hoop: TR-BDF2, Newton on frame, modes and the rim nodes near the floor together.
+"""One implicit stage of the reduced hoop: Newton on frame, modes and the rim nodes near the floor together.
 
-TR-BDF2 is one-step, second order, L-stable and stiffly accurate: what a step does not resolve (the ring's and the
-contact's own vibrations) it damps, so steps follow the motion and not the stiffness. Both of its stages have the form
-``pos = pos_pred + d, vel = vel_pred + d/beta, acc = d/beta^2`` with the small increment d as the unknown.
+The stages of a step (:mod:`flexible.time.methods`) all have the form ``pos = pos_pred + d, vel = vel_pred + d/beta,
+acc = d/beta^2`` with the small increment d as the unknown.
 """
 
 from __future__ import annotations
 
-from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,12 +15,6 @@ from rigid.kernel.compile import jit
 from ..contact.forces import contact_forces
 from ..contact.points.data import Before, Contact, Damper, Parameters, Rim
 from ..ring.frame import Frame, energies, inertia
-
-TAU = 2 - sqrt(2)  # where the first stage ends, as a fraction of the step
-BETA = TAU / 2
-# weights of the step minus those of its third-order companion (Hosea and Shampine 1996)
-_W = sqrt(2) / 4
-ERROR_WEIGHTS = (_W - (1 - _W) / 3, _W - (3 * _W + 1) / 3, BETA - BETA / 3)
 
 
 class Predictor(NamedTuple):

@@ -17,7 +17,7 @@ from flexible.models.reduced import ReducedHoop
 from flexible.models.stage import largest
 from flexible.time.adaptive import Limits, march
 from flexible.time.events import Ends, locate
-from flexible.time.tr_bdf2 import MarchError, attempt, restart
+from flexible.time.step import MarchError, attempt, restart
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
 
 #: slips out of rolling a moment after its release

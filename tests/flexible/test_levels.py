@@ -17,7 +17,7 @@ from flexible.ring.fem import ring_of
 from flexible.ring.nodal import inertia
 from flexible.time.adaptive import march
 from flexible.time.events import Ends
-from flexible.time.tr_bdf2 import MarchError
+from flexible.time.step import MarchError
 from flexible.units import dimensionless
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
 

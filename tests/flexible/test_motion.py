@@ -13,7 +13,7 @@ from flexible.handover import Pose, equilibrium, hand_over, pose_at
 from flexible.models.reduced import ReducedHoop
 from flexible.time.adaptive import march
 from flexible.time.events import Ends
-from flexible.time.tr_bdf2 import restart
+from flexible.time.step import restart
 from rigid.elastic import LAWS
 
 #: just before its pulse, fast
