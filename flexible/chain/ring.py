@@ -21,7 +21,7 @@ from rigid import Scene
 from ..ring.fem import Ring, membrane_stiffness
 from ..ring.reduction import body_of
 from .bordered import no_blocks
-from .corotated import Rod, elastic
+from .corotated import Rod, elastic_tangent
 from .inertia import Body, Chain
 from .rim import RimNodes, follow
 from .section import LOADED, RodCompliance, mass_radius, radial, rod_compliance
@@ -97,7 +97,7 @@ def dense_stiffness(rod: Rod, q: Array) -> Array:
     """Stiffness of the chain at some displacement, (3 (n + 2), 3 (n + 2))."""
     sections = len(rod.theta)
     blocks = no_blocks(sections)
-    elastic(rod, q, np.zeros((sections, 3)), blocks.diagonal, blocks.up, blocks.down)
+    elastic_tangent(rod, q, blocks.diagonal, blocks.up, blocks.down)
     matrix = np.zeros((sections, 3, sections, 3))
     i = np.arange(sections)
     matrix[i, :, i, :] = blocks.diagonal

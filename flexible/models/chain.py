@@ -9,7 +9,7 @@ from scipy.sparse.linalg import splu
 
 from rigid import Scene
 
-from ..chain.bordered import Factors, no_blocks
+from ..chain.bordered import Factors
 from ..chain.corotated import elastic
 from ..chain.rim import follow
 from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
@@ -182,8 +182,8 @@ class RestingChain:
         """See :class:`flexible.models.equilibrium.RestingRing`."""
         q = self._padded()
         matrix = dense_stiffness(self.ring.chain.rod, q)[3:-3, 3:-3] + share * self.inertia
-        blocks, force = no_blocks(len(q)), np.zeros_like(q)
-        elastic(self.ring.chain.rod, q, force, blocks.diagonal, blocks.up, blocks.down)
+        force = np.zeros_like(q)
+        elastic(self.ring.chain.rod, q, force)
         self._solve = splu(csc_matrix(matrix)).solve
         pull = force[1:-1].ravel() + share * (self.inertia @ self.coordinates + self.load)
         self.base = self.coordinates - self._solve(pull)
