@@ -57,7 +57,7 @@ class Rod(NamedTuple):
 
 
 @jit
-def chord(rod: Any, q: Any, p: int) -> Any:
+def chord(rod: Any, q: Any, p: int) -> tuple[float, float, float, float, float, float]:
     """Direction and length of a part's chord, and the three strains of the part."""
     a1, a2 = rod.place[p + 1, 0] - rod.place[p, 0], rod.place[p + 1, 1] - rod.place[p, 1]
     d1, d2 = q[p + 1, 0] - q[p, 0], q[p + 1, 1] - q[p, 1]
@@ -66,38 +66,33 @@ def chord(rod: Any, q: Any, p: int) -> Any:
     now = sqrt(x1 * x1 + x2 * x2)
     alpha = atan2(a1 * d2 - a2 * d1, square + dot)
     longer = (2 * dot + d1 * d1 + d2 * d2) / (now + sqrt(square))
-    return x1 / now, x2 / now, now, np.array([longer, q[p, 2] - alpha, q[p + 1, 2] - alpha])
+    return x1 / now, x2 / now, now, longer, q[p, 2] - alpha, q[p + 1, 2] - alpha
 
 
 @jit
-def _strained(local: Any, strain: Any, stress: Any) -> None:
-    """Add the stress of a strain."""
-    for i in range(3):
-        for j in range(3):
-            stress[i] += local[i, j] * strain[j]
+def _row(local: Any, i: int, e: float, tau_1: float, tau_2: float) -> float:
+    return float(local[i, 0] * e + local[i, 1] * tau_1 + local[i, 2] * tau_2)
 
 
 @jit
 def directions(t1: float, t2: float, now: float, by: Any) -> None:
     """Derivatives (3, 6) of the strains of a part by the coordinates of its sections."""
-    by[:] = 0.0
-    by[0, 0], by[0, 1], by[0, 3], by[0, 4] = -t1, -t2, t1, t2
+    s1, s2 = t1 / now, t2 / now
+    by[0, 0], by[0, 1], by[0, 2], by[0, 3], by[0, 4], by[0, 5] = -t1, -t2, 0.0, t1, t2, 0.0
     for i in (1, 2):
-        by[i, 0], by[i, 1], by[i, 3], by[i, 4] = -t2 / now, t1 / now, t2 / now, -t1 / now
-    by[1, 2] = by[2, 5] = 1.0
+        by[i, 0], by[i, 1], by[i, 3], by[i, 4] = -s2, s1, s2, -s1
+        by[i, 2], by[i, 5] = 2.0 - i, i - 1.0
 
 
 @jit
-def _stiffen(t1: float, t2: float, now: float, stress: Any, local: Any, by: Any, tangent: Any) -> None:
-    """Second derivatives (6, 6) of a part's energy."""
+def _stiffen(t1: float, t2: float, pull: float, turn: float, local: Any, by: Any, tangent: Any) -> None:
+    """Second derivatives (6, 6) of a part's energy, of the stress ``pull`` and ``turn`` over the chord's length."""
     for k in range(6):
+        s0 = _row(local, 0, by[0, k], by[1, k], by[2, k])
+        s1 = _row(local, 1, by[0, k], by[1, k], by[2, k])
+        s2 = _row(local, 2, by[0, k], by[1, k], by[2, k])
         for m in range(6):
-            tangent[m, k] = 0.0
-        for i in range(3):
-            value = local[i, 0] * by[0, k] + local[i, 1] * by[1, k] + local[i, 2] * by[2, k]
-            for m in range(6):
-                tangent[m, k] += by[i, m] * value
-    pull, turn = stress[0] / now, (stress[1] + stress[2]) / (now * now)
+            tangent[m, k] = by[0, m] * s0 + by[1, m] * s1 + by[2, m] * s2
     g11 = pull * t2 * t2 - 2 * turn * t1 * t2
     g12 = -pull * t1 * t2 + turn * (t1 * t1 - t2 * t2)
     g22 = pull * t1 * t1 + 2 * turn * t1 * t2
@@ -111,8 +106,27 @@ def _stiffen(t1: float, t2: float, now: float, stress: Any, local: Any, by: Any,
 
 
 @jit
-def elastic(rod: Any, q: Any, force: Any, diagonal: Any, up: Any, down: Any) -> float:
-    """Strain energy of the chain; its forces and its tangent are added.
+def _stress(rod: Any, q: Any, p: int, e: float, tau_1: float, tau_2: float) -> tuple[float, float, float]:
+    """Force along the chord and the moments at both ends of a part with these strains."""
+    local, last = rod.local[p], rod.local.shape[0] - 1
+    s0, s1, s2 = _row(local, 0, e, tau_1, tau_2), _row(local, 1, e, tau_1, tau_2), _row(local, 2, e, tau_1, tau_2)
+    if p == 0 or p == last:
+        a = rod.across
+        _, _, _, e, tau_1, tau_2 = chord(rod, q, last - p)
+        if p == 0:
+            s0 += _row(a, 0, e, tau_1, tau_2)
+            s1 += _row(a, 1, e, tau_1, tau_2)
+            s2 += _row(a, 2, e, tau_1, tau_2)
+        else:
+            s0 += a[0, 0] * e + a[1, 0] * tau_1 + a[2, 0] * tau_2
+            s1 += a[0, 1] * e + a[1, 1] * tau_1 + a[2, 1] * tau_2
+            s2 += a[0, 2] * e + a[1, 2] * tau_1 + a[2, 2] * tau_2
+    return s0, s1, s2
+
+
+@jit
+def elastic(rod: Any, q: Any, force: Any) -> float:
+    """Strain energy of the chain; its forces are added.
 
     Parameters
     ----------
@@ -120,28 +134,42 @@ def elastic(rod: Any, q: Any, force: Any, diagonal: Any, up: Any, down: Any) -> 
     q : (n + 2, 3) array
         Displacement and rotation of all sections; those of the weld are zero.
     force : (n + 2, 3) array
+    """
+    energy = 0.0
+    for p in range(rod.local.shape[0]):
+        t1, t2, now, e, tau_1, tau_2 = chord(rod, q, p)
+        s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
+        energy += (e * s0 + tau_1 * s1 + tau_2 * s2) / 2
+        turn = (s1 + s2) / now
+        f1, f2 = t1 * s0 + t2 * turn, t2 * s0 - t1 * turn
+        force[p, 0] -= f1
+        force[p, 1] -= f2
+        force[p, 2] += s1
+        force[p + 1, 0] += f1
+        force[p + 1, 1] += f2
+        force[p + 1, 2] += s2
+    return energy
+
+
+@jit
+def elastic_tangent(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None:
+    """Add the derivatives of the forces of :func:`elastic`.
+
+    Parameters
+    ----------
+    rod : Rod
+    q : (n + 2, 3) array
     diagonal : (n + 2, 3, 3) array
     up, down : (n + 1, 3, 3) arrays
         Derivatives of the forces on section i by i + 1, and on i + 1 by i; those behind n are on n by 1, and on 1 by n.
     """
-    energy = 0.0
     last = rod.local.shape[0] - 1
     by, tangent = np.empty((3, 6)), np.empty((6, 6))
     for p in range(last + 1):
-        t1, t2, now, strain = chord(rod, q, p)
-        stress = np.zeros(3)
-        _strained(rod.local[p], strain, stress)
-        if p == 0:
-            _strained(rod.across, chord(rod, q, last)[3], stress)
-        elif p == last:
-            _strained(rod.across.T, chord(rod, q, 0)[3], stress)
+        t1, t2, now, e, tau_1, tau_2 = chord(rod, q, p)
+        s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
         directions(t1, t2, now, by)
-        _stiffen(t1, t2, now, stress, rod.local[p], by, tangent)
-        for i in range(3):
-            energy += strain[i] * stress[i] / 2
-            for k in range(3):
-                force[p, k] += by[i, k] * stress[i]
-                force[p + 1, k] += by[i, 3 + k] * stress[i]
+        _stiffen(t1, t2, s0 / now, (s1 + s2) / (now * now), rod.local[p], by, tangent)
         for i in range(3):
             for j in range(3):
                 diagonal[p, i, j] += tangent[i, j]
@@ -150,21 +178,16 @@ def elastic(rod: Any, q: Any, force: Any, diagonal: Any, up: Any, down: Any) -> 
                     up[p, i, j] += tangent[i, 3 + j]
                     down[p, i, j] += tangent[3 + i, j]
     _add_across(rod, q, up[last], down[last])
-    return energy
 
 
 @jit
 def strain_energy(rod: Any, q: Any) -> float:
     """Strain energy of the chain, see :func:`elastic`."""
     energy = 0.0
-    last = rod.local.shape[0] - 1
-    for p in range(last + 1):
-        strain = chord(rod, q, p)[3]
-        stress = np.zeros(3)
-        _strained(rod.local[p], strain, stress)
-        if p == 0:
-            _strained(2 * rod.across, chord(rod, q, last)[3], stress)
-        energy += (strain[0] * stress[0] + strain[1] * stress[1] + strain[2] * stress[2]) / 2
+    for p in range(rod.local.shape[0]):
+        _, _, _, e, tau_1, tau_2 = chord(rod, q, p)
+        s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
+        energy += (e * s0 + tau_1 * s1 + tau_2 * s2) / 2
     return energy
 
 
@@ -173,9 +196,9 @@ def _add_across(rod: Any, q: Any, up: Any, down: Any) -> None:
     """What the last section feels of the first, and the first of the last."""
     last = rod.local.shape[0] - 1
     first, final = np.empty((3, 6)), np.empty((3, 6))
-    t1, t2, now, _ = chord(rod, q, 0)
+    t1, t2, now, _, _, _ = chord(rod, q, 0)
     directions(t1, t2, now, first)
-    t1, t2, now, _ = chord(rod, q, last)
+    t1, t2, now, _, _, _ = chord(rod, q, last)
     directions(t1, t2, now, final)
     for i in range(3):
         for j in range(3):

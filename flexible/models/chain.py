@@ -9,12 +9,12 @@ from scipy.sparse.linalg import splu
 
 from rigid import Scene
 
-from ..chain.bordered import Factors, no_blocks
+from ..chain.bordered import Factors
 from ..chain.corotated import elastic
 from ..chain.rim import follow
 from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
 from ..chain.stage import solve_stage
-from ..chain.touch import Facing, rise, turned
+from ..chain.touch import Facing, lowest, turned
 from ..chain.whole import errors, held, sections
 from ..contact.points.data import Before, Damper, Rim
 from ..ring.fem import ring_of
@@ -25,7 +25,7 @@ from .state import Errors, Stage, State
 Array = NDArray[np.float64]
 Window = tuple[int, int]
 
-PER_PART = 1  # rim elements to a part: with two the wall's own compliance is half as large again right over a section
+PER_PART = 2  # rim elements to a part
 THROUGH = 2  # elements through the wall of the mesh that the chain is condensed from
 SLOW = 24  # modes of the ring by whose error steps are chosen, as many as the reduced ring has
 
@@ -99,9 +99,7 @@ class ChainHoop(RimContact):
     def _reach(self, pos: Array) -> tuple[float, float]:
         """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is."""
         ring = self.ring
-        gap, psi = rise(ring.chain.rod, sections(pos), ring.nodes, self._rim_theta, pos[2], pos[1])
-        below = psi[gap <= max(0.0, gap.min())]
-        return float(below.min()), float(below.max())
+        return lowest(ring.chain.rod, sections(pos), ring.nodes, self._rim_theta, float(pos[2]), float(pos[1]))
 
     def stage(
         self,
@@ -182,8 +180,8 @@ class RestingChain:
         """See :class:`flexible.models.equilibrium.RestingRing`."""
         q = self._padded()
         matrix = dense_stiffness(self.ring.chain.rod, q)[3:-3, 3:-3] + share * self.inertia
-        blocks, force = no_blocks(len(q)), np.zeros_like(q)
-        elastic(self.ring.chain.rod, q, force, blocks.diagonal, blocks.up, blocks.down)
+        force = np.zeros_like(q)
+        elastic(self.ring.chain.rod, q, force)
         self._solve = splu(csc_matrix(matrix)).solve
         pull = force[1:-1].ravel() + share * (self.inertia @ self.coordinates + self.load)
         self.base = self.coordinates - self._solve(pull)

@@ -6,7 +6,7 @@ from scenes import HOOP, energy, flying, steps_of
 
 import flexible
 from flexible.chain.bordered import no_blocks
-from flexible.chain.inertia import energies, inertia, momenta
+from flexible.chain.inertia import energies, inertia, inertia_tangent, momenta
 from flexible.chain.whole import sections
 from flexible.handover import Pose, equilibrium
 from flexible.models.chain import ChainHoop
@@ -37,7 +37,8 @@ def forces(hoop, pos, vel, acc, beta=1.0):
     blocks = no_blocks(ring.sections + 2)
     frame, force = np.zeros(3), np.zeros((ring.sections + 2, 3))
     q, qv, qa = (sections(x) for x in (pos, vel, acc))
-    inertia(ring.chain, (pos, q), (vel, qv), (acc, qa), beta, blocks, frame, force)
+    inertia(ring.chain, (pos, q), (vel, qv), (acc, qa), frame, force)
+    inertia_tangent(ring.chain, (pos, q), (vel, qv), (acc, qa), beta, blocks)
     return np.concatenate([frame, force[1:-1].ravel()]), blocks
 
 
