@@ -60,24 +60,3 @@ def passed_on(factors: Any, chain: Any, pos: Any, error: Any, beta: float) -> An
     momenta(chain, pos, q, error, sections(error), frame, force)
     rest = np.zeros(factors.core.shape[0] - FRAME - 3 * factors.kept.shape[0])
     return solve(factors, frame / beta**2, force / beta**2, rest)[0]
-
-
-@jit
-def errors(
-    factors: Any, chain: Any, pos: Any, vel: Any, acc: Any, beta: float, error: Any, moved: Any
-) -> tuple[Any, float]:
-    """Errors of velocities and positions as the step passes them on; see :func:`flexible.models.stage.filtered_errors`.
-
-    Returns
-    -------
-    error : (3 + 3 n,) array
-        That of the velocities.
-    energy : float
-        What comes with both, beyond the work of the floor's forces.
-    """
-    rate, way = passed_on(factors, chain, pos, error, beta), passed_on(factors, chain, pos, moved, beta)
-    after = held(chain, pos + way / 2, vel + rate / 2)
-    before = held(chain, pos - way / 2, vel - rate / 2)
-    _, frame, force = balance(chain, pos, vel, acc)
-    work = (frame * way[:FRAME]).sum() + (force * sections(way)).sum()
-    return rate, after[0] + after[1] + after[2] - before[0] - before[1] - before[2] - work

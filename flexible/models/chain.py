@@ -15,12 +15,12 @@ from ..chain.rim import follow
 from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
 from ..chain.stage import solve_stage
 from ..chain.touch import Facing, lowest, turned
-from ..chain.whole import errors, held, sections
+from ..chain.whole import balance, held, passed_on, sections
 from ..contact.points.data import Before, Damper, Rim
 from ..ring.fem import ring_of
 from .rim_contact import POINTS, RimContact
 from .stage import Predictor, largest
-from .state import Errors, Stage, State
+from .state import Stage, State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -142,17 +142,27 @@ class ChainHoop(RimContact):
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
-        kinetic, gravity, strain = held(self.ring.chain, state.pos, state.vel)
+        kinetic, gravity, strain = self.held(state.pos, state.vel)
         if state.res.normal > 0:
             strain += float((state.nodal * self._beyond(state, state.window)[1]).sum()) / 2
         return kinetic, gravity, strain
 
-    def errors(self, state: State, beta: float, matrix: Factors, error: Array, moved: Array) -> Errors:
+    def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:
+        """See :class:`flexible.models.state.Model`."""
+        kinetic, gravity, strain = held(self.ring.chain, pos, vel)
+        return kinetic, gravity, strain
+
+    def forces(self, pos: Array, vel: Array, acc: Array) -> Array:
+        """See :class:`flexible.models.state.Model`."""
+        _, frame, force = balance(self.ring.chain, pos, vel, acc)
+        return np.concatenate([frame, force[1:-1].ravel()])
+
+    def error(self, state: State, beta: float, matrix: Factors, error: Array) -> float:
         """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
         chain = self.ring.chain
-        rate, energy = errors(matrix, chain, state.pos, state.vel, state.acc, beta, error, moved)
+        rate = passed_on(matrix, chain, state.pos, error, beta)
         slow = np.abs(self._slow @ rate[3:]).max(initial=0.0) / (1 + chain.body.ring_mass) ** 0.5
-        return Errors(largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow])), float(energy))
+        return float(largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow])))
 
     def resting(self, omega: float, alpha: float, a1: float, a2: float) -> RestingChain:
         """The ring at rest in a frame with these rates and this acceleration of C, gravity included."""

@@ -21,7 +21,7 @@ from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
 from .rim_contact import POINTS, RimContact
 from .stage import Predictor, largest
-from .state import Errors, Stage, State
+from .state import Stage, State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -216,7 +216,11 @@ class FullHoop(RimContact):
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
-        ring, body, pos, vel = self.ring, self.ring.body, state.pos, state.vel
+        return self.held(state.pos, state.vel)
+
+    def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:
+        """See :class:`flexible.models.state.Model`."""
+        ring, body = self.ring, self.ring.body
         offset, mass = body.offset, body.ring_mass
         s, c = sin(pos[2]), cos(pos[2])
         w, u, v = vel[2], pos[3:], vel[3:]
@@ -234,19 +238,16 @@ class FullHoop(RimContact):
             gravity += mass * (1 + pos[1]) + s1 * c - s2 * s
         return float(kinetic), float(gravity), ring.strain_energy(u)
 
-    def errors(self, state: State, beta: float, matrix: NewtonMatrix, error: Array, moved: Array) -> Errors:
+    def forces(self, pos: Array, vel: Array, acc: Array) -> Array:
+        """See :class:`flexible.models.state.Model`."""
+        own = inertia(self.ring, pos, vel, acc, 1.0)
+        return np.concatenate([own.frame, own.ring])
+
+    def error(self, state: State, beta: float, matrix: NewtonMatrix, error: Array) -> float:
         """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
         ring, still = self.ring, np.zeros_like(state.vel)
-        without = inertia(ring, state.pos, still, still, beta)
-        passed = []
-        for change in (error, moved):
-            with_change = inertia(ring, state.pos, still, change, beta)
-            load = (with_change.frame - without.frame) / beta**2, (with_change.ring - without.ring) / beta**2
-            passed.append(np.concatenate(matrix.solve(*load)))
-        rate, way = passed
+        without, with_error = (inertia(ring, state.pos, still, acc, beta) for acc in (still, error))
+        load = (with_error.frame - without.frame) / beta**2, (with_error.ring - without.ring) / beta**2
+        rate = np.concatenate(matrix.solve(*load))
         slow = np.abs(self._slow @ rate[3:]).max(initial=0.0) / (1 + ring.body.ring_mass) ** 0.5
-        size = largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow]))
-        after, before = (replace(state, pos=state.pos + s * way, vel=state.vel + s * rate) for s in (0.5, -0.5))
-        own = inertia(ring, state.pos, state.vel, state.acc, beta)
-        work = own.frame @ way[:3] + own.ring @ way[3:]
-        return Errors(size, float(sum(self.energies(after)) - sum(self.energies(before)) - work))
+        return float(largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow])))

@@ -14,7 +14,7 @@ from rigid.kernel.compile import jit
 
 from ..contact.forces import contact_forces
 from ..contact.points.data import Before, Contact, Damper, Parameters, Rim
-from ..ring.frame import Frame, energies, inertia
+from ..ring.frame import Frame, inertia
 
 
 class Predictor(NamedTuple):
@@ -169,28 +169,12 @@ def solve_stage(
 
 
 @jit
-def filtered_errors(
-    frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any, moved: Any
-) -> tuple[Any, float]:
-    """Errors of velocities and positions as the step itself passes them on: (M + beta C + beta^2 K)^-1 M times each.
+def filtered_error(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any) -> Any:
+    """The error of the velocities as the step itself passes it on: (M + beta C + beta^2 K)^-1 M times it.
 
     What the step does not resolve, and damps, would otherwise hold the steps down to the vibrations' periods.
-
-    Returns
-    -------
-    error : (3 + n,) array
-        That of the velocities.
-    energy : float
-        What comes with both, beyond the work of the floor's forces.
     """
     size = pos.shape[0]
-    forces = inertia(frame, pos, vel, acc, beta)[0]
-    loads = np.zeros((matrix.shape[0], 2))
-    loads[:size, 0] = (inertia(frame, pos, vel, acc + error, beta)[0] - forces) / beta**2
-    loads[:size, 1] = (inertia(frame, pos, vel, acc + moved, beta)[0] - forces) / beta**2
-    passed = np.linalg.solve(matrix, loads)
-    rate, way = passed[:size, 0].copy(), passed[:size, 1].copy()
-    after = energies(frame, pos + way / 2, vel + rate / 2)
-    before = energies(frame, pos - way / 2, vel - rate / 2)
-    gained = after[0] + after[1] + after[2] - before[0] - before[1] - before[2]
-    return rate, gained - (forces * way).sum()
+    load = np.zeros(matrix.shape[0])
+    load[:size] = inertia(frame, pos, vel, acc + error, beta)[0] - inertia(frame, pos, vel, acc, beta)[0]
+    return np.linalg.solve(matrix, load / beta**2)[:size].copy()

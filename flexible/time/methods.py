@@ -1,4 +1,5 @@
-"""The implicit Runge-Kutta methods of a step: diagonally implicit with an explicit first stage, L-stable, stiffly accurate.
+"""The implicit Runge-Kutta methods of a step: diagonally implicit, the first stage explicit, L-stable.
+
 
 All are of one form: stage i solves ``y_i = y_0 + h sum_j a_ij f_j`` with the same gamma = a_ii, the first stage is the
 end of the step before, and the last one is the step's result. What a step does not resolve, the ring's and the

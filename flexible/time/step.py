@@ -1,8 +1,9 @@
-"""One implicit step of any level, with its error, impulses and losses; and the jump when the law of friction changes."""
+"""One implicit step of any level, its error, impulses and losses; and the jump when the law of friction changes."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from math import isfinite
 
 import numpy as np
@@ -152,7 +153,7 @@ def _damped(method: Method, known: _Stages) -> float:
         return float(np.array([r.eta - 1 for r in results]) @ method.work @ stored)
     damped = 0.0
     order = np.argsort(method.c)
-    for before, after in zip(order[:-1], order[1:], strict=True):  # off the floor there is no factor
+    for before, after in pairwise(order):  # off the floor there is no factor
         factors = [results[i].eta - 1 for i in (before, after) if results[i].elastic > 0]
         damped += sum(factors) / max(len(factors), 1) * (stored[after] - stored[before])
     return float(damped)
