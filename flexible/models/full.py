@@ -6,7 +6,7 @@ borders are exact in every iteration, so that the ring's may lag behind.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import cos, isfinite, sin
 
 import numpy as np

@@ -93,7 +93,7 @@ def _esdirk3() -> Method:
         2756255671327 / 12835298489170, -10771552573575 / 22201958757719, 9247589265047 / 10645013368117,
         2193209047091 / 5459859503100,
     ]  # fmt: skip
-    return Method("ESDIRK3", [[], [gamma, gamma], third, last], companion, 3, 3, 0.3)
+    return Method("ESDIRK3", [[], [gamma, gamma], third, last], companion, 3, 3, 0.1)
 
 
 def _esdirk4() -> Method:

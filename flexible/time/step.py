@@ -98,8 +98,9 @@ def _measured(model: Model, old: State, h: float, method: Method, known: _Stages
     )  # fmt: skip
     error = model.error(state, method.gamma * h, last.matrix, h * _sum(method.error, known.acc))
     weights = h * method.b
-    impulses = sum(w * r.normal for w, r in zip(weights, known.res, strict=True)), sum(
-        w * r.friction for w, r in zip(weights, known.res, strict=True)
+    impulses = (
+        sum(w * r.normal for w, r in zip(weights, known.res, strict=True)),
+        sum(w * r.friction for w, r in zip(weights, known.res, strict=True)),
     )
     way = method.work @ known.way
     friction = float(sum((r.friction - r.damping) * x for r, x in zip(known.res, way, strict=True)))
