@@ -96,7 +96,9 @@ def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
     mass = np.zeros(parts + 1)
     mass[1:-1] = (theta[2:] - theta[:-2]) / (4 * pi)
     turning = mass * ((1 + inner**2) / 2 - a**2)
-    return Rod(theta, place, local, ends[:3, 3:].copy(), mass, turning, curve_weights(theta), 1 - a, 0.0)
+    bending = (local[:, 1, 1] + local[:, 2, 2] - 2 * local[:, 1, 2]) / 4
+    pulled = 3 * (1 - ring.poisson) * bending / np.hypot(*np.diff(place, axis=0).T)
+    return Rod(theta, place, local, pulled, ends[:3, 3:].copy(), mass, turning, curve_weights(theta), 1 - a, 0.0)
 
 
 def make_body(scene: Scene, rod: Rod) -> Body:
@@ -245,6 +247,7 @@ class ChainRing:
         unit, mass = self.shape.rod, scene.hoop.mass_ratio
         rod = unit._replace(
             local=unit.local * self.stiffness,
+            pulled=unit.pulled * self.stiffness,
             across=unit.across * self.stiffness,
             mass=unit.mass * mass,
             turning=unit.turning * mass,
