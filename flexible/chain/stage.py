@@ -14,6 +14,7 @@ import numpy as np
 from rigid.kernel.compile import jit
 
 from ..contact.forces import contact_forces
+from ..contact.points.data import MOST_ITERATIONS, pulling
 from .bordered import FRAME, Factors, factor, nothing_factored, solve
 from .rim import follow
 from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
@@ -84,7 +85,8 @@ def solve_stage(
     factors = nothing_factored()
     chained, stale = factors.core, True
     softest = np.abs(facing.missing).max()
-    for iteration in range(25):
+    damper = pulling(damper, True)
+    for iteration in range(MOST_ITERATIONS):
         pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
         contact = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper)
         res = contact.res
@@ -106,6 +108,9 @@ def solve_stage(
         if not np.isfinite(worst + astray + small):
             break
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
+            if damper.pulls and res.eta < 0:
+                damper, last = pulling(damper, False), np.inf
+                continue
             iterations = iteration
             break
         worst = max(worst, astray)

@@ -42,7 +42,7 @@ def _load(foundation: Any, damper: Damper) -> Load:
     if elastic > 0 and damper.relaxation > 0:
         eta += damper.relaxation * (1 - damper.elastic_0 / elastic)
         eta_rate = damper.relaxation * damper.elastic_0 / elastic**2
-        if eta < 0:
+        if eta < 0 and not damper.pulls:
             eta, eta_rate = 0.0, 0.0
     return Load(elastic, eta, eta_rate)
 

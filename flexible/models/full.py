@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from ..contact.forces import contact_forces
-from ..contact.points.data import Before, Damper, Rim
+from ..contact.points.data import MOST_ITERATIONS, Before, Damper, Rim, pulling
 from ..ring.fem import Ring, ring_of
 from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
@@ -167,7 +167,8 @@ class FullHoop(RimContact):
         last, lags = np.inf, True
         update, damping, way, reach = np.zeros_like(d), 1.0, 0.0, np.inf
         ok = False
-        for iteration in range(25):
+        damper = pulling(damper, True)
+        for iteration in range(MOST_ITERATIONS):
             pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
             u = pos[3:][dofs].reshape(-1, 2)
             contact = contact_forces(pos[:3], u, rim, law, mode, before, damper)
@@ -187,7 +188,7 @@ class FullHoop(RimContact):
             small = self.tolerance * (1 + res.normal)
             if worst > small:
                 depth = abs(pos[1]) + np.abs(u).max()
-                small += 4e-16 * (law.eps_n + law.eps_t) * res.length * depth
+                small += 4e-16 * (law.eps_n + law.eps_t) * res.length * depth * (damper.relaxation + 1)
                 small += 1e-14 * (damper.relaxation + 1) * res.elastic
                 steepness = max(damper.drag, res.steepness)
                 small += 1e-15 * steepness * (abs(res.way) + abs(damper.way_0)) + self.ring.round_off(pos[3:])
@@ -195,6 +196,9 @@ class FullHoop(RimContact):
             factored = self._factor(pos, vel, acc, beta, lags and iteration > 1 and worst > 0.05 * last)
             matrix = NewtonMatrix(factored, own, contact.tangent, window)
             if worst <= small and iteration > 0:
+                if damper.pulls and res.eta < 0:
+                    damper, last = pulling(damper, False), np.inf
+                    continue
                 ok = True
                 break
             update = np.concatenate(matrix.solve(frame, ring))

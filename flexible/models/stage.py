@@ -13,7 +13,7 @@ import numpy as np
 from rigid.kernel.compile import jit
 
 from ..contact.forces import contact_forces
-from ..contact.points.data import Before, Contact, Damper, Parameters, Rim
+from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
 from ..ring.frame import Frame, inertia
 
 
@@ -49,7 +49,8 @@ class Solved(NamedTuple):
 def _round_off(contact: Contact, height: float, u: Any, scale: float, damper: Damper) -> float:
     """Size of the rounding errors in the contact's forces: of the gap's, of the damping factor's, of the slip's."""
     res = contact.res
-    floor = 4e-16 * scale * (abs(height) + np.abs(u).max()) + 1e-14 * (damper.relaxation + 1) * res.elastic
+    gap = 4e-16 * scale * (abs(height) + np.abs(u).max())
+    floor = (damper.relaxation + 1) * (gap + 1e-14 * res.elastic)
     floor += 1e-15 * max(damper.drag, res.steepness) * (abs(res.way) + abs(damper.way_0))
     return floor
 
@@ -110,7 +111,8 @@ def solve_stage(
     damping, last = 1.0, np.inf
     way, reach = 0.0, np.inf
     softest = np.abs(compliance).max()
-    for iteration in range(25):
+    damper = pulling(damper, True)
+    for iteration in range(MOST_ITERATIONS):
         pos = pos_pred + d
         acc = d / beta**2
         vel = vel_pred + d / beta
@@ -148,6 +150,9 @@ def solve_stage(
             break
         # a ring softer than the foundation moves by its compliance times what the forces may be off
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
+            if damper.pulls and res.eta < 0:
+                damper, last = pulling(damper, False), np.inf
+                continue
             iterations = iteration
             break
         worst = max(worst, astray)
