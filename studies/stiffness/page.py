@@ -11,7 +11,8 @@ ratio.""",
     "distance": """\
 How far the flexible hoop's measures are from the rigid ones. Triangles are the numerical error, known
 from a second run at half the tolerance; the dashed line has the fitted rate and
-spans the cases it was fitted to; the black one is predicted from the rigid motion, without any of them.""",
+spans the cases it was fitted to; the black one is predicted from the rigid motion, without any of them, and
+begins where it holds.""",
     "energy": """\
 Where the energy is and where it goes; below, the small terms on a logarithmic axis.""",
 }
@@ -51,9 +52,10 @@ caption }}</figcaption></figure>
 {% if row.failure %}<td class="bad" colspan="{{ heading|length - 2 }}">{{ row.failure }}</td>{% endif %}</tr>
 {% endfor %}<tr class="rigid">{% for cell in rigid %}<td>{{ cell }}</td>{% endfor %}</tr>
 </tbody></table></div>
-<p>± is the numerical error of a case, known from a second run at half the tolerance; the tolerance was
-tightened until that error was a tenth of the distance to the rigid value, as far as the solver's own noise and a
-bound on its work let it.{{ unresolved }}</p>
+<p>± is the numerical error of a case, known from a second run at half the tolerance, that of the loss no less than
+what the steps themselves took of the energy; the tolerance was tightened until that error was a tenth of the distance
+to the rigid value, or of the predicted one where that is more, as far as the solver's own noise and a bound on its work
+let it.{{ unresolved }}</p>
 
 <h2>All measures of the first pulse, side by side</h2>
 <div class="wide"><table><thead><tr>{% for cell in side_heading %}<th>{{ cell }}</th>{% endfor

@@ -35,8 +35,12 @@ def limits_hold(study) -> None:
             # the half-width of the patch, eps^(-1/3); nine rungs still show the next term
             assert limit.rate == pytest.approx(1 / 3, abs=0.06)
     if study.prediction.complete:  # without a fit, and with nothing of the cases in it
-        observed, predicted, error = study.coefficients("impulse_ratio")
-        assert abs(observed - predicted) < 0.05 * abs(predicted) + error
+        observed, predicted, uncertainty = study.coefficient("impulse_ratio")
+        assert abs(observed - predicted) <= uncertainty
+        if scene.hoop.mass_ratio == 0:
+            # where no vibration of the ring comes between: the prediction is within 5 %, and the interval tells 20 %
+            assert abs(observed - predicted) < 0.05 * abs(predicted)
+            assert uncertainty < 0.2 * abs(predicted)
 
 
 @pytest.fixture(scope="module", params=LAWS, ids="{0[0]}-{0[1]}".format)
