@@ -162,6 +162,12 @@ def stiffness(
     help="Observe the flexible solver at this foundation too; may be given several times.",
 )
 @click.option("--map", "mapped", is_flag=True, help="J_F/J_N over damping ratio and foundation too; a minute or two.")
+@click.option(
+    "--peers",
+    "peers_too",
+    is_flag=True,
+    help="What MuJoCo, Drake, Exudyn and ipctk tend to, those that are installed; a minute or two.",
+)
 @workers
 @scheduler
 @click.pass_obj
@@ -174,6 +180,7 @@ def limit(
     damping: float | None,
     foundations: tuple[float, ...],
     mapped: bool,
+    peers_too: bool,
     workers: int | None,
     scheduler: str | None,
 ) -> None:
@@ -192,6 +199,14 @@ def limit(
         found = limit_study(described, damping=damping, flexible=foundations, pool=place, out=target, progress=progress)
         spots = damping_map(found.scene) if mapped else []
     told = found.to_dict() | ({"map": [spot.to_dict() for spot in spots]} if mapped else {})
+    more = [map_sheet(spots)] if mapped else []
+    if peers_too:
+        from ..bench.peers.approach import approach_sheet, approaches
+
+        with bar("other programs") as progress:
+            others = list(approaches(found.scene, progress))
+        told["peers"] = [other.to_dict() for other in others]
+        more.append(approach_sheet(others))
     if target is not None:
         from ..limit.figures import damping_figure, of_limit
         from ..limit.report import limit_report
@@ -200,13 +215,13 @@ def limit(
         write_text(target / "limit.json", to_json(told))
         drawn = of_limit(found) | ({"damping": damping_figure(spots)} if mapped else {})
         images = {name: save(figure, target / f"{name}.png") for name, figure in drawn.items()}
-        limit_report(found, (map_sheet(spots),) if mapped else (), images, line, target / "report.html")
+        limit_report(found, tuple(more), images, line, target / "report.html")
     if as_json:
         click.echo(to_json(told))
         return
     from .tables import show
 
-    show(*limit_sheets(found), *([map_sheet(spots)] if mapped else []))
+    show(*limit_sheets(found), *more)
     if target is not None:
         click.echo(f"Figures and limit.json are in {target}; open {target / 'report.html'}.")
 

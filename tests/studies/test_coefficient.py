@@ -34,7 +34,7 @@ def sequence(law: str, random: np.random.Generator, right: float) -> tuple[Term,
 
 @pytest.mark.parametrize("law", PREDICTED)
 def test_the_interval_holds_the_true_coefficient(law):
-    """Whether the prediction is that, or 30 % off: 38 of 40 is the level, three standard deviations below it are 33.9."""
+    """With a prediction that is that, or 30 % off: 38 of 40 is the level, three standard deviations below are 33.9."""
     random = np.random.default_rng(15)
     held = 0
     for right in [1.0, 0.7] * 20:
