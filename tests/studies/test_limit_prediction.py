@@ -84,7 +84,7 @@ def test_a_rigid_ring_on_a_compliant_floor_comes_as_predicted(k, mass_ratio, law
         assert abs(off[name, 1e12]) < max(abs(off[name, 1e11]), 0.01)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("damping", [0.05, 1.0])
 @pytest.mark.parametrize("mass_ratio", [0.0, 0.01, 0.1])
 @pytest.mark.parametrize("k", [0.1, 0.25])
@@ -98,7 +98,7 @@ def test_every_rigid_ring_comes_as_predicted(k, mass_ratio, law, damping):
         assert getattr(seen, name) - terms[name].limit == pytest.approx(far, rel=within)
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("mass_ratio", [0.0, 0.01, 0.1])
 @pytest.mark.parametrize("k", [0.1, 0.25])
 @pytest.mark.parametrize("law", ["patch", "brush"])
@@ -202,7 +202,7 @@ def test_a_hoop_without_a_pulse_is_one_sentence(hoop, tmp_path):
     assert "no pulse" in err
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_any_damping_that_decays_in_the_stick_has_the_limit_and_none_has_not():
     """Undamped the deviation stays, 1e-3 and scattered; with x = zeta omega T above 5 (e^-5 is 0.7 %) it is gone."""
     spots = damping_map(scene_of(0.1, 0.0, "patch"), (0.0, 0.02, 0.05, 0.2), (1e10, 1e11, 1e12))
