@@ -125,6 +125,10 @@ def _rung(power: int, name: str) -> Callable[[Any], float]:
     return value
 
 
+def _coefficient(name: str) -> Callable[[Any], float]:
+    return lambda study: float(study["prediction"]["impulse_ratio"][name])
+
+
 def _limit(measure: str, name: str) -> Callable[[Any], float]:
     return lambda study: float(study["limit"][measure][name])
 
@@ -180,6 +184,9 @@ _POWER = r"((?:[\d.]+·)?10[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+|[\d.]+)"
 
 NUMBERS: tuple[Stated, ...] = (
     *_ladder(),
+    Stated("coefficient", r"alone, ([\d.]+) for\s+this hoop", STUDY, _coefficient("predicted")),
+    Stated("coefficient", r"ladder shows ([\d.]+) ±", STUDY, _coefficient("observed")),
+    Stated("coefficient", r"ladder shows [\d.]+ ± ([\d.]+),", STUDY, _coefficient("uncertainty")),
     Stated("brush", r"instead of 0.35: ([\d.]+) ±", BRUSH, _limit("impulse_ratio", "value")),
     Stated("brush", r"instead of 0.35: [\d.]+ ± ([\d.]+) against", BRUSH, _limit("impulse_ratio", "uncertainty")),
     Stated("brush", r"± [\d.]+ against ([\d.]+\d)", BRUSH, _limit("impulse_ratio", "rigid")),
