@@ -40,7 +40,7 @@ def limits_hold(study) -> None:
         assert abs(observed - predicted) <= uncertainty < 0.5 * abs(predicted)
         if scene.hoop.mass_ratio == 0:  # otherwise the ring's own vibration is the larger part of what is left
             assert abs(observed - predicted) < 0.05 * abs(predicted)
-            assert uncertainty < 0.1 * abs(predicted)
+            assert uncertainty < 0.2 * abs(predicted)  # one that is off by as much would be seen
 
 
 @pytest.fixture(scope="module", params=LAWS, ids="{0[0]}-{0[1]}".format)

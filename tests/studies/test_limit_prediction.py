@@ -84,6 +84,20 @@ def test_a_rigid_ring_on_a_compliant_floor_comes_as_predicted(k, mass_ratio, law
         assert abs(off[name, 1e12]) < max(abs(off[name, 1e11]), 0.01)
 
 
+@pytest.mark.parametrize("k", [0.1, 0.25])
+def test_friction_and_damper_take_what_is_predicted(k):
+    """The two together, for a rigid ring under a patch; what comes behind eps is linear in it and taken out."""
+    scene = scene_of(k, 0.0, "patch", 1.0)
+    terms = predict(scene).terms
+    eps = np.array([1e12, 1e13]) ** (-1 / 3)
+    seen = [go_through(scene.replace(contact={"stiffness": foundation})).loss for foundation in (1e12, 1e13)]
+    over = (np.array(seen) - terms["friction_loss"].limit) / eps
+    coefficient = over[1] + (over[1] - over[0]) * eps[1] / (eps[0] - eps[1])
+    expected = terms["friction_loss"].coefficient + terms["damping_loss"].coefficient
+    # what is left is of the square of eps, over which c is some 1e3 times smaller than the next coefficient
+    assert coefficient == pytest.approx(expected, rel=0.03)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("damping", [0.05, 1.0])
 @pytest.mark.parametrize("mass_ratio", [0.0, 0.01, 0.1])
