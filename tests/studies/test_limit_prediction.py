@@ -94,7 +94,7 @@ def test_friction_and_damper_take_what_is_predicted(k):
     over = (np.array(seen) - terms["friction_loss"].limit) / eps
     coefficient = over[1] + (over[1] - over[0]) * eps[1] / (eps[0] - eps[1])
     expected = terms["friction_loss"].coefficient + terms["damping_loss"].coefficient
-    # what is left is of the square of eps, over which c is some 1e3 times smaller than the next coefficient
+    # a line in eps leaves its square: some per cent where the next coefficient is a thousand times the first (k = 0.1)
     assert coefficient == pytest.approx(expected, rel=0.03)
 
 
