@@ -243,7 +243,8 @@ def stiffness_study(
 
     # 3. the flexible hoop on every rung, as finely as its distance from the rigid one asks for
     scenes = ladder.rungs(scene)
-    cases = [Case(solver, rung, _against(rung, reference.pulses[0], foreseen), histories=True) for rung in scenes]
+    pulse = reference.pulses[0]
+    cases = [Case(solver, rung, _against(rung, pulse, foreseen, separate), histories=True) for rung in scenes]
     outcomes = run_cases(cases, pool, out, progress)
     rungs = tuple(
         Rung(rung.ring.bending_stiffness, rung.contact.stiffness, stiffness, outcome)
@@ -262,8 +263,7 @@ def stiffness_study(
     limits = {}
     for name in LIMITS:
         values, errors = [r.measure(name) for r in through], [r.error(name) for r in through]
-        stiffness = [r.stiffness for r in through]
-        limits[name] = limit_of(stiffness, values, reference.pulses[0][name], errors, rates, holds)
+        limits[name] = limit_of([r.stiffness for r in through], values, pulse[name], errors, rates, holds)
     if foreseen is not None and foreseen.parameter != "eps":
         foreseen = None  # it is told by the foundation alone
     return StiffnessStudy(
@@ -272,13 +272,13 @@ def stiffness_study(
 
 
 def _against(
-    rung: Scene, rigid: Mapping[str, float], foreseen: Prediction | None
+    rung: Scene, rigid: Mapping[str, float], foreseen: Prediction | None, separate: float
 ) -> tuple[tuple[str, float, float], ...]:
     """What a rung is compared with, and the distance from that to expect of it."""
     tied = []
     for name in TIED:
         expected = 0.0
-        if foreseen is not None and foreseen.complete:
+        if foreseen is not None and foreseen.complete and rung.contact.stiffness >= separate:
             term = foreseen.terms[name]
             expected = abs(float(term.at(rung.contact.stiffness ** (-1 / 3))) - term.limit)
         tied.append((name, rigid[name], expected))

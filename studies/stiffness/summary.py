@@ -202,7 +202,9 @@ def prediction_sentence(study: StiffnessStudy) -> str:
     said = f"Predicted without a fit, ε the foundation to the power −1/3: {'; '.join(told)}."
     if not study.prediction.complete:
         said += " This is the leading power alone; those behind it are the larger ones at any stiffness within reach."
-    if study.separate > study.ladder.low:
+    if not isfinite(study.separate):
+        said += " A patch of so little damping does not come to rest between the events, and it holds at none of these."
+    elif study.separate > study.ladder.low:
         said += (
             f" It holds from a foundation of {number(study.separate, 2)} on: at softer ones an event happens before the"
             " patch has come to rest from the one before it, and no series in powers of ε describes these cases."
