@@ -15,6 +15,7 @@ from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, simulate
 from studies.inner.body import arms
 from studies.inner.events import START, passage
 from studies.inner.march import FRICTION_IMPULSE, NORMAL_IMPULSE, REGULARISED
+from studies.inner.separate import separate_from
 from studies.limit.compliant import go_through, march_through
 from studies.limit.damping import damping_map
 from studies.limit.onset import brush_end, regularised_lead
@@ -82,6 +83,23 @@ def test_a_rigid_ring_on_a_compliant_floor_comes_as_predicted(k, mass_ratio, law
     for name in MEASURES:
         assert abs(off[name, 1e12]) < 0.05
         assert abs(off[name, 1e12]) < max(abs(off[name, 1e11]), 0.01)
+
+
+def test_below_a_foundation_the_events_are_not_separate():
+    """A brush that sticks for a moment only: a decade below that foundation no power of eps tells how far it is off.
+
+    From there to a decade above, a next term in eps^(1/5) to eps would fall by 1.4 to 4.6 times.
+    """
+    scene = scene_of(0.1, 0.0, "brush", 1.0)
+    way, term = passage(scene), predict(scene).terms["impulse_ratio"]
+    least = separate_from(way)
+    off = []
+    for foundation in (least / 10, 10 * least):
+        far = float(term.at(foundation ** (-1 / 3))) - term.limit
+        off.append((go_through(scene.replace(contact={"stiffness": foundation})).impulse_ratio - term.limit) / far - 1)
+    assert abs(off[1]) < 0.02
+    assert abs(off[0]) > 10 * abs(off[1])
+    assert separate_from(passage(scene.replace(contact={"damping": 0.0}))) > least
 
 
 @pytest.mark.parametrize("k", [0.1, 0.25])
