@@ -161,7 +161,7 @@ def test_level_of_a_scene():
     assert type(hoop_of(HOOP.replace(solve={"level": "full"}))) is FullHoop
     soft = HOOP.replace(solve={"level": "auto"}, ring={"bending_stiffness": 1.0})
     assert isinstance(hoop_of(soft), ChainHoop)
-    assert isinstance(hoop_of(soft.replace(ring={"weld_half_angle": 2.0})), ExactHoop)
+    assert isinstance(hoop_of(soft.replace(hoop={"r": 1.5})), ExactHoop)
 
 
 def test_a_linear_ring_that_goes_too_far_says_so():
