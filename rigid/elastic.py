@@ -129,7 +129,7 @@ class Solve:
     ----------
     level : {"auto", "reduced", "full", "exact", "chain"}
         Reduced modes with static correction, every node of the ring, every node of the geometrically exact ring, or a
-        chain of parts that bend and turn far; "auto" takes one of the first and third that the scene allows.
+        chain of parts that bend and turn far; "auto" takes the first, or the last for a soft ring.
     resolve : {"pulses", "all"}
         Flexible inside the pulses only, with the rigid closed form between them, or flexible throughout.
     start : {"equilibrium", "undeformed"}

@@ -223,3 +223,14 @@ def _add_across(rod: Any, q: Any, up: Any, down: Any) -> None:
                     value = first[i, 3 + a] * rod.across[i, j] * final[j, b]
                     down[a, b] += value
                     up[b, a] += value
+
+
+def bends_and_stretches(rod: Rod, q: Array) -> tuple[Array, Array]:
+    """dphi/dtheta and elongation of the line of centres at the sections, (n + 2,) each; at the weld as next to it."""
+    bend = np.zeros(len(q))
+    bend[1:-1] = sum(rod.curve[1:-1, k] * q[k : len(q) - 2 + k, 2] for k in range(3))
+    bend[0], bend[-1] = bend[1], bend[-2]
+    parts = np.array([chord(rod, q, p)[2:4] for p in range(len(rod.local))])
+    strain = parts[:, 1] / (parts[:, 0] - parts[:, 1])
+    inner = (strain[1:] + strain[:-1]) / 2
+    return bend, np.concatenate([strain[:1], inner, strain[-1:]])
