@@ -104,7 +104,7 @@ def solve_stage(
         push(touch, contact, place, frame, force)
         rest = astray_of(touch, contact.nodal, scale)
         worst, astray = max(_largest(frame), _largest(force[1:-1])), _largest(rest)
-        small = tolerance * (1 + res.normal) + _round_off(chain, contact, pos, acc, u, scale, damper)
+        small = tolerance * (1 + abs(res.normal)) + _round_off(chain, contact, pos, acc, u, scale, damper)
         if not np.isfinite(worst + astray + small):
             break
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:

@@ -18,7 +18,7 @@ from ..chain.touch import Facing, lowest, turned
 from ..chain.whole import balance, held, passed_on, sections
 from ..contact.points.data import Before, Damper, Rim
 from ..ring.fem import ring_of
-from .rim_contact import POINTS, RimContact
+from .rim_contact import RimContact
 from .stage import Predictor, largest
 from .state import Stage, State
 
@@ -49,7 +49,7 @@ class ChainHoop(RimContact):
         self,
         scene: Scene,
         parts: int | None = None,
-        points: int = POINTS,
+        points: int | None = None,
         tolerance: float = 1e-9,
         through: int = THROUGH,
     ) -> None:

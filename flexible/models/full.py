@@ -19,7 +19,7 @@ from ..contact.points.data import MOST_ITERATIONS, Before, Damper, Rim, pulling
 from ..ring.fem import Ring, ring_of
 from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
-from .rim_contact import POINTS, RimContact
+from .rim_contact import RimContact
 from .stage import Predictor, largest
 from .state import Stage, State
 
@@ -101,7 +101,7 @@ class FullHoop(RimContact):
         Elements through the wall.
     """
 
-    def __init__(self, scene: Scene, points: int = POINTS, tolerance: float = 1e-9, through: int = 1) -> None:
+    def __init__(self, scene: Scene, points: int | None = None, tolerance: float = 1e-9, through: int = 1) -> None:
         self.ring = self._make_ring(scene, ring_of(scene, through))
         super().__init__(scene, self.ring.vertex, points, tolerance)
         self._factored: _Factored | None = None
@@ -185,7 +185,7 @@ class FullHoop(RimContact):
             worst = max(largest(frame), largest(ring))
             if not isfinite(worst):
                 return Stage(False), False
-            small = self.tolerance * (1 + res.normal)
+            small = self.tolerance * (1 + abs(res.normal))
             if worst > small:
                 depth = abs(pos[1]) + np.abs(u).max()
                 small += 4e-16 * (law.eps_n + law.eps_t) * res.length * depth * (damper.relaxation + 1)

@@ -11,7 +11,7 @@ from ..contact.points.data import Before, Damper, Rim
 from ..ring.frame import energies, inertia
 from ..ring.reduction import ReducedRing, reduce
 from .equilibrium import RestingModes
-from .rim_contact import POINTS, RimContact
+from .rim_contact import RimContact
 from .stage import Predictor, Window, filtered_error, largest, solve_stage
 from .state import Stage, State
 
@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 class ReducedHoop(RimContact):
     """Frame, modes and residual static compliance of a scene's hoop."""
 
-    def __init__(self, scene: Scene, modes: int = 24, points: int = POINTS, tolerance: float = 1e-9) -> None:
+    def __init__(self, scene: Scene, modes: int = 24, points: int | None = None, tolerance: float = 1e-9) -> None:
         self.ring: ReducedRing = reduce(scene, modes)
         super().__init__(scene, self.ring.vertex, points, tolerance)
         self._blocks: dict[tuple[int, int], tuple[Array, Array]] = {}

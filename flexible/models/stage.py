@@ -145,7 +145,7 @@ def solve_stage(
             residual[m + k] = scale * (u[k // 2, k % 2] - modal_part - moved[k])
         # of forces, and of displacements as forces on the foundation
         worst, astray = largest(residual[:m]), largest(residual[m:])
-        small = tolerance * (1 + res.normal) + _round_off(contact, pos[1], u, scale, damper)
+        small = tolerance * (1 + abs(res.normal)) + _round_off(contact, pos[1], u, scale, damper)
         if not np.isfinite(worst + astray + small):
             break
         # a ring softer than the foundation moves by its compliance times what the forces may be off

@@ -33,7 +33,7 @@ def motion():
 def at_steps(motion, tmp_path_factory):
     """Frames at accepted steps, and the history there; of two records at one instant the later counts."""
     history = motion.history
-    chosen = np.flatnonzero(np.diff(history.t, append=np.inf) > 0)[5::60]
+    chosen = np.flatnonzero(np.diff(history.t, append=np.inf) > 0)[5::10]
     directory = tmp_path_factory.mktemp("steps")
     write_fields(motion, directory, times=history.t[chosen])
     return list(read(directory)), chosen
