@@ -19,6 +19,8 @@ from .rim import follow
 from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
 from .whole import balance, sections, tangent
 
+MOST = 30  # steps of Newton
+GROWS = 100.0  # a step of Newton after which the forces are off by this many times as much is taken back to a tenth
 STALE = 0.1  # a step of Newton that leaves more than this of the forces is followed by a new matrix of the chain
 
 
@@ -84,7 +86,7 @@ def solve_stage(
     factors = nothing_factored()
     chained, stale = factors.core, True
     softest = np.abs(facing.missing).max()
-    for iteration in range(25):
+    for iteration in range(MOST):
         pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
         contact = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper)
         res = contact.res
@@ -105,6 +107,11 @@ def solve_stage(
         small = tolerance * (1 + res.normal) + _round_off(chain, contact, pos, acc, u, scale, damper)
         if not np.isfinite(worst + astray + small):
             break
+        if max(worst, astray) > GROWS * last and damping > 1e-9:  # beyond a bend, the damper's onset for one
+            d += 0.9 * damping * update
+            u += 0.9 * damping * update_u
+            damping *= 0.1
+            continue
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
             iterations = iteration
             break
