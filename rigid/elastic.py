@@ -138,6 +138,8 @@ class Solve:
         Tolerance on the impulses, over M sqrt(g R) with M the mass of disk and hoop, about.
     elements : int
         Elements around the ring.
+    integrator : {"esdirk3", "esdirk4", "tr-bdf2"}
+        Implicit Runge-Kutta method of a step; the others are for comparison.
     """
 
     level: str = "auto"
@@ -145,10 +147,12 @@ class Solve:
     start: str = "equilibrium"
     rtol: float = 1e-4
     elements: int = 240
+    integrator: str = "esdirk3"
 
     def __post_init__(self) -> None:
         require_choice("solve.level", self.level, ("auto", "reduced", "full", "exact", "chain"))
         require_choice("solve.resolve", self.resolve, ("pulses", "all"))
+        require_choice("solve.integrator", self.integrator, ("esdirk3", "esdirk4", "tr-bdf2"))
         require_choice("solve.start", self.start, ("equilibrium", "undeformed"))
         require("solve.rtol", self.rtol, 1e-12, 0.5, "the tolerance lies between 1e-12 and 0.5")
         require_whole("solve.elements", self.elements, 24, 4000)

@@ -20,6 +20,7 @@ from .rim import follow
 from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
 from .whole import balance, sections, tangent
 
+GROWS = 100.0  # a step of Newton after which the forces are off by this many times as much is taken back to a tenth
 STALE = 0.1  # a step of Newton that leaves more than this of the forces is followed by a new matrix of the chain
 
 
@@ -107,6 +108,11 @@ def solve_stage(
         small = tolerance * (1 + abs(res.normal)) + _round_off(chain, contact, pos, acc, u, scale, damper)
         if not np.isfinite(worst + astray + small):
             break
+        if max(worst, astray) > GROWS * last and damping > 1e-9:  # beyond a bend, the damper's onset for one
+            d += 0.9 * damping * update
+            u += 0.9 * damping * update_u
+            damping *= 0.1
+            continue
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
             if damper.pulls and res.eta < 0:
                 damper, last = pulling(damper, False), np.inf

@@ -35,7 +35,9 @@ def contact_law(scene: Scene, points: int | None = None) -> Law:
     law = LAWS[contact.law]
     parameters = Parameters(
         law=law.code,
-        spacing=min(2 * half_width / (points or points_to_a_patch(scene.solve.rtol)), 2 * pi / scene.solve.elements / 8),
+        spacing=min(
+            2 * half_width / (points or points_to_a_patch(scene.solve.rtol)), 2 * pi / scene.solve.elements / 8
+        ),
         eps_n=eps,
         eps_t=eps * contact.tangential_ratio,
         mu_s=float(friction.mu_s),

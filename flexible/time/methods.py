@@ -81,7 +81,7 @@ def _tr_bdf2() -> Method:
     """Bank et al. 1985; its companion is of third order (Hosea and Shampine 1996)."""
     beta, w = 1 - sqrt(2) / 2, sqrt(2) / 4
     a = [[], [beta, beta], [w, w, beta]]
-    return Method("TR-BDF2", a, [(1 - w) / 3, (3 * w + 1) / 3, beta / 3], 2, 3, 3.0)
+    return Method("tr-bdf2", a, [(1 - w) / 3, (3 * w + 1) / 3, beta / 3], 2, 3, 3.0)
 
 
 def _esdirk3() -> Method:
@@ -93,7 +93,7 @@ def _esdirk3() -> Method:
         2756255671327 / 12835298489170, -10771552573575 / 22201958757719, 9247589265047 / 10645013368117,
         2193209047091 / 5459859503100,
     ]  # fmt: skip
-    return Method("ESDIRK3", [[], [gamma, gamma], third, last], companion, 3, 3, 0.1)
+    return Method("esdirk3", [[], [gamma, gamma], third, last], companion, 3, 3, 0.1)
 
 
 def _esdirk4() -> Method:
@@ -111,7 +111,7 @@ def _esdirk4() -> Method:
         4586570599 / 29645900160, 0.0, 178811875 / 945068544, 814220225 / 1159782912, -3700637 / 11593932,
         61727 / 225920,
     ]  # fmt: skip
-    return Method("ESDIRK4", a, companion, 4, 4, 0.3)
+    return Method("esdirk4", a, companion, 4, 4, 0.3)
 
 
 TR_BDF2, ESDIRK3, ESDIRK4 = _tr_bdf2(), _esdirk3(), _esdirk4()

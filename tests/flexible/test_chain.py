@@ -170,6 +170,18 @@ def test_level_by_name():
     assert isinstance(hoop_of(COARSE.replace(solve={"level": "chain"})), ChainHoop)
 
 
+def test_a_damped_soft_pulse_is_gone_through():
+    """E I = 3, whose wall gives way: steps of 1e-9 after an event, in which the damper's onset is a sharp bend."""
+    scene = HOOP.replace(
+        ring={"bending_stiffness": 3.0}, hoop={"mass_ratio": 0.05}, friction={"mu_s": 0.35, "mu": 0.3},
+        release={"phi0": np.radians(10), "omega0": 0.0}, run={"until": "pulse"},
+        contact={"stiffness": 1e8, "damping": 1.0}, solve={"level": "chain", "rtol": 3e-3},
+    )  # fmt: skip
+    motion = flexible.simulate(scene)
+    assert motion.completed, motion.ended
+    assert len(motion.pulses) == 1
+
+
 @pytest.mark.slow
 def test_a_soft_pulse_against_all_nodes(monkeypatch):
     """The first pulse at E I = 10, where the rim turns by 0.03, on the same mesh: a percent in all that is measured.
