@@ -1,4 +1,5 @@
-"""How a hoop moves as a whole: mass centre, spin, and what of its kinetic energy is neither; its lowest point.
+"""How a hoop moves as a whole: mass centre, spin, and what of its kinetic energy is neither; its rim
+and the lowest point of that.
 
 The kinetic energy is a quadratic form of the rates, so momenta and inertias are differences of its values at rates
 that a rigid motion adds. That is exact, and the same for every level of the hoop.
@@ -13,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..contact.points.rim import gap_at, upward
+from ..contact.points.rim import gap_at, sideways, upward
 from ..models.select import Hoop
 from ..models.state import State
 
@@ -60,20 +61,33 @@ def whole(hoop: Hoop, state: State) -> Whole:
     return Whole((vx, vy), height, about / inertia, moved, spun, energy(state.vel) - moved - spun)
 
 
+def outline(hoop: Hoop, state: State) -> Array:
+    """The rim's nodes in the world, (2 elements, 2), in R; x is 0 where the hoop's centre was at its release."""
+    angle, u_x, u_y = _rim(hoop, state)
+    x = state.x_C - np.sin(angle) + u_x
+    return np.column_stack([x, 1 + state.pos[1] - np.cos(angle) + u_y])
+
+
+def _rim(hoop: Hoop, state: State) -> tuple[Array, Array, Array]:
+    """Angles of the rim's nodes from the bottom, and their displacement to the right and up."""
+    count = len(hoop.vertex)
+    u1, u2 = hoop.displacement(state, (0, count))[: 2 * count].T
+    phi = float(state.pos[2])
+    s, c = np.sin(phi), np.cos(phi)
+    return phi + hoop.rim_angle(np.arange(2 * count)) - pi, sideways(u1, u2, s, c), upward(u1, u2, s, c)
+
+
 def lowest(hoop: Hoop, state: State) -> float:
     """Height of the rim's lowest point over the floor, in R; below 0 where it is pressed in.
 
     The parabola through the lowest node and its neighbours: of a circle it misses the depth by (angle between
     nodes)^4/12, 2e-9 with 240 elements.
     """
-    count = len(hoop.vertex)
-    u = hoop.displacement(state, (0, count))[: 2 * count]
-    phi, height = float(state.pos[2]), float(state.pos[1])
-    theta = hoop.rim_angle(np.arange(2 * count))
-    gap = gap_at(height, phi + theta - pi, upward(u[:, 0], u[:, 1], np.sin(phi), np.cos(phi)))
+    angle, _, u_y = _rim(hoop, state)
+    gap = gap_at(float(state.pos[1]), angle, u_y)
     i = int(np.argmin(gap))
-    near = np.array([i - 1, i, i + 1])
-    at = theta[near % (2 * count)] - theta[i]
+    near = np.array([i - 1, i, i + 1]) % len(gap)
+    at = angle[near] - angle[i]
     at -= 2 * pi * np.round(at / (2 * pi))
-    bend, slope, here = np.polyfit(at, gap[near % (2 * count)], 2)
+    bend, slope, here = np.polyfit(at, gap[near], 2)
     return float(here - slope**2 / (4 * bend)) if bend > 0 else float(gap[i])

@@ -20,6 +20,7 @@ from rigid import Motion, Scene, SceneError, load_scene
 
 from ..running.files import StudyError, folder, to_json, trouble
 from .bench import bench, stress
+from .hopping import hop
 from .study import study
 from .view import view
 
@@ -169,6 +170,7 @@ def compile_(shared: bool) -> None:
     click.echo(f"Both solvers are compiled, in {share() if shared else place}.")
 
 
+study.add_command(hop)
 hoop.add_command(study)
 hoop.add_command(view)
 

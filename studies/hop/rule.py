@@ -16,7 +16,7 @@ from rigid import Scene
 
 HEIGHT_OVER_DEPTH = 10.0
 HEIGHT_OVER_SAG = 0.01
-DURATION_OVER_PERIOD = 0.1
+DURATION_OVER_PERIOD = 0.03
 """What a hop has at least: of a flight that just has one of them the prominence is 1."""
 
 DECADE = (10**-0.5, 10**0.5)
