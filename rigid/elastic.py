@@ -192,7 +192,9 @@ def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[d
         if key in ring:
             require(f"ring.{key}", ring[key], 0, 1e30, f"{key} is in SI units, above 0", open_low=True)
     if "bending_stiffness" in ring:
-        raise SceneError(f"ring.bending_stiffness and ring.{first} cannot both be given: each says how stiff the ring is.")
+        raise SceneError(
+            f"ring.bending_stiffness and ring.{first} cannot both be given: each says how stiff the ring is."
+        )
     if "youngs_modulus" not in ring:
         raise SceneError(f"ring.youngs_modulus is missing: ring.{first} says the section alone.")
     R, m, g = (float(hoop[key]) for key in ("R", "m", "g"))
@@ -201,9 +203,13 @@ def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[d
         raise SceneError(f"The ring's section is {high!r} m high: it must be less than hoop.R = {R!r}.")
     r = R / (R - high)
     if abs(float(hoop.get("r", r)) / r - 1) > 1e-6:
-        raise SceneError(f"hoop.r = {hoop['r']!r} is not possible: the ring's section says {r:.9g}, and it may be left out.")
+        raise SceneError(
+            f"hoop.r = {hoop['r']!r} is not possible: the ring's section says {r:.9g}, and it may be left out."
+        )
     if "thickness" in ring:
-        raise SceneError(f"ring.thickness and ring.{first} cannot both be given: the section says how thick the ring is.")
+        raise SceneError(
+            f"ring.thickness and ring.{first} cannot both be given: the section says how thick the ring is."
+        )
     of_hoop: dict[str, Any] = {"r": r}
     if "density" in ring:
         if "mass_ratio" in hoop:
@@ -214,7 +220,9 @@ def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[d
 
 def _section(ring: Mapping[str, Any]) -> tuple[float, float, float]:
     """Height, area and second moment of area of a strip or a tube."""
-    pairs = {name: [key for key in name if key in ring] for name in (("width", "height"), ("tube_diameter", "tube_wall"))}
+    pairs = {
+        name: [key for key in name if key in ring] for name in (("width", "height"), ("tube_diameter", "tube_wall"))
+    }
     said = [name for name, given in pairs.items() if given]
     if len(said) != 1 or len(pairs[said[0]]) != 2:
         raise SceneError(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from rigid import load_scene
+from rigid.elastic import LAWS
 
 from ..running.files import folder, to_json, write_text
 from .study import as_json, scheduler, workers
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     metavar="T",
     help="Tolerance of the rolls, 3e-3 by default; thresholds are held against a third of it.",
 )
+@click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--level",
     type=click.Choice(["auto", "reduced", "full", "exact", "chain"]),
@@ -58,6 +60,7 @@ def hop(
     over: tuple[str, ...],
     bisections: int,
     rtol: float | None,
+    law: str | None,
     level: str | None,
     workers: int | None,
     scheduler: str | None,
@@ -72,7 +75,10 @@ def hop(
     from ..running.solvers import prepare
     from ..running.workers import pool
 
-    asked = asked_of(load_scene(scene), over, rtol=rtol or RTOL, bisections=bisections, level=level)
+    described = load_scene(scene)
+    if law is not None:
+        described = described.replace(contact={"law": law})
+    asked = asked_of(described, over, rtol=rtol or RTOL, bisections=bisections, level=level)
     target = folder(out) if out is not None else None
     say: Callable[[str], None] = (lambda sentence: None) if as_json else _say
     say(f"{asked.count} rolls, and up to {3 * (bisections + 2)} more for each threshold line.")

@@ -7,6 +7,7 @@ from math import degrees, sin
 import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.collections import PathCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
@@ -88,7 +89,7 @@ def hop_map(study: HopStudy) -> Figure:
         return figure
 
 
-def _line(axes: Axes, study: HopStudy, line: Line) -> object:
+def _line(axes: Axes, study: HopStudy, line: Line) -> PathCollection | None:
     cases = (*line.mapped, *line.between)
     R = study.scene.hoop.R
     points = np.array(
@@ -207,7 +208,7 @@ def liftoff_figure(found: Chosen) -> Figure:
         top = max(3 * found.hop["height"] / found.case.scene.hoop.R, 2e-3)
         right.set(xlim=(x_low - 0.4, x_low + 0.4), ylim=(-0.15 * top, top), title="the rim over the floor, heights enlarged",
                   xlabel="x/R", ylabel="y/R")  # fmt: skip
-        right.legend()
+        right.legend(loc="upper center")
         return figure
 
 

@@ -49,5 +49,5 @@ def film(found: Chosen, path: Path, frames: int = FRAMES) -> Path:
             force.axvspan(0, history.t[found.last] - history.t[found.first], color="0.94", zorder=0)
             force.set(ylabel="$N/(mg)$", xlabel=r"time since lift-off $t/\sqrt{R/g}$", ylim=(0, None))
 
-        moving = FuncAnimation(figure, draw, frames=frames)  # type: ignore[arg-type]
+        moving = FuncAnimation(figure, draw, frames=frames)
         return write_whole(path, lambda part: moving.save(str(part), writer=PillowWriter(fps=PER_SECOND), dpi=80))

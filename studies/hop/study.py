@@ -215,17 +215,14 @@ def hop_study(
 
     def run(asks: list[tuple[int, float, float]]) -> list[tuple[int, HopCase]]:
         """Rolls asked by line, stiffness and tolerance."""
-        scenes = [
-            asked.scenes[n].replace(ring={"bending_stiffness": s}, solve={"rtol": rtol}) for n, s, rtol in asks
-        ]
+        scenes = [asked.scenes[n].replace(ring={"bending_stiffness": s}, solve={"rtol": rtol}) for n, s, rtol in asks]
         cases = [Case(SOLVER, scene, cut=True) for scene in scenes]
         # the map is most of the work
         low, high = (0.0, 0.8) if stage == 0 else (0.8 + 0.2 * (stage - 1) / rounds, 0.8 + 0.2 * stage / rounds)
         told = None if progress is None else (lambda share: progress(low + (high - low) * share))
         outcomes = run_cases(cases, pool or Here(), out, told, say=say)
         return [
-            (n, HopCase(s, scene, outcome))
-            for (n, s, _), scene, outcome in zip(asks, scenes, outcomes, strict=True)
+            (n, HopCase(s, scene, outcome)) for (n, s, _), scene, outcome in zip(asks, scenes, outcomes, strict=True)
         ]
 
     stiffness = sorted(set(asked.stiffness))

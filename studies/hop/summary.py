@@ -48,7 +48,9 @@ def _line_verdict(study: HopStudy, line: Line) -> str:
     for where in ("pulse", "bottom"):
         if where in line.windows:
             found = line.threshold(where)
-            said.append(f"it {PLACES[where]} where that is {_below(found)}" if found.low else f"it never {PLACES[where]}")
+            said.append(
+                f"it {PLACES[where]} where that is {_below(found)}" if found.low else f"it never {PLACES[where]}"
+            )
     return "; ".join(said) + "."
 
 
@@ -63,7 +65,9 @@ def _below(found: Bracket) -> str:
 def rule_sentence(study: HopStudy) -> str:
     """What counts as a hop, and that the rigid hoop has none."""
     rigid = sum(case.to_dict()["rigid"]["hops"] for case in study.cases[:1])
-    beside = "The rigid hoop never leaves the floor." if rigid == 0 else f"The rigid hoop leaves the floor {rigid} times."
+    beside = (
+        "The rigid hoop never leaves the floor." if rigid == 0 else f"The rigid hoop leaves the floor {rigid} times."
+    )
     return (
         f"A flight is a hop, and not chatter, if the rim's lowest point rises over {HEIGHT_OVER_DEPTH:g} times the depth "
         f"to which the floor gives way under the weight and over {HEIGHT_OVER_SAG:g} of the sag at rest, for longer than "
@@ -103,8 +107,14 @@ def threshold_sheet(study: HopStudy) -> Sheet:
 
 def _span(line: Line, where: str) -> str:
     found = [line.threshold(where, factor) for factor in reversed(DECADE)]
-    told = [number(b.value, 3) if b.value is not None else ("none" if b.low == 0 else f">{number(b.low, 3)}") for b in found]
+    told = [_middle(bracket) for bracket in found]
     return " to ".join(told)
+
+
+def _middle(found: Bracket) -> str:
+    if found.value is not None:
+        return number(found.value, 3)
+    return "none" if found.low == 0 else f">{number(found.low, 3)}"
 
 
 def _yes(holds: bool | None) -> str:
@@ -162,8 +172,9 @@ def scaling_sentence(study: HopStudy) -> list[str]:
         known = np.array([(k, value) for k, value in found if value is not None])
         if len(known) < 3:
             continue
-        power, constant = np.polyfit(*np.log(known).T, 1)
-        scatter = float(np.exp(np.abs(np.log(known[:, 1]) - np.polyval([power, constant], np.log(known[:, 0]))).max()))
+        k, value = np.log(known).T
+        power, constant = np.polyfit(k, value, 1)
+        scatter = float(np.exp(np.abs(value - power * k - constant).max()))
         said.append(f"{where}: {np.exp(constant):.3g} k^{power:.2f} (within a factor {scatter:.2f})")
     if not said:
         return []

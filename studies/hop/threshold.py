@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from math import asin, isfinite, pi, sqrt
 from typing import Any
 
@@ -88,5 +89,5 @@ def bracket(answers: Mapping[float, bool | None]) -> Bracket:
     high = min((s for s, hops in answers.items() if hops is False and s > low), default=float("inf"))
     between = sum(hops is None and low < s < high for s, hops in answers.items())
     decided = [hops for _, hops in sorted(answers.items()) if hops is not None]
-    gaps = sum(not one and two for one, two in zip(decided, decided[1:], strict=False))
+    gaps = sum(not one and two for one, two in pairwise(decided))
     return Bracket(low, high, between, gaps)
