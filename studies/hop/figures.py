@@ -206,7 +206,7 @@ def liftoff_figure(found: Chosen) -> Figure:
             right.plot(*np.where(near[:, None], points, np.nan).T, color=colour, label=words)
         right.axhline(0, color=RIGID, lw=1)
         top = max(3 * found.hop["height"] / found.case.scene.hoop.R, 2e-3)
-        right.set(xlim=(x_low - 0.4, x_low + 0.4), ylim=(-0.15 * top, top), title="the rim over the floor, heights enlarged",
+        right.set(xlim=(x_low - 0.4, x_low + 0.4), ylim=(-0.15 * top, top), title="the rim over the floor, enlarged",
                   xlabel="x/R", ylabel="y/R")  # fmt: skip
         right.legend(loc="upper center")
         return figure

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..plots.sheet import Column, Sheet, number
 from .rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG
-from .study import HopCase, HopStudy, Line
+from .study import HopCase, HopStudy, Line, rigid_hops
 from .threshold import Bracket
 
 SYMBOL = "E I/(m g R²)"
@@ -43,8 +43,10 @@ def _line_verdict(study: HopStudy, line: Line) -> str:
         undecided = any(not case.motion["completed"] for case in line.mapped)
         return f"{name}: no hop was seen{', but some rolls stopped early' if undecided else ''}."
     first = max(hopping, key=lambda case: case.bending_stiffness).hops[0]
-    said = [f"{name}: yes, released at rest it {PLACES['anywhere']} where {SYMBOL} is {_below(line.threshold('anywhere'))}"
-            f", first at φ = {degrees(first['phi']):.0f}°"]  # fmt: skip
+    said = [
+        f"{name}: yes, released at rest it {PLACES['anywhere']} where {SYMBOL} is {_below(line.threshold('anywhere'))}, "
+        f"first at φ = {degrees(first['phi']):.0f}°"
+    ]
     for where in ("pulse", "bottom"):
         if where in line.windows:
             found = line.threshold(where)
@@ -64,14 +66,12 @@ def _below(found: Bracket) -> str:
 
 def rule_sentence(study: HopStudy) -> str:
     """What counts as a hop, and that the rigid hoop has none."""
-    rigid = sum(case.to_dict()["rigid"]["hops"] for case in study.cases[:1])
-    beside = (
-        "The rigid hoop never leaves the floor." if rigid == 0 else f"The rigid hoop leaves the floor {rigid} times."
-    )
+    flights = sum(rigid_hops(line.scene) for line in study.lines)
+    beside = "never leaves the floor" if flights == 0 else f"leaves the floor {flights} times"
     return (
-        f"A flight is a hop, and not chatter, if the rim's lowest point rises over {HEIGHT_OVER_DEPTH:g} times the depth "
-        f"to which the floor gives way under the weight and over {HEIGHT_OVER_SAG:g} of the sag at rest, for longer than "
-        f"{DURATION_OVER_PERIOD:g} of the ring's slowest period. {beside}"
+        f"A flight is a hop, and not chatter, if the rim's lowest point rises over {HEIGHT_OVER_DEPTH:g} times the "
+        f"depth to which the floor gives way under the weight and over {HEIGHT_OVER_SAG:g} of the sag at rest, for "
+        f"longer than {DURATION_OVER_PERIOD:g} of the ring's slowest period. The rigid hoop {beside}."
     )
 
 
