@@ -202,7 +202,9 @@ def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[d
     if high >= R:
         raise SceneError(f"The ring's section is {high!r} m high: it must be less than hoop.R = {R!r}.")
     r = R / (R - high)
-    if abs(float(hoop.get("r", r)) / r - 1) > 1e-6:
+    if "r" in hoop:
+        require("hoop.r", hoop["r"], 1, 1e9, "r is the hoop's outer over its inner radius, 1 to 1e9")
+    if abs(hoop.get("r", r) / r - 1) > 1e-6:
         raise SceneError(
             f"hoop.r = {hoop['r']!r} is not possible: the ring's section says {r:.9g}, and it may be left out."
         )
@@ -220,13 +222,10 @@ def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[d
 
 def _section(ring: Mapping[str, Any]) -> tuple[float, float, float]:
     """Height, area and second moment of area of a strip or a tube."""
-    pairs = {
-        name: [key for key in name if key in ring] for name in (("width", "height"), ("tube_diameter", "tube_wall"))
-    }
-    said = [name for name, given in pairs.items() if given]
-    if len(said) != 1 or len(pairs[said[0]]) != 2:
+    said = [key for key in SECTION[1:5] if key in ring]
+    if said not in (list(SECTION[1:3]), list(SECTION[3:5])):
         raise SceneError(
-            "The ring's section is not clear: it takes ring.width and ring.height, or ring.tube_diameter and ring.tube_wall."
+            "The ring's section is not clear: it is ring.width and ring.height or ring.tube_diameter and ring.tube_wall."
         )
     if "width" in ring:
         b, h = float(ring["width"]), float(ring["height"])

@@ -12,6 +12,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
+from flexible.models.state import State
 from flexible.output.body import lowest, outline, whole
 from rigid import Scene
 
@@ -212,18 +213,33 @@ def liftoff_figure(found: Chosen) -> Figure:
         return figure
 
 
-def draw_hoop(axes: Axes, scene: Scene, steps: Roll, i: int) -> None:
+class Drawn:
+    """Ring, disk and floor in a picture."""
+
+    def __init__(self, axes: Axes, scene: Scene, steps: Roll) -> None:
+        self.axes, self.hoop = axes, steps.hoop
+        self.reach = (1 - scene.hoop.k) / scene.hoop.r
+        self.circle = Circle((0, 1), 1.0, fill=False, ec="0.75", ls="--", lw=1)
+        self.disk = Circle((0, 1), max(scene.hoop.k / scene.hoop.r, 0.01), color="0.35")
+        axes.add_patch(self.circle)
+        axes.add_patch(self.disk)
+        (self.ring,) = axes.plot([], [], color=OKABE_ITO["ring_strain"], lw=2)
+        axes.axhline(0, color=RIGID, lw=1)
+
+    def move(self, state: State) -> None:
+        """To where the hoop is in a state."""
+        phi, x_C, y_C = float(state.pos[2]), state.x_C, 1 + float(state.pos[1])
+        self.circle.center = x_C, y_C
+        self.disk.center = x_C + self.reach * np.sin(phi), y_C + self.reach * np.cos(phi)
+        self.ring.set_data(*_closed(outline(self.hoop, state)).T)
+        self.axes.set(xlim=(x_C - 1.3, x_C + 1.3), ylim=(-0.15, 2.3), aspect="equal")
+
+
+def draw_hoop(axes: Axes, scene: Scene, steps: Roll, i: int) -> Drawn:
     """Ring, disk and floor at a step."""
-    state = steps.states[i]
-    phi, hoop = float(state.pos[2]), scene.hoop
-    x_C, y_C = state.x_C, 1 + float(state.pos[1])
-    axes.add_patch(Circle((x_C, y_C), 1.0, fill=False, ec="0.75", ls="--", lw=1))
-    reach = (1 - hoop.k) / hoop.r
-    centre = (x_C + reach * np.sin(phi), y_C + reach * np.cos(phi))
-    axes.add_patch(Circle(centre, max(hoop.k / hoop.r, 0.01), color="0.35"))
-    axes.plot(*_closed(outline(steps.hoop, state)).T, color=OKABE_ITO["ring_strain"], lw=2)
-    axes.axhline(0, color=RIGID, lw=1)
-    axes.set(xlim=(x_C - 1.3, x_C + 1.3), ylim=(-0.15, 2.3), aspect="equal")
+    drawn = Drawn(axes, scene, steps)
+    drawn.move(steps.states[i])
+    return drawn
 
 
 def _closed(points: np.ndarray) -> np.ndarray:

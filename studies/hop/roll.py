@@ -25,6 +25,10 @@ from .rule import DECADE, Scales, scales_of
 SOLVER = f"{__name__}:roll"
 """The name under which cases call it."""
 
+MOST_STEPS = 5000
+"""After which a roll is stopped, some 10 s: a soft hoop that bounces without end takes more in each swing. The bound is
+on steps and not on seconds, so that a case comes out the same on a busy machine."""
+
 
 @dataclass(frozen=True, slots=True)
 class Flight:
@@ -86,7 +90,7 @@ def from_rest(scene: Scene) -> Scene:
 
 def roll(scene: Scene, *, history: bool = False, progress: Callable[[float], None] | None = None) -> RollingMotion:
     """Roll the hoop of a scene; with ``history`` its steps and states are kept."""
-    motion = simulate(scene, history=True, progress=progress)
+    motion = simulate(scene, history=True, progress=progress, most_steps=MOST_STEPS)
     values = {entry.name: getattr(motion, entry.name) for entry in dataclasses.fields(FlexibleMotion)}
     found = RollingMotion(**values) if not motion.kept else _with_flights(values, steps_of(motion))
     return found if history else dataclasses.replace(found, history=None, kept=())

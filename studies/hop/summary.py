@@ -43,16 +43,16 @@ def _line_verdict(study: HopStudy, line: Line) -> str:
         undecided = any(not case.motion["completed"] for case in line.mapped)
         return f"{name}: no hop was seen{', but some rolls stopped early' if undecided else ''}."
     first = max(hopping, key=lambda case: case.bending_stiffness).hops[0]
+    everywhere = _below(line.threshold("anywhere"))
     said = [
-        f"{name}: yes, released at rest it {PLACES['anywhere']} where {SYMBOL} is {_below(line.threshold('anywhere'))}, "
+        f"{name}: yes, released at rest it {PLACES['anywhere']} where {SYMBOL} is {everywhere}, "
         f"first at φ = {degrees(first['phi']):.0f}°"
     ]
     for where in ("pulse", "bottom"):
         if where in line.windows:
             found = line.threshold(where)
-            said.append(
-                f"it {PLACES[where]} where that is {_below(found)}" if found.low else f"it never {PLACES[where]}"
-            )
+            below = f"where that is {_below(found)}" if found.low else "at none of the stiffnesses rolled"
+            said.append(f"it {PLACES[where]} {below}")
     return "; ".join(said) + "."
 
 

@@ -30,7 +30,8 @@ def state_of(hoop, phi=2.1, height=0.25, rates=(0.3, -0.7, 1.9)):
     vel[:3] = rates[0] - rates[2], rates[1], rates[2]
     return State(
         t=0.0, x_C=0.0, pos=pos, vel=vel, acc=np.zeros_like(pos), mode=0,
-        window=(0, 0), u=np.zeros((1, 2)), nodal=np.zeros((1, 2)), res=NOTHING, bristles=no_bristles(), slip_velocity=0.0,
+        window=(0, 0), u=np.zeros((1, 2)), nodal=np.zeros((1, 2)), res=NOTHING, bristles=no_bristles(),
+        slip_velocity=0.0,
     )  # fmt: skip
 
 
