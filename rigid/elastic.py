@@ -225,7 +225,7 @@ def _section(ring: Mapping[str, Any]) -> tuple[float, float, float]:
     said = [key for key in SECTION[1:5] if key in ring]
     if said not in (list(SECTION[1:3]), list(SECTION[3:5])):
         raise SceneError(
-            "The ring's section is not clear: it is ring.width and ring.height or ring.tube_diameter and ring.tube_wall."
+            "The ring's section is unclear: it is ring.width and ring.height or ring.tube_diameter and ring.tube_wall."
         )
     if "width" in ring:
         b, h = float(ring["width"]), float(ring["height"])

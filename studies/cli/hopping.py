@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from rigid import load_scene
+from rigid import Scene, SceneError, load_scene
 from rigid.elastic import LAWS
 
 from ..running.files import folder, to_json, write_text
 from .study import as_json, scheduler, workers
 
 if TYPE_CHECKING:
-    from ..hop.study import HopStudy
+    from ..hop.study import Asked, HopStudy
 
 
 @click.command()
@@ -70,7 +70,7 @@ def hop(
     Hoops released at rest roll, flexible throughout, over a range of bending stiffness and one key more; every flight
     is listed with where it begins, how high it goes and where its energy came from.
     """
-    from ..hop.study import RTOL, asked_of, hop_study
+    from ..hop.study import RTOL, hop_study
     from ..running.progress import bar
     from ..running.solvers import prepare
     from ..running.workers import pool
@@ -98,6 +98,59 @@ def hop(
         if target is not None:
             click.echo(f"Figures, film, table and report are in {target}; open {target / 'report.html'}.")
     return 1 if found.unfinished else 0
+
+
+def parse_over(text: str) -> tuple[str, tuple[Any, ...]]:
+    """KEY=LOW:HIGH:COUNT or KEY=VALUE,VALUE,... as a key and its values.
+
+    A range runs evenly in the logarithm; from 0 it runs evenly.
+
+    Raises
+    ------
+    SceneError
+        One sentence on what is wrong.
+    """
+    import numpy as np
+
+    key, equals, values = text.partition("=")
+    key = key.strip()
+    wrong = SceneError(f"--over {text} is not possible: it is KEY=LOW:HIGH:COUNT or KEY=VALUE,VALUE,...")
+    if not equals or "." not in key:
+        raise wrong
+    try:
+        if ":" not in values:
+            return key, tuple(float(value) for value in values.split(","))
+        low, high, count = values.split(":")
+        first, last, number = float(low), float(high), int(count)
+    except ValueError:
+        raise wrong from None
+    if not (0 <= first < last < float("inf")) or not 2 <= number <= 10_000:
+        raise SceneError(f"--over {text} is not possible: a range runs upward from 0 or above, in 2 to 10000 values.")
+    run = np.linspace(first, last, number) if first == 0 else np.geomspace(first, last, number)
+    return key, tuple(run.tolist())
+
+
+def asked_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> Asked:
+    """The study that a command line asks for.
+
+    Raises
+    ------
+    SceneError
+        A key that no scene has, a value it cannot take, or more than one key besides the bending stiffness.
+    """
+    import numpy as np
+
+    from ..hop.study import DEFAULT, STIFFNESS, Asked
+
+    ranges = [parse_over(text) for text in over]
+    keys = [key for key, _ in ranges]
+    if len(set(keys)) < len(keys) or len(set(keys) - {STIFFNESS}) > 1:
+        raise SceneError(f"--over takes {STIFFNESS} and one key more, each once: it was given {', '.join(keys)}.")
+    stiffness = dict(ranges).get(STIFFNESS, tuple(np.geomspace(*DEFAULT).tolist()))
+    other = next(((key, values) for key, values in ranges if key != STIFFNESS), (None, (None,)))
+    for value in stiffness:
+        scene.replace(ring={"bending_stiffness": value})
+    return Asked(scene, stiffness, other[0], other[1], **settings)
 
 
 def _write(found: HopStudy, target: Path, line: str) -> None:

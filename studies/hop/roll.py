@@ -56,6 +56,7 @@ class RollingMotion(FlexibleMotion):
 
     flights: tuple[Flight, ...] = ()
     scales: Scales = field(default_factory=lambda: Scales(0.0, 0.0, 0.0))
+    """In R and sqrt(R/g)."""
     swept: float = 0.0
     """The largest angle that the disk comes down from its release."""
 
@@ -66,7 +67,11 @@ class RollingMotion(FlexibleMotion):
             **{name: told[name] for name in ("scene", "ended", "completed", "energy_ledger", "steps")},
             "t_end": self.t_end,
             "swept": self.swept,
-            "scales": dataclasses.asdict(self.scales),
+            "scales": {
+                "depth": self.scales.depth * self.scene.hoop.R,
+                "sag": self.scales.sag * self.scene.hoop.R,
+                "period": self.scales.period * self.scene.time_unit,
+            },
             "flights": [dataclasses.asdict(flight) for flight in self.flights],
         }
 

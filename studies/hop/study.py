@@ -8,7 +8,7 @@ from math import sqrt
 from pathlib import Path
 from typing import Any
 
-from rigid import Kind, Scene, SceneError, scene_from_dict, scene_to_dict, simulate
+from rigid import Kind, Scene, scene_from_dict, scene_to_dict, simulate
 
 from ..running.case import Case, Outcome
 from ..running.runs import run_cases
@@ -259,57 +259,3 @@ def _middles(line: Line) -> set[float]:
 def _ends(line: Line) -> set[float]:
     brackets = [line.threshold(where) for where in line.windows]
     return {end for b in brackets if b.value is not None for end in (b.low, b.high)}
-
-
-def parse_over(text: str) -> tuple[str, tuple[Any, ...]]:
-    """KEY=LOW:HIGH:COUNT or KEY=VALUE,VALUE,... as a key and its values.
-
-    A range runs evenly in the logarithm; from 0 it runs evenly.
-
-    Raises
-    ------
-    SceneError
-        One sentence on what is wrong.
-    """
-    import numpy as np
-
-    key, equals, values = text.partition("=")
-    key = key.strip()
-    wrong = SceneError(f"--over {text} is not possible: it is KEY=LOW:HIGH:COUNT or KEY=VALUE,VALUE,...")
-    if not equals or "." not in key:
-        raise wrong
-    try:
-        if ":" not in values:
-            return key, tuple(float(value) for value in values.split(","))
-        low, high, count = values.split(":")
-        first, last, number = float(low), float(high), int(count)
-    except ValueError:
-        raise wrong from None
-    if not (0 <= first < last < float("inf")) or not 2 <= number <= 10_000:
-        raise SceneError(f"--over {text} is not possible: a range runs upward from 0 or above, in 2 to 10000 values.")
-    run = np.linspace(first, last, number) if first == 0 else np.geomspace(first, last, number)
-    return key, tuple(run.tolist())
-
-
-def asked_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> Asked:
-    """The study that a command line asks for.
-
-    Raises
-    ------
-    SceneError
-        A key that no scene has, a value it cannot take, or more than one key besides the bending stiffness.
-    """
-    import numpy as np
-
-    ranges = [parse_over(text) for text in over]
-    keys = [key for key, _ in ranges]
-    if len(set(keys)) < len(keys) or len(set(keys) - {STIFFNESS}) > 1:
-        raise SceneError(f"--over takes {STIFFNESS} and one key more, each once: it was given {', '.join(keys)}.")
-    stiffness = dict(ranges).get(STIFFNESS, tuple(np.geomspace(*DEFAULT).tolist()))
-    other = next(((key, values) for key, values in ranges if key != STIFFNESS), (None, (None,)))
-    for value in stiffness:
-        scene.replace(ring={"bending_stiffness": value})
-    return Asked(scene, stiffness, other[0], other[1], **settings)
-
-
-__all__ = ["Asked", "HopCase", "HopStudy", "Line", "asked_of", "hop_study", "parse_over"]

@@ -12,9 +12,10 @@ from third_hop import LIFTS
 
 from rigid import SceneError, load_scene, simulate
 from studies import StudyError
+from studies.cli.hopping import asked_of, parse_over
 from studies.hop.roll import from_rest, spans
 from studies.hop.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG, Scales
-from studies.hop.study import DEFAULT, asked_of, hop_study, parse_over
+from studies.hop.study import DEFAULT, hop_study
 from studies.hop.threshold import Window, bracket, hops_in, windows
 
 SCENE = "paper-3.3-heavier"
