@@ -151,6 +151,9 @@ def height_map(study: HopStudy) -> Figure | None:
             axes.plot(1.3 / values, values, color=RIGID, lw=1, label="1.3/k: the wall gives way")
         axes.set_xlim(stiffness.min() / 1.25, stiffness.max() * 1.25)
         axes.legend(loc="upper right", frameon=True)
+        axes.set_yticks(values, [f"{value:g}" for value in values])
+        axes.minorticks_off()
+        axes.set_xticks(10.0 ** np.arange(np.ceil(np.log10(stiffness.min())), np.log10(stiffness.max()) + 1e-9))
         axes.grid(False)
         figure.colorbar(painted, ax=axes, label="height of the highest hop over R (white: none)")
         return figure
@@ -194,22 +197,25 @@ def liftoff_figure(found: Chosen) -> Figure:
     with matplotlib.rc_context(STYLE):
         figure = blank(10.0, 5.2)
         left, right = figure.subplots(1, 2, width_ratios=[1, 1])
-        state = found.steps.states[found.first]
         draw_hoop(left, found.case.scene, found.steps, found.first)
         left.set(title=found.title, xlabel="x/R", ylabel="y/R")
-        rim = outline(found.steps.hoop, state)
-        x_low = float(rim[int(np.argmin(rim[:, 1])), 0])
-        for i, colour, words in ((found.first - 1, "0.6", "last step on the floor"),
-                                 ((found.first + found.last) // 2, OKABE_ITO["kinetic"], "in the middle of the hop"),
-                                 (found.last, OKABE_ITO["friction_loss"], "last step in the air")):  # fmt: skip
-            points = _closed(outline(found.steps.hoop, found.steps.states[i]))
-            near = np.abs(points[:, 0] - x_low) < 0.5
-            right.plot(*np.where(near[:, None], points, np.nan).T, color=colour, label=words)
+        instants = {
+            "last step on the floor": (found.first - 1, "0.6"),
+            "in the middle of the hop": ((found.first + found.last) // 2, OKABE_ITO["kinetic"]),
+            "last step in the air": (found.last, OKABE_ITO["friction_loss"]),
+        }
+        touched = []
+        for words, (i, colour) in instants.items():
+            rim = _closed(outline(found.steps.hoop, found.steps.states[i]))
+            x = float(rim[int(np.argmin(rim[:, 1])), 0])
+            touched.append(x)
+            near = np.abs(rim[:, 0] - x) < 0.5
+            right.plot(*np.where(near[:, None], rim, np.nan).T, color=colour, label=words)
         right.axhline(0, color=RIGID, lw=1)
         top = max(3 * found.hop["height"] / found.case.scene.hoop.R, 2e-3)
-        right.set(xlim=(x_low - 0.4, x_low + 0.4), ylim=(-0.15 * top, top), title="the rim over the floor, enlarged",
-                  xlabel="x/R", ylabel="y/R")  # fmt: skip
-        right.legend(loc="upper center")
+        right.set(xlim=(min(touched) - 0.3, max(touched) + 0.3), ylim=(-0.15 * top, top))
+        right.set(title="the rim over the floor, enlarged", xlabel="x/R", ylabel="y/R")
+        figure.legend(*right.get_legend_handles_labels(), loc="outside lower right", ncols=3)
         return figure
 
 
