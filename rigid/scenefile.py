@@ -157,6 +157,20 @@ def scene_names() -> list[str]:
     )
 
 
+def scene_text(name: str) -> str:
+    """The TOML of a shipped scene.
+
+    Raises
+    ------
+    SceneError
+        There is no scene of that name.
+    """
+    if name not in scene_names():
+        load_scene(name)  # says which names are near
+        raise SceneError(f"{name} is a file, not a shipped scene: it can be read as it is.")
+    return (files("rigid.scenes") / f"{name}.toml").read_text(encoding="utf-8")
+
+
 def load_scene(source: str | Path) -> Scene:
     """A scene by the name of a shipped one ("paper-3.1") or by the path of a TOML file.
 

@@ -125,8 +125,8 @@ def _rung(power: int, name: str) -> Callable[[Any], float]:
     return value
 
 
-def _limit(measure: str, name: str) -> Callable[[Any], float]:
-    return lambda study: float(study["limit"][measure][name])
+def _limit(measure: str, name: str, part: str = "limit") -> Callable[[Any], float]:
+    return lambda study: float(study[part][measure][name])
 
 
 def _row(of: str, solver: str, setting: str, scene: str = "") -> Callable[[Any], float]:
@@ -180,6 +180,7 @@ _POWER = r"((?:[\d.]+·)?10[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+|[\d.]+)"
 
 NUMBERS: tuple[Stated, ...] = (
     *_ladder(),
+    Stated("coefficient", r"ladder shows ([\d.]+) ±", STUDY, _limit("impulse_ratio", "observed", "prediction")),
     Stated("brush", r"instead of 0.35: ([\d.]+) ±", BRUSH, _limit("impulse_ratio", "value")),
     Stated("brush", r"instead of 0.35: [\d.]+ ± ([\d.]+) against", BRUSH, _limit("impulse_ratio", "uncertainty")),
     Stated("brush", r"± [\d.]+ against ([\d.]+\d)", BRUSH, _limit("impulse_ratio", "rigid")),

@@ -3,6 +3,6 @@
 ``rigid``, ``flexible``, ``scaling``  what is timed, each with its claims;  ``skipped``  what each thing skipped saves
 ``race``                              contestants in turns, rows, claims
 ``precision``, ``reference``          what is taken for true: forty digits, all nodes in the limit
-``peers``, ``exudyn_roll``, ``exudyn_ring``  the same scenes by other tools
+``peers``                             the same scenes by other tools, and what those tend to
 ``tables``, ``figures``               how it is shown
 """

@@ -28,6 +28,23 @@ def ends(found: Bracket, digits: int = 3) -> str:
     return f"{number(found.low, digits)} to {number(found.high, digits)}"
 
 
+def answer(study: HopStudy) -> str:
+    """The answer in one sentence."""
+    if not any(case.hops for case in study.cases):
+        return "No: released at rest, none of these elastic hoops was seen to hop."
+    said = []
+    for where, words in PLACES.items():
+        found = [line.threshold(where) for line in study.lines if where in line.windows]
+        values = [value for value in (bracket.value for bracket in found) if value is not None]
+        if values:
+            low, high = number(min(values), 3), number(max(values), 3)
+            said.append(f"{words} below {low}" + (f" to {high}" if high != low else ""))
+        elif any(bracket.low > 0 for bracket in found):
+            said.append(f"{words} at every stiffness rolled")
+    over = f", by {study.second}" if study.second is not None else ""
+    return f"Yes: released at rest, an elastic hoop {', it '.join(said)}; all of {SYMBOL}{over}."
+
+
 def verdict(study: HopStudy) -> list[str]:
     """The answer, a sentence for each line of the map."""
     return [_line_verdict(study, line) for line in study.lines]
@@ -184,9 +201,9 @@ def scaling_sentence(study: HopStudy) -> list[str]:
 def hop_sheets(study: HopStudy) -> list[Any]:
     """All of it, as the screen shows it."""
     return [
-        *verdict(study), *scaling_sentence(study), rule_sentence(study), threshold_sheet(study), case_sheet(study),
-        *unfinished_sentences(study),
+        answer(study), *verdict(study), *scaling_sentence(study), rule_sentence(study), threshold_sheet(study),
+        case_sheet(study), *unfinished_sentences(study),
     ]  # fmt: skip
 
 
-__all__ = ["HopCase", "hop_sheets", "verdict"]
+__all__ = ["HopCase", "answer", "hop_sheets", "verdict"]

@@ -7,7 +7,6 @@ stiffnesses.
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -21,6 +20,7 @@ from ..inner.events import Event, passage
 from ..inner.layers import Layer, layer, outer_forces
 from ..inner.march import PATCH
 from ..inner.scales import damping_of
+from ..inner.separate import separate_from
 from ..running.case import Case
 from ..running.files import StudyError
 from ..running.runs import run_cases
@@ -206,7 +206,8 @@ def limit_study(
         )  # fmt: skip
     sights = [_ring(scene, foundation) for foundation in foundations]
     sights += _flexible(scene, prediction, flexible, pool or Here(), out, progress)
-    return LimitStudy(scene, tuple(found), prediction, _separate(scene, found), tuple(sights), _others(scene))
+    separate = separate_from(way, [event.layer for event in found])
+    return LimitStudy(scene, tuple(found), prediction, separate, tuple(sights), _others(scene))
 
 
 def _others(scene: Scene) -> tuple[Other, ...]:
@@ -227,19 +228,6 @@ def _foreseen(scene: Scene, law: str) -> Prediction | None:
         return predict(scene.replace(contact={"law": law}))
     except StudyError:  # its pulse has more in it than this scene's
         return None
-
-
-def _separate(scene: Scene, found: Sequence[EventFound]) -> float:
-    """The foundation at which each layer takes as long as the stretch that follows it."""
-    least = 0.0
-    for now, following in itertools.pairwise(found):
-        time = following.event.t - now.event.t
-        settles = now.layer.settled(now.behind[0])
-        if settles is None:
-            return float("inf")
-        # eps settles = time, eps that of the whole mass
-        least = max(least, (settles / time) ** 3 * (1 + scene.hoop.mass_ratio))
-    return least
 
 
 def _at(scene: Scene, foundation: float) -> Scene:
@@ -270,7 +258,7 @@ def _flexible(
 ) -> list[Sight]:
     if not foundations:
         return []
-    against = tuple((name, prediction.terms[name].limit) for name in ("impulse_ratio", "friction_loss"))
+    against = tuple((name, prediction.terms[name].limit, 0.0) for name in ("impulse_ratio", "friction_loss"))
     cases = [Case("flexible", _at(scene, foundation), against) for foundation in foundations]
     sights = []
     for foundation, outcome in zip(foundations, run_cases(cases, pool, out, progress), strict=True):

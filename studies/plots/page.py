@@ -1,4 +1,4 @@
-"""What the pages of all studies share."""
+"""What the pages of all studies share: one frame, in which each says what it found."""
 
 from __future__ import annotations
 
@@ -6,6 +6,11 @@ import base64
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
+
+from rigid import Scene, scene_to_dict
+
+from ..running.files import write_text
+from ..running.solvers import versions
 
 PAGE_STYLE = """\
 :root { color-scheme: light; }
@@ -26,6 +31,84 @@ overflow-x: auto; } code { padding: .1rem .3rem; }
 footer { color: #666; font-size: .85rem; margin-top: 3rem; border-top: 1px solid #ddd; padding-top: .8rem; }
 """
 """Their looks, as CSS."""
+
+
+FRAME = """\
+<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{{ title }}</title>
+<style>
+{{ style }}</style>
+</head>
+<body>
+<h1>{{ title }}</h1>
+<p class="lead">{{ verdict }}</p>
+{% block found %}{% endblock %}
+<h2>The scene</h2>
+<pre>{{ scene }}</pre>
+<h2>How this page was made</h2>
+<pre>{{ command }}</pre>
+<footer>{{ versions }}</footer>
+</body>
+</html>
+"""
+"""A page around what a study tells, its block ``found``."""
+
+PARTS = """\
+{% macro table(heads, rows) %}
+<div class="wide"><table><thead><tr>{% for cell in heads %}<th>{{ cell }}</th>{% endfor %}</tr></thead><tbody>
+{% for row in rows %}<tr>{% for cell in row %}<td>{{ cell }}</td>{% endfor %}</tr>
+{% endfor %}</tbody></table></div>
+{% endmacro %}
+{% macro pictures(figures) %}
+{% for name, caption, kind, image in figures %}
+<figure id="{{ name }}"><img alt="{{ caption }}" src="data:image/{{ kind }};base64,{{ image }}"><figcaption>{{
+caption }}</figcaption></figure>
+{% endfor %}
+{% endmacro %}
+"""
+"""Tables and figures of a page."""
+
+
+def write_page(found: str, path: Path, scene: Scene, command: str, told: Mapping[str, Any]) -> Path:
+    """Write a study's page, whole or not at all.
+
+    Parameters
+    ----------
+    found : str
+        What stands between its first lines and the scene: a template that may use ``table`` and ``pictures``.
+    path : Path
+        The page, which needs no network and no file beside it.
+    scene, command
+        What was studied, and how.
+    told : dict
+        What the template asks for, and ``title``, ``verdict`` and ``images``: ``{name: (caption, PNG or GIF file)}``.
+    """
+    from jinja2 import DictLoader, Environment
+    from markupsafe import Markup
+
+    inside = (
+        '{% extends "frame" %}{% from "parts" import table, pictures %}{% block found %}' + found + "{% endblock %}"
+    )
+    loader = DictLoader({"frame": FRAME, "parts": PARTS, "page": inside})
+    page = (
+        Environment(autoescape=True, trim_blocks=True, loader=loader)
+        .get_template("page")
+        .render(
+            {name: value for name, value in told.items() if name != "images"},
+            figures=[
+                (name, caption, file.suffix[1:], embedded(file)) for name, (caption, file) in told["images"].items()
+            ],
+            style=Markup(PAGE_STYLE),
+            scene=toml(scene_to_dict(scene)),
+            command=command,
+            versions=", ".join(f"{package} {number}" for package, number in versions().items()),
+        )
+    )
+    return write_text(path, page)
 
 
 def embedded(file: Path) -> str:

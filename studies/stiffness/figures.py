@@ -71,8 +71,9 @@ def distances(study: StiffnessStudy) -> Figure:
                     axes.plot(s[side], abs(off[side]), "o", color=colour, markerfacecolor=fill, zorder=4, label=said)
             axes.plot(s, np.where(error > 0, error, np.nan), "v", color="0.6", markersize=4, label="numerical error")
             _rate_line(axes, s, abs(off), limit, colour)
-            if study.prediction is not None:
-                foundation = np.geomspace(through[0].contact_stiffness, through[-1].contact_stiffness, 60)
+            softest = max(through[0].contact_stiffness, study.separate)
+            if study.prediction is not None and study.prediction.complete and softest < through[-1].contact_stiffness:
+                foundation = np.geomspace(softest, through[-1].contact_stiffness, 60)
                 term = study.prediction.terms[name]
                 foreseen = abs(term.at(foundation ** (-1 / 3)) - term.limit) / unit
                 x = foundation * s[0] / through[0].contact_stiffness

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import stats
 from scipy.optimize import minimize_scalar
 
-from .series import extrapolated
+from .series import FEWEST, extrapolated
 
 Array = NDArray[np.float64]
 
@@ -109,7 +109,7 @@ def observed_rate(s: ArrayLike, distance: ArrayLike, error: ArrayLike | None = N
         slope = float(np.polyfit(x, y, 1)[0]) if x.size > 1 else nan
         return Rate(-slope, (-inf, inf), tuple(np.flatnonzero(use).tolist()))
     fits = {n: _slope(x[-n:], y[-n:], off[-n:]) for n in range(3 + _SPARE, x.size + 1)}
-    points, half = _narrowest(fits)
+    points, half = narrowest(fits)
     rate = fits[points][0]
     return Rate(rate, (rate - half, rate + half), tuple(np.flatnonzero(use)[-points:].tolist()))
 
@@ -172,11 +172,11 @@ def richardson(
     fits = {n: _fit(x[-n:], v[-n:], e[-n:], exponent) for n in range(unknowns + _SPARE, v.size + 1)}
     if not fits:
         return (float(v[-1]) if v.size else nan), inf, nan if exponent is None else exponent
-    points, half = _narrowest({n: (limit, half) for n, (limit, half, _) in fits.items()})
+    points, half = narrowest({n: (limit, half) for n, (limit, half, _) in fits.items()})
     return fits[points][0], half, fits[points][2]
 
 
-def _narrowest(fits: dict[int, tuple[float, float]]) -> tuple[int, float]:
+def narrowest(fits: dict[int, tuple[float, float]]) -> tuple[int, float]:
     """Of fits ``{points: (value, half width)}`` the one of the narrowest interval, and that interval's half
     width.
 
@@ -243,15 +243,18 @@ def limit_of(
     rigid: float,
     error: ArrayLike | None = None,
     exponents: Sequence[float] | None = None,
+    holds: float = 0.0,
 ) -> Limit:
     """The limit of a measure over a ladder of stiffness beside the rigid value it should have.
 
-    ``exponents``, slowest first, are the leading rates where theory knows them.
+    ``exponents``, slowest first, are the leading rates where theory knows them, ``holds`` the stiffness from which on
+    it does. With fewer than ``FEWEST`` cases there a rate is fitted, to all.
     """
-    values = np.asarray(y, float)
-    if exponents is not None:
+    values, stiff = np.asarray(y, float), np.asarray(s, float) >= holds
+    known = exponents is not None and (holds == 0 or int(np.isfinite(values[stiff]).sum()) >= FEWEST)
+    if exponents is not None and known:
         off = np.zeros_like(values) if error is None else np.asarray(error, float)
-        value, uncertainty = extrapolated(s, values, off, exponents, CONFIDENCE)
+        value, uncertainty = extrapolated(np.asarray(s)[stiff], values[stiff], off[stiff], exponents, CONFIDENCE)
         rates = tuple(exponents)
     else:
         value, uncertainty, fitted = richardson(s, values, error)
@@ -263,7 +266,7 @@ def limit_of(
         value,
         uncertainty,
         rates,
-        exponents is not None,
+        known,
         rigid,
         rate.value,
         rate.interval,

@@ -26,8 +26,9 @@ FEWEST = 4
 """Cases for which an interval is stated: L, two powers, and one to hold them to."""
 
 _SIZES = np.geomspace(0.03, 30, 16)  # of a coefficient, over the span of the values
+_LARGE = np.geomspace(1, 30, 8)  # the same where single powers are asked for: large ones of both signs look small
 _UNDERSTATED = (1, 2, 4, 8)  # by what the cases may understate their errors, each half as likely as the one before
-_ROUND_OFF = 1e-9  # of the span
+_ROUND_OFF = 3e-11  # of the largest size
 
 
 class Extrapolated(NamedTuple):
@@ -93,12 +94,40 @@ def extrapolated(
     if span == 0:
         return Extrapolated(float(v[-1]), float(e.max()))
     powers, there = terms(x / x[0], exponents), terms(to / x[0], exponents)
-    understated, size = (grid.ravel() for grid in np.meshgrid(_UNDERSTATED, _SIZES * span))
-    common = understated[:, None] * e
-    own = np.hypot(common, _ROUND_OFF * span)
-    evidence, means, deviations = _posterior(
-        v - v[-1], common, own, size[:, None, None] * powers, size[:, None] * there
-    )
+    return _inferred(v, e, _SIZES * span, powers, np.append(1.0, there), confidence)
+
+
+def leading_part(
+    s: ArrayLike, distance: ArrayLike, error: ArrayLike, exponents: Sequence[float], count: int, confidence: float
+) -> Extrapolated:
+    """What the first ``count`` powers alone make of the distance from a limit that is known, at the greatest s.
+
+    The powers behind them, which a distance divided by its leading power has in it too, are inferred with them and left
+    out. Parameters as of :func:`extrapolated`; with fewer than ``FEWEST`` - 1 cases the uncertainty is infinite.
+    """
+    x, d, e = np.asarray(s, float), np.asarray(distance, float), np.nan_to_num(np.abs(np.asarray(error, float)))
+    use = np.isfinite(d)
+    x, d, e = x[use], d[use], e[use]
+    span = float(np.max(np.abs(d), initial=0.0))
+    if d.size < FEWEST - 1 or span == 0:
+        return Extrapolated(float(d[-1]) if d.size else nan, inf)
+    powers = terms(x / x[0], exponents)
+    kept = np.where(np.arange(TERMS) < count, powers[-1], 0.0)
+    return _inferred(d, e, _LARGE * span, powers, np.append(0.0, kept), confidence)
+
+
+def _inferred(
+    y: Array, error: Array, sizes: Array, powers: Array, functional: Array, confidence: float
+) -> Extrapolated:
+    """A linear functional of L and the coefficients, over all sizes of these and of the errors; where L is not in it, L
+    is known and 0."""
+    free = bool(functional[0])
+    origin = float(y[-1]) if free else 0.0
+    understated, size = (grid.ravel() for grid in np.meshgrid(_UNDERSTATED, sizes))
+    common = understated[:, None] * error
+    own = np.hypot(common, _ROUND_OFF * float(np.ptp(sizes)))
+    weighed = np.concatenate([np.full((size.size, 1), functional[0]), size[:, None] * functional[1:]], axis=1)
+    evidence, means, deviations = _posterior(y - origin, common, own, size[:, None, None] * powers, weighed)
     weights = evidence - np.log(understated)
     likely = np.exp(weights - weights.max())
     likely /= likely.sum()
@@ -109,28 +138,30 @@ def extrapolated(
         return float(likely @ (norm.sf(above) + norm.cdf(below))) - (1 - confidence)
 
     widest = float(np.max(np.abs(means - middle) + 10 * deviations))
-    return Extrapolated(middle + float(v[-1]), float(brentq(outside, 0.0, widest, rtol=1e-6)))
+    return Extrapolated(middle + origin, float(brentq(outside, 0.0, widest, rtol=1e-6)))
 
 
-def _posterior(y: Array, common: Array, own: Array, powers: Array, there: Array) -> _Posterior:
+def _posterior(y: Array, common: Array, own: Array, powers: Array, functional: Array) -> _Posterior:
     """Least squares for L, the coefficients and the common error, the latter two of unit size beforehand.
 
-    ``common`` and ``own`` are (cases, n) errors, ``powers`` (cases, n, TERMS), ``there`` (cases, TERMS); a case is one
-    choice of sizes.
+    ``common`` and ``own`` are (cases, n) errors, ``powers`` (cases, n, TERMS), ``functional`` (cases, 1 + TERMS); a
+    case is one choice of sizes. L is no unknown where the functional does not have it.
     """
     cases, n, count = powers.shape
-    unknowns = 2 + count
-    design = np.zeros((cases, n + unknowns - 1, unknowns))
-    design[:, :n, 0] = 1 / own
-    design[:, :n, 1:-1] = powers / own[:, :, None]
+    free = int(bool(functional[0, 0]))
+    unknowns = free + count + 1
+    design = np.zeros((cases, n + count + 1, unknowns))
+    if free:
+        design[:, :n, 0] = 1 / own
+    design[:, :n, free:-1] = powers / own[:, :, None]
     design[:, :n, -1] = common / own
-    design[:, n:] = np.eye(unknowns)[1:]
-    right = np.concatenate([y / own, np.zeros((cases, unknowns - 1))], axis=1)[..., None]
+    design[:, n:] = np.eye(unknowns)[free:]
+    right = np.concatenate([y / own, np.zeros((cases, count + 1))], axis=1)[..., None]
     orthogonal, upper = np.linalg.qr(design)
     along = np.swapaxes(orthogonal, 1, 2) @ right
-    functional = np.zeros((cases, unknowns, 1))
-    functional[:, 0], functional[:, 1:-1, 0] = 1.0, there
-    reach = np.linalg.solve(np.swapaxes(upper, 1, 2), functional)
+    asked = np.zeros((cases, unknowns, 1))
+    asked[:, :-1, 0] = functional[:, 1 - free :]
+    reach = np.linalg.solve(np.swapaxes(upper, 1, 2), asked)
     left = np.square(right - orthogonal @ along).sum(axis=(1, 2))
     sizes = np.log(np.abs(np.diagonal(upper, axis1=1, axis2=2))).sum(axis=1) + np.log(own).sum(axis=1)
     return _Posterior(-left / 2 - sizes, (reach * along).sum(axis=(1, 2)), np.linalg.norm(reach, axis=(1, 2)))

@@ -12,11 +12,13 @@ The solvers are known here only by what every motion has: its pulses and their m
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import nan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from rigid import Run, Scene, scene_to_dict
 
@@ -24,6 +26,7 @@ from ..running.case import Case, Outcome
 from ..running.files import StudyError
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
+from .coefficient import Coefficient, coefficient
 from .ladder import Ladder
 from .limits import Limit, limit_of
 
@@ -100,8 +103,12 @@ class StiffnessStudy:
     limits: dict[str, Limit]
     """Limit of each measure in ``LIMITS``, first pulse."""
     prediction: Prediction | None = None
-    """The approach to the limit as the rigid motion alone foresees it; None where the foundation is not raised, and
-    where the pulse has more in it than that covers."""
+    """The approach to the limit as the rigid motion alone foresees it; None where it is not that of these cases: unless
+    both stiffnesses are raised with the patch damped and run by the flexible solver, where the approach is told by more
+    than the foundation (the regularised law), and where the pulse has more in it than rolling and sliding."""
+    separate: float = 0.0
+    """Foundation from which on the prediction, and any series in powers of it, holds: each event is over before the
+    next one comes."""
 
     @property
     def failures(self) -> list[Rung]:
@@ -113,16 +120,21 @@ class StiffnessStudy:
         """The rungs that have one."""
         return [rung for rung in self.rungs if not rung.outcome.failure]
 
-    def coefficients(self, name: str) -> tuple[float, float, float] | None:
-        """(observed, predicted, numerical error) of a distance over its leading power; the stiffest rung resolved."""
-        resolved = [rung for rung in self.rungs_through if rung.outcome.resolved]
-        if self.prediction is None or not resolved:
+    def coefficient(self, name: str) -> Coefficient | None:
+        """How fast a measure comes to its limit, observed and predicted; None where only the leading one of the powers
+        down to the creep's is predicted, and with too few rungs through."""
+        if self.prediction is None or not self.prediction.complete:
             return None
-        term, rung = self.prediction.terms[name], resolved[-1]
-        small = rung.contact_stiffness ** (-1 / 3)
-        scale = small**term.exponent
-        off, foreseen = rung.measure(name) - term.limit, float(term.at(small)) - term.limit
-        return off / scale, foreseen / scale, rung.error(name) / scale
+        rungs = [rung for rung in self.rungs_through if rung.contact_stiffness >= self.separate]
+        foundation, values, errors = (
+            np.array(column)
+            for column in (
+                [rung.contact_stiffness for rung in rungs],
+                [rung.measure(name) for rung in rungs],
+                [rung.error(name) for rung in rungs],
+            )
+        )
+        return coefficient(self.prediction.terms[name], foundation, values, errors, self.prediction.rates)
 
     def to_dict(self) -> dict[str, Any]:
         """The study as JSON prints it."""
@@ -151,11 +163,9 @@ class StiffnessStudy:
             return None
         told = {}
         for name in LIMITS:
-            seen = self.coefficients(name)
-            told[name] = self.prediction.terms[name].to_dict() | (
-                {} if seen is None else dict(zip(("observed", "predicted", "numerical_error"), seen, strict=True))
-            )
-        return {"complete": self.prediction.complete, **told}
+            seen = self.coefficient(name)
+            told[name] = self.prediction.terms[name].to_dict() | ({} if seen is None else seen._asdict())
+        return {"complete": self.prediction.complete, "separate": self.separate, **told}
 
 
 def _limit_to_dict(limit: Limit) -> dict[str, Any]:
@@ -228,42 +238,63 @@ def stiffness_study(
         if outcome.failure or not outcome.pulses:
             raise StudyError(f"The rigid hoop has no pulse to study here: {outcome.failure or outcome.ended}.")
 
-    # 2. the flexible hoop on every rung, as finely as its distance from the rigid one asks for
-    against = tuple((name, reference.pulses[0][name]) for name in TIED)
+    # 2. what is foreseen of the rungs
+    foreseen, separate = _prediction(scene, ladder, solver)
+
+    # 3. the flexible hoop on every rung, as finely as its distance from the rigid one asks for
     scenes = ladder.rungs(scene)
-    outcomes = run_cases([Case(solver, rung, against, histories=True) for rung in scenes], pool, out, progress)
+    pulse = reference.pulses[0]
+    cases = [Case(solver, rung, _against(rung, pulse, foreseen, separate), histories=True) for rung in scenes]
+    outcomes = run_cases(cases, pool, out, progress)
     rungs = tuple(
         Rung(rung.ring.bending_stiffness, rung.contact.stiffness, stiffness, outcome)
         for rung, stiffness, outcome in zip(scenes, ladder.stiffness.tolist(), outcomes, strict=True)
     )
 
-    # 3. rate and limit of the first pulse's measures over the rungs that came through
+    # 4. rate and limit of the first pulse's measures over the rungs that came through
     through = [rung for rung in rungs if not rung.outcome.failure]
     if not through:
         raise StudyError(f"No rung of the ladder came through; the stiffest says: {rungs[-1].outcome.failure}.")
-    foreseen = _prediction(scene, ladder)
     rates: tuple[float, ...] | None = None if exponent is None else (exponent,)
+    holds = 0.0
     # of a ring with a mass the vibrations of the ring itself come between: its rate is fitted
-    stiffened = ladder.along == "both" and solver == "flexible" and scene.hoop.mass_ratio == 0
-    known = foreseen is not None and stiffened and scene.contact.damping > 0
-    if rates is None and foreseen is not None and known:
-        rates = foreseen.rates
+    if rates is None and foreseen is not None and scene.hoop.mass_ratio == 0:
+        rates, holds = foreseen.rates, separate
     limits = {}
     for name in LIMITS:
         values, errors = [r.measure(name) for r in through], [r.error(name) for r in through]
-        limits[name] = limit_of([r.stiffness for r in through], values, reference.pulses[0][name], errors, rates)
+        limits[name] = limit_of([r.stiffness for r in through], values, pulse[name], errors, rates, holds)
     if foreseen is not None and foreseen.parameter != "eps":
         foreseen = None  # it is told by the foundation alone
-    return StiffnessStudy(scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits, foreseen)
+    return StiffnessStudy(
+        scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits, foreseen, separate
+    )
 
 
-def _prediction(scene: Scene, ladder: Ladder) -> Prediction | None:
-    """Of a rigid ring, or one that is stiffened with its foundation."""
+def _against(
+    rung: Scene, rigid: Mapping[str, float], foreseen: Prediction | None, separate: float
+) -> tuple[tuple[str, float, float], ...]:
+    """What a rung is compared with, and the distance from that to expect of it."""
+    tied = []
+    for name in TIED:
+        expected = 0.0
+        if foreseen is not None and foreseen.complete and rung.contact.stiffness >= separate:
+            term = foreseen.terms[name]
+            expected = abs(float(term.at(rung.contact.stiffness ** (-1 / 3))) - term.limit)
+        tied.append((name, rigid[name], expected))
+    return tuple(tied)
+
+
+def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction | None, float]:
+    """The prediction, where it is that of the cases, and the foundation from which on it holds."""
+    from ..inner.events import passage
+    from ..inner.separate import separate_from
     from ..limit.prediction import predict
 
-    if ladder.along == "bending":
-        return None
+    # a ring that is not stiffened keeps its own distance, an undamped patch rings at any stiffness
+    if ladder.along != "both" or solver != "flexible" or scene.contact.damping == 0:
+        return None, 0.0
     try:
-        return predict(scene)
+        return predict(scene), separate_from(passage(scene))
     except StudyError:
-        return None
+        return None, 0.0

@@ -143,9 +143,11 @@ def extrapolation_sentence(study: StiffnessStudy) -> str:
             f"c{i + 1} s^-{p:.3g}" + (" log s" if p in limit.exponents[:i] else "")
             for i, p in enumerate(limit.exponents)
         )
+        since = f" from the cases above {number(study.separate, 2)}" if study.separate > study.ladder.low else ""
         return (
-            f"The limit is L in L + {powers} + ..., {s}, its exponents known and L and all c inferred without knowing "
-            "the rigid value. Its uncertainty ± holds what the terms not seen and the cases' numerical error may do."
+            f"The limit is L in L + {powers} + ..., {s}, its exponents known and L and all c inferred{since} "
+            "without knowing the rigid value. Its uncertainty ± holds what the terms not seen and the cases' numerical "
+            "error may do."
         )
     return (
         f"The limit is L in L + c s^-p, {s}, fitted to the stiffest cases without knowing the rigid value, p for each "
@@ -184,22 +186,30 @@ def damping_sentence(study: StiffnessStudy) -> str:
 
 
 def prediction_sentence(study: StiffnessStudy) -> str:
-    """What is predicted without any of the cases, and how far the stiffest of them that are resolved are from that."""
+    """What is predicted without any of the cases, and what the cases show of that."""
     if study.prediction is None:
         return ""
     told = []
     for name in ("impulse_ratio", "friction_loss"):
         term = study.prediction.terms[name]
         powers = " ".join(f"{c:+.4g} ε^{p:.3g}" for p, c in term.powers) or "+ 0"
-        seen = study.coefficients(name)
+        seen = study.coefficient(name)
         words = f"{MEASURES[name].symbol} = {number(term.limit)} {powers}"
         if seen is not None:
-            observed, predicted, error = seen
-            beside = f"{observed:.4g} ± {error:.2g} for {predicted:.4g} of ε^{term.exponent:.3g}"
-            words += f" (the stiffest case resolved: {beside})"
+            beside = f"{seen.observed:.4g} ± {seen.uncertainty:.2g} observed, {seen.predicted:.4g} predicted"
+            words += f" (at the stiffest case, over ε^{term.exponent:.3g}: {beside})"
         told.append(words)
-    lacking = "" if study.prediction.complete else ", the leading power alone"
-    return f"Predicted without a fit, ε the foundation to the power −1/3{lacking}: {'; '.join(told)}."
+    said = f"Predicted without a fit, ε the foundation to the power −1/3: {'; '.join(told)}."
+    if not study.prediction.complete:
+        said += " This is the leading power alone; those behind it are the larger ones at any stiffness within reach."
+    if not isfinite(study.separate):
+        said += " A patch of so little damping does not come to rest between the events, and it holds at none of these."
+    elif study.separate > study.ladder.low:
+        said += (
+            f" It holds from a foundation of {number(study.separate, 2)} on: at softer ones an event happens before the"
+            " patch has come to rest from the one before it, and no series in powers of ε describes these cases."
+        )
+    return said
 
 
 def shortened(phases: list[str], most: int = 6) -> str:

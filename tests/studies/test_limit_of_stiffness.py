@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from math import radians
 
 import pytest
@@ -35,8 +36,11 @@ def limits_hold(study) -> None:
             # the half-width of the patch, eps^(-1/3); nine rungs still show the next term
             assert limit.rate == pytest.approx(1 / 3, abs=0.06)
     if study.prediction.complete:  # without a fit, and with nothing of the cases in it
-        observed, predicted, error = study.coefficients("impulse_ratio")
-        assert abs(observed - predicted) < 0.05 * abs(predicted) + error
+        observed, predicted, uncertainty = study.coefficient("impulse_ratio")
+        assert abs(observed - predicted) <= uncertainty < 0.5 * abs(predicted)
+        if scene.hoop.mass_ratio == 0:  # otherwise the ring's own vibration is the larger part of what is left
+            assert abs(observed - predicted) < 0.05 * abs(predicted)
+            assert uncertainty < 0.2 * abs(predicted)  # one that is off by as much would be seen
 
 
 @pytest.fixture(scope="module", params=LAWS, ids="{0[0]}-{0[1]}".format)
@@ -91,11 +95,20 @@ def test_the_two_laws_differ_by_more_than_their_uncertainty():
     assert abs(paper.impulse_ratio - brush.impulse_ratio) > 1e-2
 
 
-@pytest.mark.long
+IN_ANY_CASE = [(0.0, *law) for law in LAWS] + [(0.01, "patch", 0.35), (0.01, "brush", 0.3)]
+OTHERS = [(0.01, "brush", 0.35)] + [(0.1, *law) for law in LAWS]
+ON_DEMAND = pytest.mark.skipif(not os.environ.get("HOOP_EVERY"), reason="HOOP_EVERY=1 runs this hoop too")
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize("k", [0.1, 0.25])
-@pytest.mark.parametrize("mass_ratio", [0.0, 0.01, 0.1])
-@pytest.mark.parametrize(("law", "mu_s"), LAWS)
+@pytest.mark.parametrize(
+    ("mass_ratio", "law", "mu_s"), [*IN_ANY_CASE, *(pytest.param(*hoop, marks=ON_DEMAND) for hoop in OTHERS)]
+)
 def test_the_limit_of_every_hoop(k, mass_ratio, law, mu_s):
-    """The default ladder, nine rungs over six decades; all eighteen hoops take three to five minutes on two cores."""
+    """The default ladder, nine rungs over six decades; ten hoops take two minutes on two cores, all eighteen four.
+
+    HOOP_EVERY=1 python -m pytest -m slow tests/studies/test_limit_of_stiffness.py
+    """
     with pool(cores()) as place:
         limits_hold(stiffness_study(scene_of(k, mass_ratio, law, mu_s), pool=place))

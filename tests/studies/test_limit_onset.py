@@ -19,7 +19,7 @@ from studies.limit.onset import brush_delay
 from studies.limit.outer import slide_along
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_a_brush_breaks_late_by_the_two_thirds_power():
     contact = Contact(law="brush")
     way = passage(Scene(Hoop(0.1, 1.02, 0.01), Friction(0.35, 0.3), Release(radians(10)), contact=contact))

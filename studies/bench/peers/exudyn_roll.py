@@ -7,9 +7,12 @@ velocity as the regularisation.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import pi
 from typing import Any
 
 import numpy as np
+
+from .rigid_pulse import Start, States
 
 BULGE, WIDTH = 0.1, 0.4  # of the barrel
 
@@ -49,11 +52,8 @@ def roll_turns(
     import exudyn as exu
 
     system = exu.SystemContainer().AddSystem()
-    body = _roll(system, k, mu_s, mu, phi0, setting)
-    sensors = [_sensor(system, body, kind) for kind in ("AngularVelocity", "Position", "Velocity")]
-    system.Assemble()
-    system.SolveDynamic(_settings(exu, setting.step))
-    spin, place, speed = (np.asarray(system.GetSensorStoredData(sensor)) for sensor in sensors)
+    still = Start(1 - k, k * k / 2, mu_s, mu, phi0, 0.0, 0.0, 1.0, (0.0, pi), 9.5)
+    spin, place, speed = _marched(exu, system, still, setting)
     t, omega = spin[:, 0], -spin[:, 1]
     phi = phi0 + np.concatenate([[0.0], np.cumsum((omega[1:] + omega[:-1]) / 2 * np.diff(t))])
     # it trembles before it rolls
@@ -72,17 +72,44 @@ def roll_turns(
     return found
 
 
-def _roll(system: Any, k: float, mu_s: float, mu: float, phi0: float, setting: Setting) -> int:
-    """The body, at rest in the equilibrium of its penetration, rolling along y about its axis x."""
+def pulse(start: Start, setting: Setting) -> States:
+    """States of the first pulse.
+
+    Raises
+    ------
+    ImportError
+        Exudyn is not installed.
+    """
+    import exudyn as exu
+
+    spin, _, speed = _marched(exu, exu.SystemContainer().AddSystem(), start, setting)
+    t, omega = spin[:, 0], -spin[:, 1]
+    phi = start.phi + np.concatenate([[0.0], np.cumsum((omega[1:] + omega[:-1]) / 2 * np.diff(t))])
+    return States(t, phi, omega, speed[:, 2], speed[:, 3])
+
+
+def _marched(exu: Any, system: Any, start: Start, setting: Setting) -> list[Any]:
+    """(steps, 4) angular velocity, position and velocity of the middle, each behind its time."""
+    body = _roll(system, start, setting)
+    sensors = [_sensor(system, body, kind) for kind in ("AngularVelocity", "Position", "Velocity")]
+    system.Assemble()
+    system.SolveDynamic(_settings(exu, setting.step, start.duration))
+    return [np.asarray(system.GetSensorStoredData(sensor)) for sensor in sensors]
+
+
+def _roll(system: Any, start: Start, setting: Setting) -> int:
+    """The body in the equilibrium of its penetration, rolling along y about its axis x."""
     import exudyn.itemInterface as item
     from exudyn.rigidBodyUtilities import RigidBodyInertia, RotationMatrixX
 
-    centre = np.array([0.0, 0.0, 1 - k])
-    tensor = np.eye(3) * k * k / 2 + centre @ centre * np.eye(3) - np.outer(centre, centre)
+    centre = np.array([0.0, 0.0, start.e])
+    tensor = np.eye(3) * start.gyration + centre @ centre * np.eye(3) - np.outer(centre, centre)
     body: int = system.CreateRigidBody(
         inertia=RigidBodyInertia(mass=1.0, inertiaTensor=tensor, com=centre),
-        referencePosition=[0.0, 0.0, 1.0 - 1.0 / setting.stiffness],
-        referenceRotationMatrix=RotationMatrixX(-phi0),
+        referencePosition=[0.0, 0.0, 1.0 - start.normal / setting.stiffness],
+        referenceRotationMatrix=RotationMatrixX(-start.phi),
+        initialVelocity=[0.0, start.slip + start.omega, 0.0],
+        initialAngularVelocity=[-start.omega, 0.0, 0.0],
         gravity=[0.0, 0.0, -1.0],
     )
     markers = [system.AddMarker(item.MarkerBodyRigid(bodyNumber=number)) for number in (system.CreateGround(), body)]
@@ -93,8 +120,8 @@ def _roll(system: Any, k: float, mu_s: float, mu: float, phi0: float, setting: S
             nodeNumber=memory,
             contactStiffness=setting.stiffness,
             contactDamping=setting.damping,
-            dynamicFriction=mu,
-            staticFrictionOffset=mu_s - mu,
+            dynamicFriction=start.mu,
+            staticFrictionOffset=start.mu_s - start.mu,
             viscousFriction=0.0,
             exponentialDecayStatic=setting.velocity,
             frictionProportionalZone=setting.velocity,
@@ -115,7 +142,7 @@ def _sensor(system: Any, body: int, kind: str) -> Any:
     )
 
 
-def _settings(exu: Any, step: float, t_end: float = 9.5) -> Any:
+def _settings(exu: Any, step: float, t_end: float) -> Any:
     settings = exu.SimulationSettings()
     march = settings.timeIntegration
     march.endTime, march.numberOfSteps = t_end, round(t_end / step)

@@ -1,0 +1,99 @@
+"""`hoop study limit`: where stiffness tends to, solved, and what other programs make of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from rigid import load_scene
+from rigid.elastic import LAWS
+
+from ..running.files import folder, to_json, write_text
+from .study import as_json, scheduler, workers
+
+
+@click.command()
+@click.argument("scene")
+@as_json
+@click.option(
+    "--out", type=click.Path(path_type=Path), metavar="DIR", help="Write limit.json, figures and report.html here."
+)
+@click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
+@click.option(
+    "--damping",
+    type=click.FloatRange(0),
+    metavar="D",
+    help="Damping ratio of the patch under the hoop's own weight; by default the scene's own, 0 included.",
+)
+@click.option(
+    "--flexible",
+    "foundations",
+    type=click.FloatRange(0, min_open=True),
+    multiple=True,
+    metavar="S",
+    help="Observe the flexible solver at this foundation too; may be given several times.",
+)
+@click.option("--map", "mapped", is_flag=True, help="J_F/J_N over damping ratio and foundation too; a minute or two.")
+@click.option(
+    "--peers",
+    "peers_too",
+    is_flag=True,
+    help="What MuJoCo, Drake, Exudyn and ipctk tend to, those that are installed; a minute or two.",
+)
+@workers
+@scheduler
+@click.pass_obj
+def limit(
+    line: str,
+    scene: str,
+    as_json: bool,
+    out: Path | None,
+    law: str | None,
+    damping: float | None,
+    foundations: tuple[float, ...],
+    mapped: bool,
+    peers_too: bool,
+    workers: int | None,
+    scheduler: str | None,
+) -> None:
+    """The limit of infinite stiffness solved, not fitted: events, critical damping, and how fast a pulse gets there."""
+    from ..limit.damping import damping_map
+    from ..limit.study import limit_study
+    from ..limit.summary import limit_sheets, map_sheet
+    from ..running.progress import bar
+    from ..running.workers import pool
+
+    described = load_scene(scene)
+    if law is not None:
+        described = described.replace(contact={"law": law})
+    target = folder(out) if out is not None else None
+    with bar("inner problems") as progress, pool(workers, scheduler) as place:
+        found = limit_study(described, damping=damping, flexible=foundations, pool=place, out=target, progress=progress)
+        spots = damping_map(found.scene) if mapped else []
+    told = found.to_dict() | ({"map": [spot.to_dict() for spot in spots]} if mapped else {})
+    more = [map_sheet(spots)] if mapped else []
+    if peers_too:
+        from ..bench.peers.approach import approach_sheet, approaches
+
+        with bar("other programs") as progress:
+            others = list(approaches(found.scene, progress))
+        told["peers"] = [other.to_dict() for other in others]
+        more.append(approach_sheet(others))
+    if target is not None:
+        from ..limit.figures import damping_figure, of_limit
+        from ..limit.report import limit_report
+        from ..plots.style import save
+
+        write_text(target / "limit.json", to_json(told))
+        drawn = of_limit(found) | ({"damping": damping_figure(spots)} if mapped else {})
+        images = {name: save(figure, target / f"{name}.png") for name, figure in drawn.items()}
+        limit_report(found, tuple(more), images, line, target / "report.html")
+    if as_json:
+        click.echo(to_json(told))
+        return
+    from .tables import show
+
+    show(*limit_sheets(found), *more)
+    if target is not None:
+        click.echo(f"Figures and limit.json are in {target}; open {target / 'report.html'}.")
