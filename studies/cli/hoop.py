@@ -144,7 +144,8 @@ def _print_motion(motion: Motion, as_json: bool) -> None:
 @click.argument("name", required=False)
 def scenes(name: str | None) -> None:
     """List the shipped scenes, or print one as TOML to start your own from."""
-    from rigid.scenefile import scene_names, scene_text
+    from rigid import scene_names
+    from rigid.scenefile import scene_text
 
     if name:
         click.echo(scene_text(name), nl=False)
