@@ -36,11 +36,11 @@ def answer(study: HopStudy) -> str:
     for where, words in PLACES.items():
         found = [line.threshold(where) for line in study.lines if where in line.windows]
         values = [value for value in (bracket.value for bracket in found) if value is not None]
-        if values:
-            low, high = number(min(values), 3), number(max(values), 3)
-            said.append(f"{words} below {low}" + (f" to {high}" if high != low else ""))
-        elif any(bracket.low > 0 for bracket in found):
-            said.append(f"{words} at every stiffness rolled")
+        above = [bracket.low for bracket in found if bracket.low > 0 and bracket.value is None]
+        ends = sorted({number(value, 3) for value in values}, key=float)
+        least = [*ends[:1], *ends[1:][-1:], *(f"more than {number(value, 3)}" for value in above)]
+        if least:
+            said.append(f"{words} below {' to '.join(least)}")
     over = f", by {study.second}" if study.second is not None else ""
     return f"Yes: released at rest, an elastic hoop {', it '.join(said)}; all of {SYMBOL}{over}."
 
@@ -68,7 +68,8 @@ def _line_verdict(study: HopStudy, line: Line) -> str:
     for where in ("pulse", "bottom"):
         if where in line.windows:
             found = line.threshold(where)
-            below = f"where that is {_below(found)}" if found.low else "at none of the stiffnesses rolled"
+            none = f"nowhere from {number(found.high, 3)} on" if isfinite(found.high) else "at none that came so far"
+            below = f"where that is {_below(found)}" if found.low else none
             said.append(f"it {PLACES[where]} {below}")
     return "; ".join(said) + "."
 
