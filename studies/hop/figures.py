@@ -11,6 +11,7 @@ from matplotlib.collections import PathCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from flexible.models.state import State
 from flexible.output.body import lowest, outline, whole
@@ -117,7 +118,15 @@ def _line(axes: Axes, study: HopStudy, line: Line) -> PathCollection | None:
     stiffness = [case.bending_stiffness for case in cases]
     axes.set(xscale="log", title=name, ylim=(0, 360), yticks=range(0, 361, 90),
              xlim=(min(stiffness) / 1.2, max(stiffness) * 1.2))  # fmt: skip
+    _in_plain_numbers(axes)
     return dots if len(points) else None
+
+
+def _in_plain_numbers(axes: Axes) -> None:
+    """Ticks of a logarithmic axis of stiffness: 1, 3, 10, 30, ..."""
+    axes.xaxis.set_major_locator(FixedLocator([m * 10.0**n for n in range(-12, 13) for m in (1, 3)]))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_locator(NullLocator())
 
 
 def height_map(study: HopStudy) -> Figure | None:
@@ -153,7 +162,7 @@ def height_map(study: HopStudy) -> Figure | None:
         axes.legend(loc="upper right", frameon=True)
         axes.set_yticks(values, [f"{value:g}" for value in values])
         axes.minorticks_off()
-        axes.set_xticks(10.0 ** np.arange(np.ceil(np.log10(stiffness.min())), np.log10(stiffness.max()) + 1e-9))
+        _in_plain_numbers(axes)
         axes.grid(False)
         figure.colorbar(painted, ax=axes, label="height of the highest hop over R (white: none)")
         return figure

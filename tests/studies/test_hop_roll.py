@@ -92,7 +92,8 @@ def test_the_energies_of_a_hop_close(soft):
     for flight in told:
         energies = flight.energies
         assert abs(energies.residual) < 3 * RTOL**1.5
-        assert min(energies.stored_in_ring, energies.friction, energies.vibration, energies.landing) >= 0
+        assert min(energies.stored_in_ring, energies.stored_in_floor, energies.vibration) >= 0, "squares"
+        assert min(energies.friction, energies.landing) >= -(RTOL**1.5), "works, found by a quadrature"
     stored = max(flight.energies.stored for flight in told)
     assert stored > 20 * 3 * RTOL**1.5, "the residual is small against what is stored"
 
