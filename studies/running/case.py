@@ -61,6 +61,8 @@ class Case:
         Whether the forces through each pulse come back too.
     build : str
         Version and sources that it is meant for; those of this process by default.
+    cut : bool
+        Whether a motion that stops before what was asked is a result too, as far as it came; otherwise it is a failure.
     """
 
     solver: str
@@ -68,6 +70,7 @@ class Case:
     against: tuple[tuple[str, float, float], ...] = ()
     histories: bool = False
     build: str = ""
+    cut: bool = False
 
     def __post_init__(self) -> None:
         if not self.build:
@@ -83,6 +86,7 @@ class Case:
             "against": [list(entry) for entry in self.against],
             "histories": self.histories,
             "build": self.build,
+            "cut": self.cut,
         }
         return hashlib.sha256(json.dumps(described, sort_keys=True).encode()).hexdigest()[:32]
 
@@ -175,7 +179,7 @@ def _once(case: Case, scene: Scene, most: float = inf) -> dict[str, Any]:
             raise Unfinished(f"more than {most:.0f} steps at a tolerance of {scene.solve.rtol:g}")
 
     motion = solver(case.solver)(scene, history=case.histories, progress=count if most < inf else None)
-    if not motion.completed:
+    if not (motion.completed or case.cut):
         raise Unfinished(motion.ended)
     return _described(motion, case.histories) | {"rtol": scene.solve.rtol}
 
