@@ -178,7 +178,7 @@ def contact_forces(
         moved = (foundation.force * points.move).sum() / elastic
         way = moved + dphi * (foundation.force * lifts).sum() / elastic
     slip = Slip(way, damper.way_0, damper.velocity_0 + damper.rate * (way - damper.way_0), damper.rate, damper.drag)
-    carried = carry(points, before.bristles, dphi, damper.ratio, slip, moved)
+    carried = carry(points, before.bristles, dphi, damper, slip, moved)
     answer = tractions(points, foundation, carried, mode, load, slip, law)
     forces, shared = answer.points, answer.shared
     pull = forces.force.copy()

@@ -101,7 +101,7 @@ def march(
     attempts, turns, stalls = 0, 0, 0
     if _over(state, ends, turns):
         return state, records, attempts, ""
-    tolerance, power = method.tolerance(rtol), 1 / method.estimates
+    power = 1 / method.estimates
     h = limits.first
     while attempts < limits.most:
         if h < SHORTEST:
@@ -109,6 +109,7 @@ def march(
         attempts += 1
         asked = min(h, ends.t - state.t)
         trial = attempt(model, state, asked, method)
+        tolerance = method.tolerance(rtol) * model.law.care(state)
         if trial is None:
             h = asked / 4
             continue

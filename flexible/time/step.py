@@ -60,7 +60,7 @@ def attempt(model: Model, old: State, h: float, method: Method = ESDIRK3) -> Ste
 def _step(model: Model, old: State, h: float, method: Method) -> Step | None:
     """The stages of a step one after the other, and what is measured of it."""
     beta = method.gamma * h
-    relaxation, drag = model.relaxation / beta, model.patch_damping(old) / beta
+    relaxation = model.relaxation / beta
     known = _Stages([old.pos], [old.vel], [old.acc], [old.res], [old.elastic_rate], [old.slip_velocity])
     last: Stage | None = None
     for i in range(1, len(method.c)):
@@ -69,7 +69,10 @@ def _step(model: Model, old: State, h: float, method: Method) -> Step | None:
         pos = old.pos + _sum(weights, known.vel) + beta * vel
         elastic = old.res.elastic + float(weights @ known.elastic_rate)
         way = float(weights @ known.slip_velocity)
-        damper = Damper(relaxation, elastic, 1.0, drag, way, method.c[i] / method.gamma, 1 / beta, 0.0)
+        turning = method.c[i] * (h * vel[2] - (pos[2] - old.pos[2]) / method.gamma)
+        ratio = method.c[i] / method.gamma
+        drag = model.patch_damping(old) * _widening(old, method.c[i] * h) / beta
+        damper = Damper(relaxation, elastic, 1.0, drag, way, ratio, 1 / beta, 0.0, float(turning))
         guess = beta**2 * _expected(method, known.acc)
         last = _solved(model, old, old.mode, damper, Predictor(pos, vel, beta, guess), last)
         if not last.ok:
@@ -85,6 +88,16 @@ def _step(model: Model, old: State, h: float, method: Method) -> Step | None:
         known.feet.append(res.feet)
     assert last is not None
     return _measured(model, old, h, method, known, last)
+
+
+def _widening(old: State, later: float) -> float:
+    """Length of the patch so much later over what it is: like N_el^(1/3), a parabola's.
+
+    A length that lags by a step would let the creep of a damped patch lag by as much.
+    """
+    if old.res.elastic <= 0:
+        return 1.0
+    return float(np.clip(1 + later * old.elastic_rate / old.res.elastic, 0.1, 10.0) ** (1 / 3))
 
 
 def _measured(model: Model, old: State, h: float, method: Method, known: _Stages, last: Stage) -> Step:

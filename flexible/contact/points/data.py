@@ -59,7 +59,8 @@ class Damper(NamedTuple):
     unless the damper ``pulls``: a floor does not, but Newton without that bound meets no bend in N, see
     :func:`pulling`.
     With x the mean way of the patch in the step, its slip velocity at the end of the stage is ``velocity_0`` + ``rate``
-    (x - ``way_0``); a damped patch that sticks drags with -``drag`` (x - ``way_0``), shared like the pressure.
+    (x - ``way_0``); a damped patch that sticks drags with -``drag`` (x - ``way_0``), shared like the pressure. The hoop
+    turns by dphi, at the end with ``turning_0`` + ``ratio`` dphi over the stage's length.
     """
 
     relaxation: float  # the damper's time over the stage's beta
@@ -70,6 +71,7 @@ class Damper(NamedTuple):
     ratio: float  # the stage's length over its beta
     rate: float  # 1/beta
     velocity_0: float
+    turning_0: float = 0.0  # end rate of phi, over the stage's length, if the hoop had not turned
     pulls: bool = False
 
 
@@ -171,7 +173,7 @@ def pulling(damper: Damper, pulls: bool) -> Damper:
     """
     return Damper(
         damper.relaxation, damper.elastic_0, damper.eta_0, damper.drag, damper.way_0, damper.ratio, damper.rate,
-        damper.velocity_0, pulls,
+        damper.velocity_0, damper.turning_0, pulls,
     )  # fmt: skip
 
 
