@@ -179,14 +179,15 @@ class Builder:
             self.initial or 0.0, *self.held, self.friction_loss, self.landing_loss, self.damping_loss, self.hand_over,
             self.numerical_loss, self.residual,
         )  # fmt: skip
+        sample = Sampler(tuple(self.pieces), scene)
         return FlexibleMotion(
             scene=scene,
             phases=tuple(with_units(phase, scene) for phase in self.phases),
             turns=tuple(with_units(turn, scene) for turn in self.turns),
-            pulses=tuple(with_units(pulse, scene) for pulse in self.pulses),
+            pulses=tuple(replace(with_units(pulse, scene), sample=sample) for pulse in self.pulses),
             ended=ended,
             completed=self.completed,
-            sample=Sampler(tuple(self.pieces), scene),
+            sample=sample,
             ledger=with_units(ledger, scene),
             steps=self.steps,
             history=with_units(self._history(), scene) if history else None,

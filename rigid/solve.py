@@ -19,6 +19,7 @@ from .phases.choice import MOST_STALLS, entry_run, release_from
 from .phases.rolling.phase import LISTED_PERIODS
 from .record.pulse import cut_pulse
 from .scene import Scene, is_point_mass
+from .scenefile import SceneLike, as_scene
 
 LOG_RECORDS = 128
 STEPS = 200_000  # the work bound of one motion: Taylor steps and phases
@@ -142,13 +143,14 @@ def _unroll(events: Any, state: Any, records: list[list[float]]) -> None:
     records += [row[i : i + at.WIDTH] for i in range(0, used, at.WIDTH)]
 
 
-def simulate(scene: Scene) -> Motion:
+def simulate(scene: SceneLike) -> Motion:
     """The rigid motion of a scene, exact to round-off.
 
     Parameters
     ----------
-    scene : Scene
-        Hoop, friction, release and how far to run; its ring and contact are not looked at.
+    scene : Scene, str, path or dict
+        Hoop, friction, release and how far to run (its ring and contact are not looked at), or what says so: the name
+        of a shipped scene, the path of a TOML file, a dict as such a file gives it.
 
     Returns
     -------
@@ -157,15 +159,20 @@ def simulate(scene: Scene) -> Motion:
         that of a motion that ends rolling for ever. A motion never fails: what stops it is said in ``ended``.
         The lists of one without loss are as long as they are and take no room: their part that comes again is kept
         once.
+
+    Raises
+    ------
+    SceneError
+        No such scene, or one that cannot be.
     """
+    scene = as_scene(scene)
     par = parameters(scene)
     code, records, final = _run(par, release_state(scene))
     end = [float(at.END), *final[: at.MOVING]]
-    listed = Listing(records, end, scene)
+    listed = Listing(records, end, scene, lambda starts, fold: Sampler(tuple(par), starts, fold, scene))
     period = final[at.PERIOD] * scene.time_unit if 0 < final[at.PERIOD] < inf else None
-    sample = Sampler(tuple(par), listed.starts, listed.fold, scene)
     return Motion(
-        scene, listed.phases, listed.turns, listed.pulses, _ended(code, scene, period, final), sample, period,
+        scene, listed.phases, listed.turns, listed.pulses, _ended(code, scene, period, final), listed.sample, period,
         code != at.WORK_BOUND,
     )  # fmt: skip
 
