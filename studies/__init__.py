@@ -9,6 +9,7 @@
 ``limit``      that limit solved, from the inner problems (``inner``) of the rigid hoop's events
 ``sweep``      the product of scene keys over processes or a Dask cluster
 ``paper``      every number and figure of the paper again
+``validate``   everything published or provable beside what the solvers find
 ``bench``      run time against error;  ``stress``  thousands of scenes and what must hold of them
 ``running``    scenes through solvers, in processes, kept in a folder, whatever the study
 ``plots``      what all figures share
