@@ -18,13 +18,14 @@ In the order in which they build on each other:
 ``time``      one implicit step; adaptive steps with located events
 ``handover``  where a flexible segment begins: in the equilibrium of a rigid motion
 ``solve``     simulate(scene); ``builder`` what a motion is put together from, ``segment`` records read as phases and
-              pulses, ``units``, ``motion`` what comes back
+              pulses, ``units``, ``motion`` what comes back, ``saved`` from a file
 ``output``    displacement and stress, and all fields as a series on disk (not loaded here)
 """
 
 from typing import TYPE_CHECKING
 
 from .motion import FlexibleMotion, FlexiblePulse, History, Ledger
+from .saved import load_motion
 from .solve import simulate
 
 if TYPE_CHECKING:
@@ -60,6 +61,7 @@ __all__ = [
     "History",
     "Ledger",
     "__version__",
+    "load_motion",
     "rigid_limit",
     "simulate",
     "write_fields",

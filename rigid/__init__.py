@@ -15,7 +15,7 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
 ``solve``      one scene to its motion; ``batch`` many at once; ``thresholds`` where rolling ends
 ``lists``      the records of a run as phases, turns and pulses
 ``phases``     the mechanics of each kind of phase, which one is next, and any instant of them
-``output``     a motion as curves, as a table, in a few lines
+``output``     a motion as curves, as a table, in a few lines, in a file
 ``record``     what a phase leaves behind; the measures of a pulse
 ``kernel``     what phases are computed with, and why all of this runs both interpreted and compiled
 
@@ -30,9 +30,10 @@ from .allowed import SceneError
 from .batch import Batch, simulate_batch
 from .elastic import Contact, Ring, Solve
 from .motion import Kind, Motion, Phase, Pulse, Side, States, Turn
+from .output.file import MotionFileError
 from .scene import Friction, Hoop, Landing, Release, Run, Scene
 from .scenefile import SceneLike, as_scene, load_scene, scene_from_dict, scene_names, scene_to_dict
-from .solve import simulate
+from .solve import load_motion, simulate
 
 if TYPE_CHECKING:
     __version__: str
@@ -42,12 +43,9 @@ if TYPE_CHECKING:
 def __getattr__(name: str) -> object:
     """Thresholds on demand: they need scipy, which a motion does not. The version too."""
     if name == "__version__":
-        from importlib import metadata
+        from .output.file import version
 
-        try:
-            return metadata.version("hoop-pulse")
-        except metadata.PackageNotFoundError:
-            return "uninstalled"
+        return version()
     if name in ("inception_mu_s", "rolling_k", "rolling_mu_s"):
         from . import thresholds
 
@@ -67,6 +65,7 @@ __all__ = [
     "Kind",
     "Landing",
     "Motion",
+    "MotionFileError",
     "Phase",
     "Pulse",
     "Release",
@@ -82,6 +81,7 @@ __all__ = [
     "__version__",
     "as_scene",
     "inception_mu_s",
+    "load_motion",
     "load_scene",
     "rolling_k",
     "rolling_mu_s",

@@ -20,6 +20,7 @@ from .kernel.layout import MORE, ORDER, RECORDS, SERIES, STATE, STEPS, WIDTH, WO
 from .motion import Array
 from .output import summary
 from .phases.choice import entry_run, release_from
+from .phases.reasons import reason
 from .record.pulse import cut_pulse
 from .record.rows import (  # fmt: skip
     CODE,
@@ -35,7 +36,7 @@ from .record.rows import (  # fmt: skip
 )
 from .scene import Friction, Hoop, Landing, Release, Run, hoop_constants, is_point_mass
 from .scenefile import SceneLike, as_scene
-from .solve import LOG_RECORDS, UNTIL_CODES, reason
+from .solve import LOG_RECORDS, UNTIL_CODES
 from .solve import STEPS as WORK
 
 if TYPE_CHECKING:
@@ -153,10 +154,9 @@ class Batch:
         return f"Batch of {len(self)} scenes"
 
     def _lines(self) -> list[summary.Line]:
-        codes, counts = np.unique(self.code, return_counts=True)
-        told = [("ended", f"{n}: {reason(int(code))}") for code, n in zip(codes, counts, strict=True)]
-        first = self.impulse_ratio[:, 0] if self.t_start.shape[1] else np.empty(0)
-        first = first[np.isfinite(first)]
+        ends = zip(*np.unique(self.code, return_counts=True), strict=True)
+        told = [("ended", f"{n}: {reason(int(code))}") for code, n in ends]
+        first = self.impulse_ratio[:, :1][np.isfinite(self.impulse_ratio[:, :1])]
         if first.size:
             told.append(("J_F/J_N", f"{first.min():.6g} to {first.max():.6g} in the first pulse"))
         return told

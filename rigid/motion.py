@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
 from math import degrees, nan
+from os import PathLike
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -105,13 +106,16 @@ class Pulse:
         ValueError
             A pulse that belongs to no motion, or a quantity that there is not.
         """
+        from .output.axes import draw
+
         if self.sample is None:
             raise ValueError("This pulse belongs to no motion that could be sampled.")
         sample = self.sample
         span = (self.t_start, self.t_end)
         middle = sampling.bottom(lambda t: sample(t, "right").phi, *span)
         t = sampling.times(lambda t: _forces(sample(t, "right")), span, [middle])
-        return _draw(sample(t, "right"), quantities, over, getattr(sample, "scene", None), axes)
+        paper = getattr(getattr(sample, "scene", None), "dimensionless", True)
+        return draw(_columns(sample(t, "right")), quantities, over, dimensionless=paper, axes=axes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -213,14 +217,13 @@ class Motion:
         Returns
         -------
         (n,) array of matplotlib Axes
-
-        Examples
-        --------
-        >>> axes = rigid.simulate("paper-3.1").plot("normal_force", over="phi")
         """
+        from .output.axes import draw
+
         where = {"t": ("t_start", "t_end"), "phi": ("phi_start", "phi_end")}.get(over)
         spans = [(str(p.kind), getattr(p, where[0]), getattr(p, where[1])) for p in self.phases] if where else []
-        return _draw(self.at(self.times()), quantities, over, self.scene, axes, spans)
+        paper = self.scene.dimensionless
+        return draw(_columns(self.at(self.times())), quantities, over, dimensionless=paper, spans=spans, axes=axes)
 
     def to_dataframe(self, t: ArrayLike | None = None) -> pandas.DataFrame:
         """The states at times ``t`` (n,), by default :meth:`times`, and the kind of phase: a row for each."""
@@ -230,6 +233,21 @@ class Motion:
         frame = pandas.DataFrame(_columns(states))
         frame["phase"] = [str(self.phase_at(time).kind) for time in frame["t"]]
         return frame
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the motion into a file, with its scene and the version of this program; ``load_motion`` reads it.
+
+        Raises
+        ------
+        ValueError
+            A motion of a solver that says not how.
+        """
+        from .output.file import write
+
+        stored = getattr(self.sample, "stored", None)
+        if stored is None:
+            raise ValueError("A motion of this solver cannot be saved.")
+        write(path, scene_to_dict(self.scene), stored(self))
 
     def __repr__(self) -> str:
         return summary.text(self._title(), self._lines())
@@ -277,18 +295,3 @@ def _columns(states: States) -> dict[str, Array]:
 
 def _forces(states: States) -> Array:
     return np.vstack([states.normal_force, states.friction_force])
-
-
-def _draw(
-    states: States,
-    quantities: Sequence[str],
-    over: str,
-    scene: Scene | None,
-    axes: Any,
-    spans: Sequence[tuple[str, float, float]] = (),
-) -> NDArray[np.object_]:
-    from .output.axes import draw
-
-    chosen = quantities or ("normal_force", "friction_force", "slip_velocity")
-    paper = scene is None or (scene.hoop.R, scene.hoop.m, scene.hoop.g) == (1, 1, 1)
-    return draw(_columns(states), chosen, over, dimensionless=paper, spans=spans, axes=axes)

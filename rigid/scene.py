@@ -81,14 +81,8 @@ class Hoop:
     g: float = 1.0
 
     def __post_init__(self) -> None:
-        require(
-            "hoop.k",
-            self.k,
-            0,
-            1,
-            "k is the disk's radius over the hoop's inner radius, at least 0 and below 1",
-            open_high=True,
-        )
+        allowed = "k is the disk's radius over the hoop's inner radius, at least 0 and below 1"
+        require("hoop.k", self.k, 0, 1, allowed, open_high=True)
         # the upper bounds here and below keep squares and products within what a float holds
         require("hoop.r", self.r, 1, 1e9, "r is the hoop's outer over its inner radius, 1 to 1e9")
         require("hoop.mass_ratio", self.mass_ratio, 0, 1e12, "mass_ratio is m_h/m, 0 to 1e12")
@@ -239,6 +233,11 @@ class Scene:
         if self.hoop.r > 1:
             return 1 - 1 / self.hoop.r
         return 0.02 if self.ring.thickness is None else self.ring.thickness
+
+    @property
+    def dimensionless(self) -> bool:
+        """Whether it is in the paper's scaling."""
+        return self.hoop.R == self.hoop.m == self.hoop.g == 1
 
     @property
     def time_unit(self) -> float:

@@ -77,7 +77,7 @@ def draw(
     columns : mapping
         Arrays (n,) by name.
     quantities : sequence of str
-        What is drawn.
+        What is drawn; N, F and slip velocity if nothing is named.
     over : str
         The abscissa, usually "t" or "phi".
     dimensionless : bool
@@ -91,6 +91,7 @@ def draw(
     -------
     (n,) array of matplotlib Axes
     """
+    quantities = quantities or ("normal_force", "friction_force", "slip_velocity")
     check([*quantities, over])
     panels: list[Axes]
     if axes is None:
