@@ -11,7 +11,7 @@ import meshes
 import rigid
 import studies
 from rigid import load_scene
-from studies import Ladder, run_sweep, stiffness_study, sweep_from_dict
+from studies import Ladder, limit_study, run_sweep, stiffness_study, sweep_from_dict
 from studies.running.solvers import version
 
 mpl.use("Agg")
@@ -48,6 +48,16 @@ def test_a_study_as_a_table_and_in_a_few_lines(study):
     assert len(lines) <= 24
     assert max(map(len, lines)) <= 100
     assert "<td>1e+12</td>" in study._repr_html_()
+
+
+def test_the_limit_solved_in_a_few_lines():
+    found = limit_study("paper-3.3-massless", foundations=())
+    lines = repr(found).splitlines()
+    assert len(lines) <= 24
+    assert max(map(len, lines)) <= 100
+    term = found.prediction.terms["impulse_ratio"]
+    assert f"{term.limit:.6g} + {term.coefficient:.4g} x^1" in repr(found)
+    assert "foundation^(-1/3)" in found._repr_html_()
 
 
 def test_a_sweep_needs_no_pool():
