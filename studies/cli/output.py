@@ -13,7 +13,7 @@ from ..running.files import StudyError, to_json, trouble, write_text
 
 
 def write_motion(motion: Motion, out: Path) -> None:
-    """``motion.json``, ``motion.npz`` for ``load_motion``, ``history.csv`` and, where there is a pulse, ``pulse.png``."""
+    """``motion.json``, ``motion.npz`` (which ``load_motion`` reads), ``history.csv``; of a pulse, ``pulse.png`` too."""
     write_text(out / "motion.json", to_json(motion.to_dict()))
     motion.save(out / "motion.npz")
     write_text(out / "history.csv", history.to_csv(history.whole(motion)))

@@ -31,6 +31,7 @@ def hoop_of(gamma: float) -> Hoop:
 def rows() -> Iterator[Row]:
     """Forces, thresholds, hop and slip."""
     yield from _forces()
+    yield from _massless()
     yield from _thresholds()
     yield from _hops()
     yield from _slips()
@@ -46,6 +47,19 @@ def _forces() -> Iterator[Row]:
         worst = int(np.argmax(np.abs(found - normal)))
         what = f"N/(M g) where it is furthest off in a revolution, gamma = {gamma}, u0 = {u0}"
         yield Row(DERIVED, what, float(normal[worst]), float(found[worst]), 1e-11, ROUND_OFF)
+
+
+def _massless() -> Iterator[Row]:
+    """Without a hoop's mass: thrown from the top N/(m g) = cos phi - u0, from rest 2 cos^2(phi/2) - cos^2(phi0/2)."""
+    thrown = simulate(Scene(Hoop(0.0), ROUGH, Release(0.0, 0.3), Run(t_end=3.0)))
+    state = thrown.at(3.0)
+    value = float(np.cos(state.phi)) - 0.09
+    yield Row(DERIVED, "N/(m g) without a hoop's mass, u0 = 0.09", value, float(state.normal_force), 1e-12, "round-off")
+    released = simulate(load_scene("paper-point-mass"))
+    state = released.at(0.9 * released.phases[0].t_end)
+    value = float(2 * np.cos(state.phi / 2) ** 2 - np.cos(released.scene.release.phi0 / 2) ** 2)
+    what = "N/(m g) of a point mass, nine tenths of its rolling"
+    yield Row("Lubarda 2009, sec. 2.3", what, value, float(state.normal_force), 1e-12, "round-off")
 
 
 def _thresholds() -> Iterator[Row]:
