@@ -19,7 +19,7 @@ In the order in which they build on each other:
 ``handover``  where a flexible segment begins: in the equilibrium of a rigid motion
 ``solve``     simulate(scene); ``builder`` what a motion is put together from, ``segment`` records read as phases and
               pulses, ``units``, ``motion`` what comes back, ``saved`` from a file
-``output``    displacement and stress, and all fields as a series on disk (not loaded here)
+``output``    displacement and stress, all fields as a series on disk, the hoop as a whole (not loaded here)
 """
 
 from typing import TYPE_CHECKING

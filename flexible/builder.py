@@ -21,6 +21,7 @@ from .motion import FlexibleMotion, FlexiblePulse, History, Kept, Ledger
 from .segment import Segment
 from .time.adaptive import LIMITS, Limits, march
 from .time.events import Ends
+from .time.methods import METHODS
 from .units import with_units
 
 Array = NDArray[np.float64]
@@ -195,7 +196,9 @@ class Builder:
 
         states: list[State] = []
         limits = LIMITS if self.most_steps is None else Limits(most=max(self.most_steps - self.steps, 1))
-        result = march(hoop, state, ends, rtol, limits, watch, None if self.kept is None else states.append)
+        keep = None if self.kept is None else states.append
+        method = METHODS[self.scene.solve.integrator]
+        result = march(hoop, state, ends, rtol, limits, watch, keep, method)
         if self.kept is not None:
             self.kept.append(Kept(hoop, tuple(states)))
         return result

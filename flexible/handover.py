@@ -22,7 +22,7 @@ from .models.equilibrium import Patch, settle
 from .models.full import FullHoop
 from .models.reduced import ReducedHoop
 from .models.state import State
-from .time.tr_bdf2 import MarchError, restart
+from .time.step import MarchError, restart
 
 Array = NDArray[np.float64]
 Hoop = ReducedHoop | FullHoop | ChainHoop
@@ -102,9 +102,7 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> Sta
     """
     s, c = sin(pose.phi), cos(pose.phi)
     a_x, angular = pose.accelerations(hoop)
-    lost = MarchError(
-        f"no start at phi = {pose.phi:.6g}: no equilibrium of the ring under N = {pose.normal_force:.4g} was found"
-    )
+    lost = f"no start at phi = {pose.phi:.6g}: no equilibrium of the ring under N = {pose.normal_force:.4g} was found"
     zero = np.zeros(3 + hoop.coordinates)
     mode = hoop.law.start(pose.kind)
     try:
@@ -112,7 +110,7 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> Sta
         if pose.normal_force <= 0:
             ring.linearise(1.0)
     except np.linalg.LinAlgError:
-        raise lost from None
+        raise MarchError(lost) from None
     if pose.normal_force <= 0:
         window = hoop.window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
         ring.move(window, np.zeros(2 * (2 * window[1] + 1)))
@@ -123,8 +121,10 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> Sta
         nothing = (np.zeros_like(u), NOTHING, no_bristles())
         return State(t, x_C, pos, zero, zero, mode, window, u, *nothing, pose.slip_velocity)
     patch = Patch(hoop, pose.phi, pose.normal_force, pose.friction_force)
-    if not settle(ring, patch):
-        raise lost
+    reached = settle(ring, patch)
+    if reached < 1:
+        share = reached * pose.normal_force / (1 + hoop.scene.hoop.mass_ratio)
+        raise MarchError(f"{lost}: from no load on, it is lost at N = {share:.3g} of the weight of disk and hoop")
     pos = np.concatenate([[0.0, patch.height, pose.phi], ring.coordinates])
     return State(
         t, x_C, pos, zero, zero, mode, patch.window, patch.u, patch.nodal, patch.res, patch.bristles,

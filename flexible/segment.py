@@ -27,6 +27,19 @@ def _hermite(x: Array, x0: Array, x1: Array, y0: Array, y1: Array, s0: Array, s1
     return (1 - z) * y0 + z * y1 + z * (1 - z) * (a * (1 - z) + b * z)
 
 
+def peak(t: Array, y: Array) -> float:
+    """Largest value of a sampled function, by the parabola through the largest sample and its neighbours."""
+    i = int(np.argmax(y))
+    if not 0 < i < len(y) - 1 or not t[i - 1] < t[i] < t[i + 1]:
+        return float(y[i])
+    left, right = (y[i] - y[i - 1]) / (t[i] - t[i - 1]), (y[i + 1] - y[i]) / (t[i + 1] - t[i])
+    bend = (right - left) / (t[i + 1] - t[i - 1])
+    if bend >= 0:
+        return float(y[i])
+    top = (t[i - 1] + t[i]) / 2 - left / (2 * bend)  # where the slope, linear, is 0
+    return float(y[i] + (top - t[i]) * (left + bend * (top - t[i - 1])))
+
+
 class Segment:
     """The records of one march as arrays, and what is read off them."""
 
@@ -186,7 +199,7 @@ class Segment:
             normal_impulse=total,
             friction_impulse=gain("friction_impulse"),
             friction_loss=gain("friction_loss"),
-            peak_normal_force=float(normal_force.max()),
+            peak_normal_force=peak(grid, normal_force),
             newton_restitution=float(-velocity[-1] / velocity[0]) if velocity[0] else 0.0,
             poisson_restitution=float((total - compression) / compression) if compression > 0 else 0.0,
             energetic_restitution=sqrt(max(0.0, -returned / absorbed)) if absorbed < 0 else 0.0,

@@ -32,7 +32,7 @@ from .models.state import State
 from .motion import FlexibleMotion, FlexiblePulse
 from .segment import Segment
 from .time.events import Ends
-from .time.tr_bdf2 import MarchError
+from .time.step import MarchError
 from .units import dimensionless
 
 Progress = Callable[[float], object]

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf, pi, radians
+from typing import Any
 
-from .allowed import answering, require, require_choice, require_whole
+from .allowed import SceneError, answering, require, require_choice, require_whole
 
 
 @answering("ring", {"weld_half_angle": "weld_half_angle_deg"})
@@ -133,7 +135,7 @@ class Solve:
     ----------
     level : {"auto", "reduced", "full", "exact", "chain"}
         Reduced modes with static correction, every node of the ring, every node of the geometrically exact ring, or a
-        chain of parts that bend and turn far; "auto" takes one of the first and third that the scene allows.
+        chain of parts that bend and turn far; "auto" takes the first, or the last for a soft ring.
     resolve : {"pulses", "all"}
         Flexible inside the pulses only, with the rigid closed form between them, or flexible throughout.
     start : {"equilibrium", "undeformed"}
@@ -142,6 +144,8 @@ class Solve:
         Tolerance on the impulses, over M sqrt(g R) with M the mass of disk and hoop, about.
     elements : int
         Elements around the ring.
+    integrator : {"esdirk3", "esdirk4", "tr-bdf2"}
+        Implicit Runge-Kutta method of a step; the others are for comparison.
     """
 
     level: str = "auto"
@@ -149,10 +153,93 @@ class Solve:
     start: str = "equilibrium"
     rtol: float = 1e-4
     elements: int = 240
+    integrator: str = "esdirk3"
 
     def __post_init__(self) -> None:
         require_choice("solve.level", self.level, ("auto", "reduced", "full", "exact", "chain"))
         require_choice("solve.resolve", self.resolve, ("pulses", "all"))
+        require_choice("solve.integrator", self.integrator, ("esdirk3", "esdirk4", "tr-bdf2"))
         require_choice("solve.start", self.start, ("equilibrium", "undeformed"))
         require("solve.rtol", self.rtol, 1e-12, 0.5, "the tolerance lies between 1e-12 and 0.5")
         require_whole("solve.elements", self.elements, 24, 4000)
+
+
+#: keys of [ring] in a scene file that say in SI units what section the ring has
+SECTION = ("youngs_modulus", "width", "height", "tube_diameter", "tube_wall", "density")
+
+
+def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """What a scene file says of the section of a ring one can hold, as keys of [ring] and [hoop] without units.
+
+    A strip ``width`` wide and ``height`` thick, or a tube of ``tube_diameter`` with a wall of ``tube_wall`` (half the
+    diameter is a full rod), lengths in m, lies with its outermost fibre at R. With ``youngs_modulus`` (Pa) that is the
+    bending stiffness E I/(m g R^2), with ``density`` (kg/m^3) also the mass of the hoop, of a bar as long as the circle
+    through its middle.
+
+    Parameters
+    ----------
+    ring, hoop : mapping
+        The tables of the file, of which at least one key in ``SECTION`` is in ``ring``.
+
+    Returns
+    -------
+    (dict, dict)
+        Of [ring] and [hoop], to be added to what else the tables say.
+
+    Raises
+    ------
+    SceneError
+        No SI units, the same thing said twice, half a section, or a value that cannot be.
+    """
+    first = next(key for key in SECTION if key in ring)
+    for key in ("R", "m", "g"):
+        if key not in hoop:
+            raise SceneError(f"ring.{first} is in SI units: hoop.R, hoop.m and hoop.g must be given in them too.")
+        require(f"hoop.{key}", hoop[key], 1e-30, 1e30, f"{key} lies between 1e-30 and 1e30")
+    for key in SECTION:
+        if key in ring:
+            require(f"ring.{key}", ring[key], 0, 1e30, f"{key} is in SI units, above 0", open_low=True)
+    if "bending_stiffness" in ring:
+        raise SceneError(
+            f"ring.bending_stiffness and ring.{first} cannot both be given: each says how stiff the ring is."
+        )
+    if "youngs_modulus" not in ring:
+        raise SceneError(f"ring.youngs_modulus is missing: ring.{first} says the section alone.")
+    R, m, g = (float(hoop[key]) for key in ("R", "m", "g"))
+    high, area, moment = _section(ring)
+    if high >= R:
+        raise SceneError(f"The ring's section is {high!r} m high: it must be less than hoop.R = {R!r}.")
+    r = R / (R - high)
+    if "r" in hoop:
+        require("hoop.r", hoop["r"], 1, 1e9, "r is the hoop's outer over its inner radius, 1 to 1e9")
+    if abs(hoop.get("r", r) / r - 1) > 1e-6:
+        raise SceneError(
+            f"hoop.r = {hoop['r']!r} is not possible: the ring's section says {r:.9g}, and it may be left out."
+        )
+    if "thickness" in ring:
+        raise SceneError(
+            f"ring.thickness and ring.{first} cannot both be given: the section says how thick the ring is."
+        )
+    of_hoop: dict[str, Any] = {"r": r}
+    if "density" in ring:
+        if "mass_ratio" in hoop:
+            raise SceneError("hoop.mass_ratio and ring.density cannot both be given: each says how heavy the hoop is.")
+        of_hoop["mass_ratio"] = ring["density"] * area * 2 * pi * (R - high / 2) / m
+    return {"bending_stiffness": ring["youngs_modulus"] * moment / (m * g * R**2)}, of_hoop
+
+
+def _section(ring: Mapping[str, Any]) -> tuple[float, float, float]:
+    """Height, area and second moment of area of a strip or a tube."""
+    said = [key for key in SECTION[1:5] if key in ring]
+    if said not in (list(SECTION[1:3]), list(SECTION[3:5])):
+        raise SceneError(
+            "The ring's section is unclear: it is ring.width and ring.height or ring.tube_diameter and ring.tube_wall."
+        )
+    if "width" in ring:
+        b, h = float(ring["width"]), float(ring["height"])
+        return h, b * h, b * h**3 / 12
+    outer, wall = float(ring["tube_diameter"]), float(ring["tube_wall"])
+    if 2 * wall > outer:
+        raise SceneError(f"ring.tube_wall = {wall!r} is not possible: it is at most half of tube_diameter = {outer!r}.")
+    inner = outer - 2 * wall
+    return outer, pi * (outer**2 - inner**2) / 4, pi * (outer**4 - inner**4) / 64

@@ -2,7 +2,8 @@
 
 Keys are those of :mod:`rigid.scene`; angles are in degrees there (``phi0_deg``, ``weld_half_angle_deg``). Not every
 angle is that of a float in degrees: one that is not is written in radians too (``phi0``), so that a scene survives
-its file to the last bit.
+its file to the last bit. A ring that one can hold may be described by its material and section in SI units instead of
+a bending stiffness: see :func:`rigid.elastic.ring_of_section`.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 from .allowed import SceneError, in_radians, plain, unknown
+from .elastic import SECTION, ring_of_section
 from .scene import PARTS, Scene
 
 SceneLike = Scene | str | PathLike[str] | Mapping[str, Any]
@@ -50,6 +52,7 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
         One sentence with the key, the value and what is allowed.
     """
     parts: dict[str, Any] = {}
+    data = _without_section(data)
     for part, table in data.items():
         if part not in PARTS:
             raise unknown("part of a scene", part, list(PARTS))
@@ -61,7 +64,8 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
             if (key == "point_mass" and part == "hoop") or _IN_DEGREES.get(key) in table:
                 continue
             if key not in keys:
-                raise unknown(f"key of [{part}]", f"{part}.{key}", list(keys))
+                known = [*keys, *SECTION] if part == "ring" else list(keys)
+                raise unknown(f"key of [{part}]", f"{part}.{key}", known)
             name, value = keys[key], plain(f"{part}.{key}", value)
             values[name] = in_radians(f"{part}.{key}", value) if name in _IN_DEGREES else value
         values |= _to_the_last_bit(part, table, values)
@@ -72,6 +76,16 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
             if _file_keys(part)[key] not in parts.get(part, {}):
                 raise SceneError(f"{part}.{key} is missing: a scene needs it.")
     return Scene(**{part: PARTS[part](**values) for part, values in parts.items()})
+
+
+def _without_section(data: Mapping[str, Any]) -> Mapping[str, Any]:
+    """The same with a section in SI units turned into bending stiffness, radii and mass without units."""
+    ring, hoop = data.get("ring"), data.get("hoop")
+    if not isinstance(ring, Mapping) or not isinstance(hoop, Mapping) or not set(SECTION) & set(ring):
+        return data
+    of_ring, of_hoop = ring_of_section(ring, hoop)
+    kept = {key: value for key, value in ring.items() if key not in SECTION}
+    return {**data, "ring": kept | of_ring, "hoop": {**hoop, **of_hoop}}
 
 
 def _to_the_last_bit(part: str, table: Mapping[str, Any], values: Mapping[str, float]) -> dict[str, float]:
@@ -137,6 +151,20 @@ def as_scene(source: SceneLike) -> Scene:
     if isinstance(source, (str, PathLike)):
         return load_scene(source)
     raise SceneError(f"{source!r} is not a scene: it must be a Scene, a name, the path of a file, or a dict.")
+
+
+def scene_text(name: str) -> str:
+    """The TOML of a shipped scene.
+
+    Raises
+    ------
+    SceneError
+        There is no scene of that name.
+    """
+    if name not in scene_names():
+        load_scene(name)  # says which names are near
+        raise SceneError(f"{name} is a file, not a shipped scene: it can be read as it is.")
+    return (files("rigid.scenes") / f"{name}.toml").read_text(encoding="utf-8")
 
 
 def load_scene(source: str | PathLike[str]) -> Scene:

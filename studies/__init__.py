@@ -7,6 +7,7 @@
 
 ``stiffness``  the flexible hoop against the rigid one as stiffness grows: ladder, rates, limit, figures, page
 ``limit``      that limit solved, from the inner problems (``inner``) of the rigid hoop's events
+``hop``        the paper's footnote: which hoops, released at rest, leave the floor, and where
 ``sweep``      the product of scene keys over processes or a Dask cluster
 ``paper``      every number and figure of the paper again
 ``validate``   everything published or provable beside what the solvers find

@@ -17,6 +17,7 @@ from rigid.kernel.compile import jit
 
 Array = NDArray[np.float64]
 FRAME = 3
+FADED = 1e-60  # smaller than any product with it could matter, and far from numbers without all their digits
 
 
 class Blocks(NamedTuple):
@@ -84,6 +85,15 @@ def no_blocks(sections: int) -> Any:
 
 
 @jit
+def nothing_factored() -> Any:
+    """Factors of a matrix of no sections."""
+    return Factors(
+        np.empty((0, 2), np.int64), np.empty((0, 3, 3)), np.empty((0, 3, 3)), np.empty((0, 3, 6)),
+        np.empty((0, 3, 3)), np.empty((0, 6, 3)), np.empty(0, np.int64), 0, np.empty((0, 0)),
+    )  # fmt: skip
+
+
+@jit
 def _invert(matrix: Any, at: int, inverse: Any, to: int) -> None:
     """Inverse of a 3 x 3 block."""
     a, b, c = matrix[at, 0, 0], matrix[at, 0, 1], matrix[at, 0, 2]
@@ -105,6 +115,34 @@ def _invert(matrix: Any, at: int, inverse: Any, to: int) -> None:
 
 
 @jit
+def _times(left: Any, right: Any, to: Any, columns: int) -> None:
+    """Product of a 3 x 3 block with the first columns of another."""
+    for a in range(3):
+        x, y, z = left[a, 0], left[a, 1], left[a, 2]
+        for b in range(columns):
+            to[a, b] = x * right[0, b] + y * right[1, b] + z * right[2, b]
+
+
+@jit
+def _take(left: Any, right: Any, of: Any, columns: int) -> None:
+    """Take the product of the rows of one block with the first columns of another from a third."""
+    for a in range(left.shape[0]):
+        x, y, z = left[a, 0], left[a, 1], left[a, 2]
+        for b in range(columns):
+            of[a, b] -= x * right[0, b] + y * right[1, b] + z * right[2, b]
+
+
+@jit
+def _fades(border: Any, below: Any) -> bool:
+    """Whether a section feels nothing any more of the kept one that it borders on."""
+    for a in range(3):
+        for b in range(3):
+            if abs(border[a, FRAME + b]) > FADED or abs(below[FRAME + a, b]) > FADED:
+                return False
+    return True
+
+
+@jit
 def _eliminate(blocks: Any, i: int, here: int, there: int, factors: Any) -> None:
     """Eliminate one section: what it leaves for later, and what it adds to the next one and to the border."""
     diagonal, columns, rows, corner = blocks.diagonal, blocks.columns, blocks.rows, blocks.corner
@@ -112,33 +150,22 @@ def _eliminate(blocks: Any, i: int, here: int, there: int, factors: Any) -> None
     forth, at = (blocks.up, here) if there > here else (blocks.down, there)
     return_way = blocks.down if there > here else blocks.up
     _invert(diagonal, here, inverse, i)
+    width = 2 * FRAME
+    if _fades(columns[here], rows[here]):
+        width = FRAME
+        beside[i, :, FRAME:] = 0.0
+        below[i, FRAME:, :] = 0.0
     for a in range(3):
         for b in range(3):
             back[i, a, b] = return_way[at, a, b]
-            ahead[i, a, b] = 0.0
-        for b in range(6):
+        for b in range(width):
             below[i, b, a] = rows[here, b, a]
-            beside[i, a, b] = 0.0
-        for c in range(3):
-            value = inverse[i, a, c]
-            for b in range(3):
-                ahead[i, a, b] += value * forth[at, c, b]
-            for b in range(6):
-                beside[i, a, b] += value * columns[here, c, b]
-    for a in range(3):
-        for c in range(3):
-            value = back[i, a, c]
-            for b in range(3):
-                diagonal[there, a, b] -= value * ahead[i, c, b]
-            for b in range(6):
-                columns[there, a, b] -= value * beside[i, c, b]
-    for a in range(6):
-        for c in range(3):
-            value = below[i, a, c]
-            for b in range(3):
-                rows[there, a, b] -= value * ahead[i, c, b]
-            for b in range(6):
-                corner[a, b] -= value * beside[i, c, b]
+    _times(inverse[i], forth[at], ahead[i], 3)
+    _times(inverse[i], columns[here], beside[i], width)
+    _take(back[i], ahead[i], diagonal[there], 3)
+    _take(back[i], beside[i], columns[there], width)
+    _take(below[i, :width], ahead[i], rows[there], 3)
+    _take(below[i, :width], beside[i], corner, width)
 
 
 @jit

@@ -7,6 +7,11 @@ else, however large the rotation, is geometry (corotational formulation, Crisfie
 from displacements, so that nothing cancels:
 
     e = (2 D.d + d.d)/(l' + l),   alpha = atan2(D x d, l^2 + D.d),   tau = phi - alpha,      d = u_2 - u_1.
+
+One term is not linear: a part that is pulled bends harder. Of a wall with Green's strain in plane stress, stretched by
+eps and bent by kappa, a fibre at z strains by eps + (1 + (1 - nu) eps) z kappa + (1 - nu) z^2 kappa^2/2 to second order
+(it gets thinner as it is pulled, and its middle moves), so that bending costs 1 + 3 (1 - nu) eps times as much. Strains
+of a hundredth, in a wall between disk and floor, change its stiffness by two.
 """
 
 from __future__ import annotations
@@ -33,6 +38,8 @@ class Rod(NamedTuple):
         Its centre of mass, undeformed.
     local : (n + 1, 3, 3) array
         Stiffness of each part in (e, tau_1, tau_2).
+    pulled : (n + 1,) array
+        Bending stiffness of each part, in tau_2 - tau_1, that comes with e = 1.
     across : (3, 3) array
         Of the first part by the last one, through the wall over the weld.
     mass, turning : (n + 2,) arrays
@@ -48,6 +55,7 @@ class Rod(NamedTuple):
     theta: Array
     place: Array
     local: Array
+    pulled: Array
     across: Array
     mass: Array
     turning: Array
@@ -57,7 +65,7 @@ class Rod(NamedTuple):
 
 
 @jit
-def chord(rod: Any, q: Any, p: int) -> Any:
+def chord(rod: Any, q: Any, p: int) -> tuple[float, float, float, float, float, float]:
     """Direction and length of a part's chord, and the three strains of the part."""
     a1, a2 = rod.place[p + 1, 0] - rod.place[p, 0], rod.place[p + 1, 1] - rod.place[p, 1]
     d1, d2 = q[p + 1, 0] - q[p, 0], q[p + 1, 1] - q[p, 1]
@@ -66,38 +74,33 @@ def chord(rod: Any, q: Any, p: int) -> Any:
     now = sqrt(x1 * x1 + x2 * x2)
     alpha = atan2(a1 * d2 - a2 * d1, square + dot)
     longer = (2 * dot + d1 * d1 + d2 * d2) / (now + sqrt(square))
-    return x1 / now, x2 / now, now, np.array([longer, q[p, 2] - alpha, q[p + 1, 2] - alpha])
+    return x1 / now, x2 / now, now, longer, q[p, 2] - alpha, q[p + 1, 2] - alpha
 
 
 @jit
-def _strained(local: Any, strain: Any, stress: Any) -> None:
-    """Add the stress of a strain."""
-    for i in range(3):
-        for j in range(3):
-            stress[i] += local[i, j] * strain[j]
+def _row(local: Any, i: int, e: float, tau_1: float, tau_2: float) -> float:
+    return float(local[i, 0] * e + local[i, 1] * tau_1 + local[i, 2] * tau_2)
 
 
 @jit
 def directions(t1: float, t2: float, now: float, by: Any) -> None:
     """Derivatives (3, 6) of the strains of a part by the coordinates of its sections."""
-    by[:] = 0.0
-    by[0, 0], by[0, 1], by[0, 3], by[0, 4] = -t1, -t2, t1, t2
+    s1, s2 = t1 / now, t2 / now
+    by[0, 0], by[0, 1], by[0, 2], by[0, 3], by[0, 4], by[0, 5] = -t1, -t2, 0.0, t1, t2, 0.0
     for i in (1, 2):
-        by[i, 0], by[i, 1], by[i, 3], by[i, 4] = -t2 / now, t1 / now, t2 / now, -t1 / now
-    by[1, 2] = by[2, 5] = 1.0
+        by[i, 0], by[i, 1], by[i, 3], by[i, 4] = -s2, s1, s2, -s1
+        by[i, 2], by[i, 5] = 2.0 - i, i - 1.0
 
 
 @jit
-def _stiffen(t1: float, t2: float, now: float, stress: Any, local: Any, by: Any, tangent: Any) -> None:
-    """Second derivatives (6, 6) of a part's energy."""
+def _stiffen(t1: float, t2: float, pull: float, turn: float, local: Any, by: Any, tangent: Any) -> None:
+    """Second derivatives (6, 6) of a part's energy, of the stress ``pull`` and ``turn`` over the chord's length."""
     for k in range(6):
+        s0 = _row(local, 0, by[0, k], by[1, k], by[2, k])
+        s1 = _row(local, 1, by[0, k], by[1, k], by[2, k])
+        s2 = _row(local, 2, by[0, k], by[1, k], by[2, k])
         for m in range(6):
-            tangent[m, k] = 0.0
-        for i in range(3):
-            value = local[i, 0] * by[0, k] + local[i, 1] * by[1, k] + local[i, 2] * by[2, k]
-            for m in range(6):
-                tangent[m, k] += by[i, m] * value
-    pull, turn = stress[0] / now, (stress[1] + stress[2]) / (now * now)
+            tangent[m, k] = by[0, m] * s0 + by[1, m] * s1 + by[2, m] * s2
     g11 = pull * t2 * t2 - 2 * turn * t1 * t2
     g12 = -pull * t1 * t2 + turn * (t1 * t1 - t2 * t2)
     g22 = pull * t1 * t1 + 2 * turn * t1 * t2
@@ -111,8 +114,28 @@ def _stiffen(t1: float, t2: float, now: float, stress: Any, local: Any, by: Any,
 
 
 @jit
-def elastic(rod: Any, q: Any, force: Any, diagonal: Any, up: Any, down: Any) -> float:
-    """Strain energy of the chain; its forces and its tangent are added.
+def _stress(rod: Any, q: Any, p: int, e: float, tau_1: float, tau_2: float) -> tuple[float, float, float]:
+    """Force along the chord and the moments at both ends of a part with these strains."""
+    local, last = rod.local[p], rod.local.shape[0] - 1
+    s0, s1, s2 = _row(local, 0, e, tau_1, tau_2), _row(local, 1, e, tau_1, tau_2), _row(local, 2, e, tau_1, tau_2)
+    if p == 0 or p == last:
+        a = rod.across
+        _, _, _, x, y, z = chord(rod, q, last - p)
+        if p == 0:
+            s0 += _row(a, 0, x, y, z)
+            s1 += _row(a, 1, x, y, z)
+            s2 += _row(a, 2, x, y, z)
+        else:
+            s0 += a[0, 0] * x + a[1, 0] * y + a[2, 0] * z
+            s1 += a[0, 1] * x + a[1, 1] * y + a[2, 1] * z
+            s2 += a[0, 2] * x + a[1, 2] * y + a[2, 2] * z
+    harder = rod.pulled[p] * (tau_2 - tau_1)
+    return s0 + harder * (tau_2 - tau_1) / 2, s1 - harder * e, s2 + harder * e
+
+
+@jit
+def elastic(rod: Any, q: Any, force: Any) -> float:
+    """Strain energy of the chain; its forces are added.
 
     Parameters
     ----------
@@ -120,28 +143,49 @@ def elastic(rod: Any, q: Any, force: Any, diagonal: Any, up: Any, down: Any) -> 
     q : (n + 2, 3) array
         Displacement and rotation of all sections; those of the weld are zero.
     force : (n + 2, 3) array
+    """
+    energy = 0.0
+    for p in range(rod.local.shape[0]):
+        t1, t2, now, e, tau_1, tau_2 = chord(rod, q, p)
+        s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
+        energy += (e * s0 + tau_1 * s1 + tau_2 * s2) / 2 - rod.pulled[p] * e * (tau_2 - tau_1) ** 2 / 4
+        turn = (s1 + s2) / now
+        f1, f2 = t1 * s0 + t2 * turn, t2 * s0 - t1 * turn
+        force[p, 0] -= f1
+        force[p, 1] -= f2
+        force[p, 2] += s1
+        force[p + 1, 0] += f1
+        force[p + 1, 1] += f2
+        force[p + 1, 2] += s2
+    return energy
+
+
+@jit
+def elastic_tangent(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None:
+    """Add the derivatives of the forces of :func:`elastic`.
+
+    Parameters
+    ----------
+    rod : Rod
+    q : (n + 2, 3) array
     diagonal : (n + 2, 3, 3) array
     up, down : (n + 1, 3, 3) arrays
         Derivatives of the forces on section i by i + 1, and on i + 1 by i; those behind n are on n by 1, and on 1 by n.
     """
-    energy = 0.0
     last = rod.local.shape[0] - 1
-    by, tangent = np.empty((3, 6)), np.empty((6, 6))
+    by, tangent, local = np.empty((3, 6)), np.empty((6, 6)), np.empty((3, 3))
     for p in range(last + 1):
-        t1, t2, now, strain = chord(rod, q, p)
-        stress = np.zeros(3)
-        _strained(rod.local[p], strain, stress)
-        if p == 0:
-            _strained(rod.across, chord(rod, q, last)[3], stress)
-        elif p == last:
-            _strained(rod.across.T, chord(rod, q, 0)[3], stress)
+        t1, t2, now, e, tau_1, tau_2 = chord(rod, q, p)
+        s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
         directions(t1, t2, now, by)
-        _stiffen(t1, t2, now, stress, rod.local[p], by, tangent)
-        for i in range(3):
-            energy += strain[i] * stress[i] / 2
-            for k in range(3):
-                force[p, k] += by[i, k] * stress[i]
-                force[p + 1, k] += by[i, 3 + k] * stress[i]
+        local[:] = rod.local[p]
+        for i in range(1, 3):
+            sign = 2.0 * i - 3
+            local[0, i] += sign * rod.pulled[p] * (tau_2 - tau_1)
+            local[i, 0] += sign * rod.pulled[p] * (tau_2 - tau_1)
+            local[i, i] += rod.pulled[p] * e
+            local[i, 3 - i] -= rod.pulled[p] * e
+        _stiffen(t1, t2, s0 / now, (s1 + s2) / (now * now), local, by, tangent)
         for i in range(3):
             for j in range(3):
                 diagonal[p, i, j] += tangent[i, j]
@@ -150,21 +194,16 @@ def elastic(rod: Any, q: Any, force: Any, diagonal: Any, up: Any, down: Any) -> 
                     up[p, i, j] += tangent[i, 3 + j]
                     down[p, i, j] += tangent[3 + i, j]
     _add_across(rod, q, up[last], down[last])
-    return energy
 
 
 @jit
 def strain_energy(rod: Any, q: Any) -> float:
     """Strain energy of the chain, see :func:`elastic`."""
     energy = 0.0
-    last = rod.local.shape[0] - 1
-    for p in range(last + 1):
-        strain = chord(rod, q, p)[3]
-        stress = np.zeros(3)
-        _strained(rod.local[p], strain, stress)
-        if p == 0:
-            _strained(2 * rod.across, chord(rod, q, last)[3], stress)
-        energy += (strain[0] * stress[0] + strain[1] * stress[1] + strain[2] * stress[2]) / 2
+    for p in range(rod.local.shape[0]):
+        _, _, _, e, tau_1, tau_2 = chord(rod, q, p)
+        s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
+        energy += (e * s0 + tau_1 * s1 + tau_2 * s2) / 2 - rod.pulled[p] * e * (tau_2 - tau_1) ** 2 / 4
     return energy
 
 
@@ -173,9 +212,9 @@ def _add_across(rod: Any, q: Any, up: Any, down: Any) -> None:
     """What the last section feels of the first, and the first of the last."""
     last = rod.local.shape[0] - 1
     first, final = np.empty((3, 6)), np.empty((3, 6))
-    t1, t2, now, _ = chord(rod, q, 0)
+    t1, t2, now, _, _, _ = chord(rod, q, 0)
     directions(t1, t2, now, first)
-    t1, t2, now, _ = chord(rod, q, last)
+    t1, t2, now, _, _, _ = chord(rod, q, last)
     directions(t1, t2, now, final)
     for i in range(3):
         for j in range(3):
@@ -184,3 +223,14 @@ def _add_across(rod: Any, q: Any, up: Any, down: Any) -> None:
                     value = first[i, 3 + a] * rod.across[i, j] * final[j, b]
                     down[a, b] += value
                     up[b, a] += value
+
+
+def bends_and_stretches(rod: Rod, q: Array) -> tuple[Array, Array]:
+    """dphi/dtheta and elongation of the line of centres at the sections, (n + 2,) each; at the weld as next to it."""
+    bend = np.zeros(len(q))
+    bend[1:-1] = sum(rod.curve[1:-1, k] * q[k : len(q) - 2 + k, 2] for k in range(3))
+    bend[0], bend[-1] = bend[1], bend[-2]
+    parts = np.array([chord(rod, q, p)[2:4] for p in range(len(rod.local))])
+    strain = parts[:, 1] / (parts[:, 0] - parts[:, 1])
+    inner = (strain[1:] + strain[:-1]) / 2
+    return bend, np.concatenate([strain[:1], inner, strain[-1:]])

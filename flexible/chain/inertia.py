@@ -48,21 +48,70 @@ class Chain(NamedTuple):
 
 
 @jit
-def _disk(body: Any, pos: Any, vel: Any, acc: Any, beta: float, corner: Any, frame: Any) -> None:
+def _seen(pos: Any, acc: Any) -> tuple[float, float, float, float]:
+    """Sine and cosine of phi, and what all mass is accelerated by along y1 and y2, C's acceleration less gravity."""
+    s, c = sin(pos[2]), cos(pos[2])
+    ax, ay = acc[0] + acc[2], acc[1] + 1.0
+    return s, c, ax * s + ay * c, ax * c - ay * s
+
+
+@jit
+def inertia(chain: Any, pose: Any, rates: Any, changes: Any, frame: Any, force: Any) -> None:
+    """Add inertial forces and gravity.
+
+    Parameters
+    ----------
+    chain : Chain
+    pose, rates, changes : tuples
+        (V, h, phi) and (n + 2, 3) of the sections; their velocities and accelerations.
+    frame, force : (3,), (n + 2, 3) arrays
+        Generalised forces on the frame, forces and moment on the sections.
+    """
+    body, rod = chain
+    (pos, q), (vel, qv), (acc, qa) = pose, rates, changes
+    s, c, a1, a2 = _seen(pos, acc)
+    w, alpha, offset = vel[2], acc[2], body.offset
+    dx = acc[0] + alpha + offset * (alpha * c - w * w * s)
+    dy = acc[1] + 1.0 - offset * (alpha * s + w * w * c)
+    frame[0] += dx
+    frame[1] += dy
+    frame[2] += dx * (1 + offset * c) - dy * offset * s + body.disk_inertia * alpha
+    if body.ring_mass == 0:
+        return
+    f1 = body.weld_mass * a1 - w * w * body.weld_moment
+    f2 = body.weld_mass * a2 + alpha * body.weld_moment
+    moment = body.weld_moment * a2 + body.weld_inertia * alpha
+    mass, turning, place = rod.mass, rod.turning, rod.place
+    for i in range(1, mass.shape[0] - 1):
+        m = mass[i]
+        y1, y2 = place[i, 0] + q[i, 0], place[i, 1] + q[i, 1]
+        p1 = m * (a1 - alpha * y2 - 2 * w * qv[i, 1] - w * w * y1 + qa[i, 0])
+        p2 = m * (a2 + alpha * y1 + 2 * w * qv[i, 0] - w * w * y2 + qa[i, 1])
+        p3 = turning[i] * (alpha + qa[i, 2])
+        force[i, 0] += p1
+        force[i, 1] += p2
+        force[i, 2] += p3
+        f1 += p1
+        f2 += p2
+        moment += y1 * p2 - y2 * p1 + p3
+    fx = f1 * s + f2 * c
+    frame[0] += fx
+    frame[1] += f1 * c - f2 * s
+    frame[2] += fx + moment
+
+
+@jit
+def _disk_tangent(body: Any, pos: Any, vel: Any, acc: Any, beta: float, corner: Any) -> None:
     """Add what belongs to the disk."""
     offset = body.offset
     s, c = sin(pos[2]), cos(pos[2])
     w, alpha = vel[2], acc[2]
-    ax, ay = acc[0] + alpha, acc[1] + 1.0
     r1, r2 = 1 / beta, 1 / beta**2
-    dx = ax + offset * (alpha * c - w * w * s)
-    dy = ay - offset * (alpha * s + w * w * c)
+    dx = acc[0] + alpha + offset * (alpha * c - w * w * s)
+    dy = acc[1] + 1.0 - offset * (alpha * s + w * w * c)
     dx_phi = offset * (-alpha * s - w * w * c - 2 * w * s * r1 + c * r2) + r2
     dy_phi = -offset * (alpha * c - w * w * s + 2 * w * c * r1 + s * r2)
     lever = 1 + offset * c
-    frame[0] += dx
-    frame[1] += dy
-    frame[2] += dx * lever - dy * offset * s + body.disk_inertia * alpha
     corner[0, 0] += r2
     corner[0, 2] += dx_phi
     corner[1, 1] += r2
@@ -73,36 +122,29 @@ def _disk(body: Any, pos: Any, vel: Any, acc: Any, beta: float, corner: Any, fra
 
 
 @jit
-def inertia(chain: Any, pose: Any, rates: Any, changes: Any, beta: float, blocks: Any, frame: Any, force: Any) -> None:
-    """Add inertial forces and gravity, and their derivatives by an increment, see :func:`flexible.ring.frame.inertia`.
+def inertia_tangent(chain: Any, pose: Any, rates: Any, changes: Any, beta: float, blocks: Any) -> None:
+    """Add the derivatives of :func:`inertia` by an increment, see :func:`flexible.ring.frame.inertia`.
 
     Parameters
     ----------
-    chain : Chain
-    pose, rates, changes : tuples
-        (V, h, phi) and (n + 2, 3) of the sections; their velocities and accelerations.
+    chain, pose, rates, changes :
+        See :func:`inertia`.
     beta : float
     blocks : Blocks
         Of which diagonal, columns, rows and corner are added to.
-    frame, force : (3,), (n + 2, 3) arrays
-        Generalised forces on the frame, forces and moment on the sections.
     """
     body, rod = chain
     (pos, q), (vel, qv), (acc, qa) = pose, rates, changes
-    _disk(body, pos, vel, acc, beta, blocks.corner, frame)
+    _disk_tangent(body, pos, vel, acc, beta, blocks.corner)
     if body.ring_mass == 0:
         return
-    corner = blocks.corner
-    s, c = sin(pos[2]), cos(pos[2])
+    s, c, a1, a2 = _seen(pos, acc)
     w, alpha = vel[2], acc[2]
-    ax, ay = acc[0] + alpha, acc[1] + 1.0
     r1, r2 = 1 / beta, 1 / beta**2
-    a1, a2 = ax * s + ay * c, ax * c - ay * s
     a1_phi, a2_phi = a2 + s * r2, -a1 + c * r2
-    # force along y1, y2 and moment about C of the whole ring, and derivatives by phi; then by V and h, with A alone
+    # force along y1, y2 of the whole ring, and derivatives by phi; then by V and h, with their accelerations alone
     f1 = body.weld_mass * a1 - w * w * body.weld_moment
     f2 = body.weld_mass * a2 + alpha * body.weld_moment
-    moment = body.weld_moment * a2 + body.weld_inertia * alpha
     f1_phi = body.weld_mass * a1_phi - 2 * w * r1 * body.weld_moment
     f2_phi = body.weld_mass * a2_phi + r2 * body.weld_moment
     moment_phi = body.weld_moment * a2_phi + body.weld_inertia * r2
@@ -116,15 +158,10 @@ def inertia(chain: Any, pose: Any, rates: Any, changes: Any, beta: float, blocks
         v1, v2 = qv[i, 0], qv[i, 1]
         p1 = m * (a1 - alpha * y2 - 2 * w * v2 - w * w * y1 + qa[i, 0])
         p2 = m * (a2 + alpha * y1 + 2 * w * v1 - w * w * y2 + qa[i, 1])
-        p3 = j * (alpha + qa[i, 2])
         p1_phi = m * (a1_phi - r2 * y2 - 2 * r1 * v2 - 2 * w * r1 * y1)
         p2_phi = m * (a2_phi + r2 * y1 + 2 * r1 * v1 - 2 * w * r1 * y2)
-        force[i, 0] += p1
-        force[i, 1] += p2
-        force[i, 2] += p3
         f1 += p1
         f2 += p2
-        moment += y1 * p2 - y2 * p1 + p3
         f1_phi += p1_phi
         f2_phi += p2_phi
         moment_phi += y1 * p2_phi - y2 * p1_phi + j * r2
@@ -152,19 +189,16 @@ def inertia(chain: Any, pose: Any, rates: Any, changes: Any, beta: float, blocks
         rows[i, 1, 1] -= m * (across * c + own * s)
         rows[i, 2, 1] += gx + m * (y1 * own + y2 * across) - p1
         rows[i, 2, 2] += j * r2
-    fx, fy = f1 * s + f2 * c, f1 * c - f2 * s
-    frame[0] += fx
-    frame[1] += fy
-    frame[2] += fx + moment
+    corner = blocks.corner
     for k in range(2):
         b1, b2 = (s * r2, c * r2) if k == 0 else (c * r2, -s * r2)
         gx = body.ring_mass * (b1 * s + b2 * c)
         corner[0, k] += gx
         corner[1, k] += body.ring_mass * (b1 * c - b2 * s)
         corner[2, k] += gx + sum1 * b2 - sum2 * b1
-    fx_phi = f1_phi * s + f2_phi * c + fy
+    fx_phi = f1_phi * s + f2_phi * c + f1 * c - f2 * s
     corner[0, 2] += fx_phi
-    corner[1, 2] += f1_phi * c - f2_phi * s - fx
+    corner[1, 2] += f1_phi * c - f2_phi * s - f1 * s - f2 * c
     corner[2, 2] += fx_phi + moment_phi
 
 

@@ -70,8 +70,9 @@ def _follow_root(rod: Any, q: Any, at: int, xi: float, turn: float, root: Any, m
     ways = np.empty((3, 6))
     add1, add2 = 0.0, 0.0
     for end in range(2):
-        t1, t2, now, strain = chord(rod, q, 0 if end == 0 else rod.local.shape[0] - 1)
+        t1, t2, now, e, tau_1, tau_2 = chord(rod, q, 0 if end == 0 else rod.local.shape[0] - 1)
         directions(t1, t2, now, ways)
+        strain = (e, tau_1, tau_2)
         for i in range(3):
             r1, r2 = root[0, 3 * end + i], root[1, 3 * end + i]
             g1, g2 = c * r1 - s * r2, s * r1 + c * r2

@@ -21,12 +21,14 @@ from rigid import Scene
 from ..ring.fem import Ring, membrane_stiffness
 from ..ring.reduction import body_of
 from .bordered import no_blocks
-from .corotated import Rod, elastic
+from .corotated import Rod, elastic_tangent
 from .inertia import Body, Chain
 from .rim import RimNodes, follow
 from .section import LOADED, RodCompliance, mass_radius, radial, rod_compliance
 
 Array = NDArray[np.float64]
+
+FINER, FADES = 3.0, 0.2  # parts at the weld, see cuts
 
 
 def chord_strains(one: Array, two: Array, moves: int) -> Array:
@@ -61,22 +63,42 @@ def curve_weights(theta: Array) -> Array:
     return weights
 
 
+def cuts(weld: float, parts: int) -> Array:
+    """Angles (n,) of the sections that are free, between the ends of the pieces at the weld, symmetric about pi.
+
+    A wall between disk and floor bends next to the weld more than anywhere else: parts are ``FINER`` times as short
+    there, and that fades over the angle ``FADES``.
+    """
+    x = np.linspace(weld, pi, 2001)
+    density = 1 + (FINER - 1) * np.exp(-(x - weld) / FADES)
+    grown = np.concatenate([[0.0], np.cumsum((density[1:] + density[:-1]) / 2)])
+    half = np.interp(np.arange(parts - 1) / (parts - 2) * 2 * grown[-1], grown, x)[: parts // 2]
+    if parts % 2 == 0:
+        half[-1] = pi
+    behind = 2 * pi - half[::-1]
+    return np.concatenate([half, behind[1:] if parts % 2 == 0 else behind])
+
+
 def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
     """The ring between the ends of the weld as a chain at E b = 1 and unit mass of the ring; ``pinch`` is left at 0."""
     inner, weld = ring.mesh.inner / ring.mesh.outer, ring.mesh.weld_half_angle
-    theta = np.concatenate([[weld], np.linspace(compliance.weld, 2 * pi - compliance.weld, parts - 1), [2 * pi - weld]])
+    theta = np.concatenate([[weld], cuts(compliance.weld, parts), [2 * pi - weld]])
     a = compliance.radius
     place = a * np.column_stack([np.cos(theta), np.sin(theta)])
-    piece = float(theta[2] - theta[1])
-    even = in_strains(compliance.piece(piece), chord_strains(a * radial(0.0), a * radial(piece), 2))
+    pieces = [
+        in_strains(compliance.piece(angle), chord_strains(a * radial(0.0), a * radial(angle), 2))
+        for angle in np.diff(theta)[1:-1]
+    ]
     by = np.zeros((6, 6))
     by[:3, :3], by[3:, 3:] = chord_strains(place[0], place[1], 2), chord_strains(place[-2], place[-1], 1)
     ends = in_strains(compliance.ends, by)
-    local = np.stack([ends[:3, :3], *[even] * (parts - 2), ends[3:, 3:]])
+    local = np.stack([ends[:3, :3], *pieces, ends[3:, 3:]])
     mass = np.zeros(parts + 1)
     mass[1:-1] = (theta[2:] - theta[:-2]) / (4 * pi)
     turning = mass * ((1 + inner**2) / 2 - a**2)
-    return Rod(theta, place, local, ends[:3, 3:].copy(), mass, turning, curve_weights(theta), 1 - a, 0.0)
+    bending = (local[:, 1, 1] + local[:, 2, 2] - 2 * local[:, 1, 2]) / 4
+    pulled = 3 * (1 - ring.poisson) * bending / np.hypot(*np.diff(place, axis=0).T)
+    return Rod(theta, place, local, pulled, ends[:3, 3:].copy(), mass, turning, curve_weights(theta), 1 - a, 0.0)
 
 
 def make_body(scene: Scene, rod: Rod) -> Body:
@@ -97,7 +119,7 @@ def dense_stiffness(rod: Rod, q: Array) -> Array:
     """Stiffness of the chain at some displacement, (3 (n + 2), 3 (n + 2))."""
     sections = len(rod.theta)
     blocks = no_blocks(sections)
-    elastic(rod, q, np.zeros((sections, 3)), blocks.diagonal, blocks.up, blocks.down)
+    elastic_tangent(rod, q, blocks.diagonal, blocks.up, blocks.down)
     matrix = np.zeros((sections, 3, sections, 3))
     i = np.arange(sections)
     matrix[i, :, i, :] = blocks.diagonal
@@ -125,7 +147,7 @@ class _Shape:
     def __init__(self, ring: Ring, parts: int) -> None:
         mesh = ring.mesh
         self.ring = ring
-        self.compliance = rod_compliance(ring, 2 * (pi - mesh.weld_half_angle) / parts)
+        self.compliance = rod_compliance(ring, 2 * (pi - mesh.weld_half_angle) / parts / FINER)
         self.rod = make_rod(self.compliance, ring, parts)
         theta = mesh.rim_theta % (2 * pi)
         inside = np.abs(mesh.rim_theta) > mesh.weld_half_angle
@@ -225,6 +247,7 @@ class ChainRing:
         unit, mass = self.shape.rod, scene.hoop.mass_ratio
         rod = unit._replace(
             local=unit.local * self.stiffness,
+            pulled=unit.pulled * self.stiffness,
             across=unit.across * self.stiffness,
             mass=unit.mass * mass,
             turning=unit.turning * mass,
@@ -232,6 +255,7 @@ class ChainRing:
         self.chain = Chain(make_body(scene, rod), rod)
         self.nodes = self.shape.nodes
         self.vertex = np.ascontiguousarray(ring.mesh.rim_theta[::2])
+        self._windows: dict[tuple[int, int], tuple[NDArray[np.int64], RimNodes]] = {}
 
     @property
     def sections(self) -> int:
@@ -240,9 +264,12 @@ class ChainRing:
 
     def window(self, first: int, count: int) -> tuple[NDArray[np.int64], RimNodes]:
         """Rim nodes of ``count`` elements from ``first`` on: their numbers, and what they follow."""
-        number = np.arange(2 * first, 2 * (first + count) + 1) % (2 * len(self.vertex))
-        every = self.nodes
-        return number, RimNodes(every.part[number], every.xi[number], every.root[number])
+        key = (first % len(self.vertex), count)
+        if key not in self._windows:
+            number = np.arange(2 * key[0], 2 * (key[0] + count) + 1) % (2 * len(self.vertex))
+            every = self.nodes
+            self._windows[key] = number, RimNodes(every.part[number], every.xi[number], every.root[number])
+        return self._windows[key]
 
     def missing(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> Array:
         """Compliance between rim nodes that the chain lacks, (2 rows, 2 columns)."""

@@ -78,18 +78,49 @@ def turned(missing: Any, rows: Any, columns: Any) -> Any:
 
 
 @jit
-def rise(rod: Any, q: Any, nodes: Any, theta: Any, phi: float, height: float) -> Any:
-    """Gap of rim nodes that follow the sections, and their angles from the bottom in (-pi, pi]."""
+def _above(rod: Any, q: Any, phi: float, height: float) -> Any:
+    """Gap of the rim at the sections."""
+    gap = np.empty(rod.theta.shape[0])
+    for i in range(gap.shape[0]):
+        turn = q[i, 2]
+        less, st = 2 * sin(turn / 2) ** 2, sin(turn)
+        c, s = cos(rod.theta[i]), sin(rod.theta[i])
+        u1, u2 = q[i, 0] + rod.offset * (-c * less - s * st), q[i, 1] + rod.offset * (-s * less + c * st)
+        gap[i] = height + 2 * sin((phi - np.pi + rod.theta[i]) / 2) ** 2 + u1 * cos(phi) - u2 * sin(phi)
+    return gap
+
+
+@jit
+def lowest(rod: Any, q: Any, nodes: Any, theta: Any, phi: float, height: float) -> tuple[float, float]:
+    """Angles from the bottom, in (-pi, pi], between which rim nodes that follow the sections are below the floor.
+
+    Of the lowest node if none is. Only where the sections at both ends of a part are clear of the floor by no more than
+    the part can hang through, its width squared, its nodes are looked at.
+    """
     s, c = sin(phi), cos(phi)
-    m = theta.shape[0]
-    gap, psi = np.empty(m), np.empty(m)
+    above = _above(rod, q, phi, height)
+    limit = max(above.min(), 0.0)
     moved, by = np.empty(2), np.empty((2, 18))
-    for k in range(m):
+    low, high, least, at_least = np.inf, -np.inf, np.inf, 0.0
+    for k in range(theta.shape[0]):
+        part = max(nodes.part[k], 0)
+        if nodes.part[k] >= 0:
+            hangs = (rod.theta[part + 1] - rod.theta[part]) ** 2
+            if min(above[part], above[part + 1]) > limit + hangs:
+                continue
+        elif min(above[0], above[-1]) > limit + (rod.theta[0]) ** 2:
+            continue
         rim_point(rod, q, nodes.part[k], nodes.xi[k], nodes.root[k], moved, by)
         angle = phi - np.pi + theta[k]
-        psi[k] = angle - 2 * np.pi * np.round(angle / (2 * np.pi))
-        gap[k] = height + 2 * sin(angle / 2) ** 2 + moved[0] * c - moved[1] * s
-    return gap, psi
+        psi = angle - 2 * np.pi * np.round(angle / (2 * np.pi))
+        gap = height + 2 * sin(angle / 2) ** 2 + moved[0] * c - moved[1] * s
+        if gap < least:
+            least, at_least = gap, psi
+        if gap <= 0:
+            low, high = min(low, psi), max(high, psi)
+    if least > 0:
+        return at_least, at_least
+    return low, high
 
 
 @jit

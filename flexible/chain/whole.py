@@ -9,8 +9,8 @@ import numpy as np
 from rigid.kernel.compile import jit
 
 from .bordered import FRAME, no_blocks, solve
-from .corotated import elastic, strain_energy
-from .inertia import energies, inertia, momenta
+from .corotated import elastic, elastic_tangent, strain_energy
+from .inertia import energies, inertia, inertia_tangent, momenta
 
 
 @jit
@@ -25,14 +25,23 @@ def sections(vector: Any) -> Any:
 
 
 @jit
-def balance(chain: Any, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
-    """Sections, and the forces of inertia, gravity and strain: derivatives, on the frame, on the sections."""
+def balance(chain: Any, pos: Any, vel: Any, acc: Any) -> Any:
+    """Sections, and the forces of inertia, gravity and strain on the frame and on the sections."""
+    q = sections(pos)
+    frame, force = np.zeros(FRAME), np.zeros(q.shape)
+    elastic(chain.rod, q, force)
+    inertia(chain, (pos, q), (vel, sections(vel)), (acc, sections(acc)), frame, force)
+    return q, frame, force
+
+
+@jit
+def tangent(chain: Any, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
+    """Derivatives of the forces of :func:`balance` by an increment."""
     q = sections(pos)
     blocks = no_blocks(q.shape[0])
-    frame, force = np.zeros(FRAME), np.zeros(q.shape)
-    elastic(chain.rod, q, force, blocks.diagonal, blocks.up, blocks.down)
-    inertia(chain, (pos, q), (vel, sections(vel)), (acc, sections(acc)), beta, blocks, frame, force)
-    return q, blocks, frame, force
+    elastic_tangent(chain.rod, q, blocks.diagonal, blocks.up, blocks.down)
+    inertia_tangent(chain, (pos, q), (vel, sections(vel)), (acc, sections(acc)), beta, blocks)
+    return blocks
 
 
 @jit
@@ -51,24 +60,3 @@ def passed_on(factors: Any, chain: Any, pos: Any, error: Any, beta: float) -> An
     momenta(chain, pos, q, error, sections(error), frame, force)
     rest = np.zeros(factors.core.shape[0] - FRAME - 3 * factors.kept.shape[0])
     return solve(factors, frame / beta**2, force / beta**2, rest)[0]
-
-
-@jit
-def errors(
-    factors: Any, chain: Any, pos: Any, vel: Any, acc: Any, beta: float, error: Any, moved: Any
-) -> tuple[Any, float]:
-    """Errors of velocities and positions as the step passes them on; see :func:`flexible.models.stage.filtered_errors`.
-
-    Returns
-    -------
-    error : (3 + 3 n,) array
-        That of the velocities.
-    energy : float
-        What comes with both, beyond the work of the floor's forces.
-    """
-    rate, way = passed_on(factors, chain, pos, error, beta), passed_on(factors, chain, pos, moved, beta)
-    after = held(chain, pos + way / 2, vel + rate / 2)
-    before = held(chain, pos - way / 2, vel - rate / 2)
-    _, _, frame, force = balance(chain, pos, vel, acc, 1.0)
-    work = (frame * way[:FRAME]).sum() + (force * sections(way)).sum()
-    return rate, after[0] + after[1] + after[2] - before[0] - before[1] - before[2] - work

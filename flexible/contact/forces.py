@@ -18,7 +18,7 @@ floor, rolling included: at the rim of a wide patch that alone is phidot psi^2/2
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import cos, pi, sin
 from typing import Any
 
 import numpy as np
@@ -42,7 +42,7 @@ def _load(foundation: Any, damper: Damper) -> Load:
     if elastic > 0 and damper.relaxation > 0:
         eta += damper.relaxation * (1 - damper.elastic_0 / elastic)
         eta_rate = damper.relaxation * damper.elastic_0 / elastic**2
-        if eta < 0:
+        if eta < 0 and not damper.pulls:
             eta, eta_rate = 0.0, 0.0
     return Load(elastic, eta, eta_rate)
 
@@ -112,6 +112,36 @@ def _stored(points: Any, carried: Any, pull: Any, keeps: Any) -> Bristles:
 
 
 @jit
+def _work_of_those_that_left(
+    points: Any, before: Before, slip: Slip, moved: float, dphi: float, law: Parameters, stuck: float
+) -> float:
+    """Work of the bristles now farther off the patch than its neighbours, beyond their force times the mean way.
+
+    They left one after the other, as evenly as the patch's edge went over them: those that stuck with what they pulled
+    then, those that slid with nothing.
+    """
+    bristles = before.bristles
+    number, last = bristles.number, bristles.number.shape[0] - 1
+    low, high = points.number[0], points.number[-1]
+    work = 0.0
+    for i in range(number.shape[0]):
+        j = number[i]
+        if j > high:
+            share = (number[last] + 0.5 - j) / (number[last] - high)
+        elif j < low:
+            share = (j - number[0] + 0.5) / (low - number[0])
+        else:
+            continue
+        psi = before.pose[2] - pi + j * law.spacing
+        rolled = share * dphi * lift(psi + share * dphi / 2)
+        pull = bristles.pull[i] / 2
+        if stuck > 0 and bristles.sliding[i] == 0 and bristles.stretch[i] != 0:
+            pull = bristles.pull[i] - law.eps_t * law.spacing * (rolled + share * moved) / 2
+        work += pull * (rolled - share * (slip.way - moved))
+    return work
+
+
+@jit
 def contact_forces(
     pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper
 ) -> Contact:  # fmt: skip
@@ -148,7 +178,7 @@ def contact_forces(
         moved = (foundation.force * points.move).sum() / elastic
         way = moved + dphi * (foundation.force * lifts).sum() / elastic
     slip = Slip(way, damper.way_0, damper.velocity_0 + damper.rate * (way - damper.way_0), damper.rate, damper.drag)
-    carried = carry(points, before.bristles, dphi, damper.ratio, slip, moved)
+    carried = carry(points, before.bristles, dphi, damper, slip, moved)
     answer = tractions(points, foundation, carried, mode, load, slip, law)
     forces, shared = answer.points, answer.shared
     pull = forces.force.copy()
@@ -183,6 +213,7 @@ def contact_forces(
     low, high = _ends(points)
     stuck = answer.stuck / foundation.length if foundation.length > 0 else 0.0
     beyond = ((carried.pull + pull) * (carried.way - carried.mean)).sum() / 2
+    beyond += _work_of_those_that_left(points, before, slip, moved, dphi, law, answer.stuck)
     res = Resultants(
         force[1], force[0], foundation.energy, answer.energy, foundation.length, stuck, way, low, high, elastic, eta,
         shared.damping, beyond, -shared.by_way, shared.reach, answer.feet,

@@ -9,23 +9,23 @@ from scipy.sparse.linalg import splu
 
 from rigid import Scene
 
-from ..chain.bordered import Factors, no_blocks
+from ..chain.bordered import Factors
 from ..chain.corotated import elastic
 from ..chain.rim import follow
 from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
 from ..chain.stage import solve_stage
-from ..chain.touch import Facing, rise, turned
-from ..chain.whole import errors, held, sections
+from ..chain.touch import Facing, lowest, turned
+from ..chain.whole import balance, held, passed_on, sections
 from ..contact.points.data import Before, Damper, Rim
 from ..ring.fem import ring_of
-from .rim_contact import POINTS, RimContact
+from .rim_contact import RimContact
 from .stage import Predictor, largest
-from .state import Errors, Stage, State
+from .state import Stage, State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
 
-PER_PART = 1  # rim elements to a part: with two the wall's own compliance is half as large again right over a section
+PER_PART = 2  # rim elements to a part
 THROUGH = 2  # elements through the wall of the mesh that the chain is condensed from
 SLOW = 24  # modes of the ring by whose error steps are chosen, as many as the reduced ring has
 
@@ -49,7 +49,7 @@ class ChainHoop(RimContact):
         self,
         scene: Scene,
         parts: int | None = None,
-        points: int = POINTS,
+        points: int | None = None,
         tolerance: float = 1e-9,
         through: int = THROUGH,
     ) -> None:
@@ -99,9 +99,7 @@ class ChainHoop(RimContact):
     def _reach(self, pos: Array) -> tuple[float, float]:
         """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is."""
         ring = self.ring
-        gap, psi = rise(ring.chain.rod, sections(pos), ring.nodes, self._rim_theta, pos[2], pos[1])
-        below = psi[gap <= max(0.0, gap.min())]
-        return float(below.min()), float(below.max())
+        return lowest(ring.chain.rod, sections(pos), ring.nodes, self._rim_theta, float(pos[2]), float(pos[1]))
 
     def stage(
         self,
@@ -144,17 +142,27 @@ class ChainHoop(RimContact):
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
-        kinetic, gravity, strain = held(self.ring.chain, state.pos, state.vel)
+        kinetic, gravity, strain = self.held(state.pos, state.vel)
         if state.res.normal > 0:
             strain += float((state.nodal * self._beyond(state, state.window)[1]).sum()) / 2
         return kinetic, gravity, strain
 
-    def errors(self, state: State, beta: float, matrix: Factors, error: Array, moved: Array) -> Errors:
+    def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:
+        """See :class:`flexible.models.state.Model`."""
+        kinetic, gravity, strain = held(self.ring.chain, pos, vel)
+        return kinetic, gravity, strain
+
+    def forces(self, pos: Array, vel: Array, acc: Array) -> Array:
+        """See :class:`flexible.models.state.Model`."""
+        _, frame, force = balance(self.ring.chain, pos, vel, acc)
+        return np.concatenate([frame, force[1:-1].ravel()])
+
+    def error(self, state: State, beta: float, matrix: Factors, error: Array) -> float:
         """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
         chain = self.ring.chain
-        rate, energy = errors(matrix, chain, state.pos, state.vel, state.acc, beta, error, moved)
+        rate = passed_on(matrix, chain, state.pos, error, beta)
         slow = np.abs(self._slow @ rate[3:]).max(initial=0.0) / (1 + chain.body.ring_mass) ** 0.5
-        return Errors(largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow])), float(energy))
+        return float(largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow])))
 
     def resting(self, omega: float, alpha: float, a1: float, a2: float) -> RestingChain:
         """The ring at rest in a frame with these rates and this acceleration of C, gravity included."""
@@ -182,8 +190,8 @@ class RestingChain:
         """See :class:`flexible.models.equilibrium.RestingRing`."""
         q = self._padded()
         matrix = dense_stiffness(self.ring.chain.rod, q)[3:-3, 3:-3] + share * self.inertia
-        blocks, force = no_blocks(len(q)), np.zeros_like(q)
-        elastic(self.ring.chain.rod, q, force, blocks.diagonal, blocks.up, blocks.down)
+        force = np.zeros_like(q)
+        elastic(self.ring.chain.rod, q, force)
         self._solve = splu(csc_matrix(matrix)).solve
         pull = force[1:-1].ravel() + share * (self.inertia @ self.coordinates + self.load)
         self.base = self.coordinates - self._solve(pull)

@@ -205,8 +205,8 @@ class Patch:
         return float(gap_at(0.0, psi, upward(u[:, 0], u[:, 1], s, c)).min())
 
 
-def settle(ring: RestingRing, patch: Patch) -> bool:
-    """Bring ring and patch to rest together, in steps of the load if one is too much; whether it worked."""
+def settle(ring: RestingRing, patch: Patch) -> float:
+    """Bring ring and patch to rest together, in steps of all loads if one is too much; the share that was reached."""
     share, step = 0.0, 1.0
     while share < 1:
         start, known = ring.coordinates, dict(patch.__dict__)
@@ -222,8 +222,8 @@ def settle(ring: RestingRing, patch: Patch) -> bool:
             patch.__dict__ = known
             step /= 2
             if step < 1 / 256:
-                return False
-    return True
+                return share
+    return 1.0
 
 
 def _settled(ring: RestingRing, patch: Patch, share: float) -> bool:

@@ -6,7 +6,7 @@ borders are exact in every iteration, so that the ring's may lag behind.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import cos, isfinite, sin
 
 import numpy as np
@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from ..contact.forces import contact_forces
-from ..contact.points.data import Before, Damper, Rim
+from ..contact.points.data import MOST_ITERATIONS, Before, Damper, Rim, pulling
 from ..ring.fem import Ring, ring_of
 from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
-from .rim_contact import POINTS, RimContact
+from .rim_contact import RimContact
 from .stage import Predictor, largest
-from .state import Errors, Stage, State
+from .state import Stage, State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -101,7 +101,7 @@ class FullHoop(RimContact):
         Elements through the wall.
     """
 
-    def __init__(self, scene: Scene, points: int = POINTS, tolerance: float = 1e-9, through: int = 1) -> None:
+    def __init__(self, scene: Scene, points: int | None = None, tolerance: float = 1e-9, through: int = 1) -> None:
         self.ring = self._make_ring(scene, ring_of(scene, through))
         super().__init__(scene, self.ring.vertex, points, tolerance)
         self._factored: _Factored | None = None
@@ -167,7 +167,8 @@ class FullHoop(RimContact):
         last, lags = np.inf, True
         update, damping, way, reach = np.zeros_like(d), 1.0, 0.0, np.inf
         ok = False
-        for iteration in range(25):
+        damper = pulling(damper, True)
+        for iteration in range(MOST_ITERATIONS):
             pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
             u = pos[3:][dofs].reshape(-1, 2)
             contact = contact_forces(pos[:3], u, rim, law, mode, before, damper)
@@ -184,10 +185,10 @@ class FullHoop(RimContact):
             worst = max(largest(frame), largest(ring))
             if not isfinite(worst):
                 return Stage(False), False
-            small = self.tolerance * (1 + res.normal)
+            small = self.tolerance * (1 + abs(res.normal))
             if worst > small:
                 depth = abs(pos[1]) + np.abs(u).max()
-                small += 4e-16 * (law.eps_n + law.eps_t) * res.length * depth
+                small += 4e-16 * (law.eps_n + law.eps_t) * res.length * depth * (damper.relaxation + 1)
                 small += 1e-14 * (damper.relaxation + 1) * res.elastic
                 steepness = max(damper.drag, res.steepness)
                 small += 1e-15 * steepness * (abs(res.way) + abs(damper.way_0)) + self.ring.round_off(pos[3:])
@@ -195,6 +196,9 @@ class FullHoop(RimContact):
             factored = self._factor(pos, vel, acc, beta, lags and iteration > 1 and worst > 0.05 * last)
             matrix = NewtonMatrix(factored, own, contact.tangent, window)
             if worst <= small and iteration > 0:
+                if damper.pulls and res.eta < 0:
+                    damper, last = pulling(damper, False), np.inf
+                    continue
                 ok = True
                 break
             update = np.concatenate(matrix.solve(frame, ring))
@@ -216,7 +220,11 @@ class FullHoop(RimContact):
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
-        ring, body, pos, vel = self.ring, self.ring.body, state.pos, state.vel
+        return self.held(state.pos, state.vel)
+
+    def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:
+        """See :class:`flexible.models.state.Model`."""
+        ring, body = self.ring, self.ring.body
         offset, mass = body.offset, body.ring_mass
         s, c = sin(pos[2]), cos(pos[2])
         w, u, v = vel[2], pos[3:], vel[3:]
@@ -234,19 +242,16 @@ class FullHoop(RimContact):
             gravity += mass * (1 + pos[1]) + s1 * c - s2 * s
         return float(kinetic), float(gravity), ring.strain_energy(u)
 
-    def errors(self, state: State, beta: float, matrix: NewtonMatrix, error: Array, moved: Array) -> Errors:
+    def forces(self, pos: Array, vel: Array, acc: Array) -> Array:
+        """See :class:`flexible.models.state.Model`."""
+        own = inertia(self.ring, pos, vel, acc, 1.0)
+        return np.concatenate([own.frame, own.ring])
+
+    def error(self, state: State, beta: float, matrix: NewtonMatrix, error: Array) -> float:
         """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
         ring, still = self.ring, np.zeros_like(state.vel)
-        without = inertia(ring, state.pos, still, still, beta)
-        passed = []
-        for change in (error, moved):
-            with_change = inertia(ring, state.pos, still, change, beta)
-            load = (with_change.frame - without.frame) / beta**2, (with_change.ring - without.ring) / beta**2
-            passed.append(np.concatenate(matrix.solve(*load)))
-        rate, way = passed
+        without, with_error = (inertia(ring, state.pos, still, acc, beta) for acc in (still, error))
+        load = (with_error.frame - without.frame) / beta**2, (with_error.ring - without.ring) / beta**2
+        rate = np.concatenate(matrix.solve(*load))
         slow = np.abs(self._slow @ rate[3:]).max(initial=0.0) / (1 + ring.body.ring_mass) ** 0.5
-        size = largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow]))
-        after, before = (replace(state, pos=state.pos + s * way, vel=state.vel + s * rate) for s in (0.5, -0.5))
-        own = inertia(ring, state.pos, state.vel, state.acc, beta)
-        work = own.frame @ way[:3] + own.ring @ way[3:]
-        return Errors(size, float(sum(self.energies(after)) - sum(self.energies(before)) - work))
+        return float(largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow])))

@@ -8,12 +8,12 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from ..contact.points.data import Before, Damper, Rim
-from ..ring.frame import energies
+from ..ring.frame import energies, inertia
 from ..ring.reduction import ReducedRing, reduce
 from .equilibrium import RestingModes
-from .rim_contact import POINTS, RimContact
-from .stage import Predictor, Window, filtered_errors, largest, solve_stage
-from .state import Errors, Stage, State
+from .rim_contact import RimContact
+from .stage import Predictor, Window, filtered_error, largest, solve_stage
+from .state import Stage, State
 
 Array = NDArray[np.float64]
 
@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 class ReducedHoop(RimContact):
     """Frame, modes and residual static compliance of a scene's hoop."""
 
-    def __init__(self, scene: Scene, modes: int = 24, points: int = POINTS, tolerance: float = 1e-9) -> None:
+    def __init__(self, scene: Scene, modes: int = 24, points: int | None = None, tolerance: float = 1e-9) -> None:
         self.ring: ReducedRing = reduce(scene, modes)
         super().__init__(scene, self.ring.vertex, points, tolerance)
         self._blocks: dict[tuple[int, int], tuple[Array, Array]] = {}
@@ -89,16 +89,26 @@ class ReducedHoop(RimContact):
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity, ring strain (of the modes and of the static part)."""
-        kinetic, gravity, strain = energies(self.ring.frame, state.pos, state.vel)
+        kinetic, gravity, strain = self.held(state.pos, state.vel)
         if state.res.normal > 0:
             compliance = self._arrays(state.window)[1]
             force = state.nodal.ravel()
             strain += float(force @ compliance @ force) / 2
         return kinetic, gravity, strain
 
-    def errors(self, state: State, beta: float, matrix: Array, error: Array, moved: Array) -> Errors:
+    def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:
+        """See :class:`flexible.models.state.Model`."""
+        kinetic, gravity, strain = energies(self.ring.frame, pos, vel)
+        return kinetic, gravity, strain
+
+    def forces(self, pos: Array, vel: Array, acc: Array) -> Array:
+        """See :class:`flexible.models.state.Model`."""
+        force: Array = inertia(self.ring.frame, pos, vel, acc, 1.0)[0]
+        return force
+
+    def error(self, state: State, beta: float, matrix: Array, error: Array) -> float:
         """See :class:`flexible.models.state.Model`."""
         frame = self.ring.frame
-        rate, energy = filtered_errors(frame, state.pos, state.vel, state.acc, beta, matrix, error, moved)
+        rate = filtered_error(frame, state.pos, state.vel, state.acc, beta, matrix, error)
         ringing = np.abs(rate[3:]).max(initial=0.0) / (1 + frame.body.ring_mass) ** 0.5
-        return Errors(largest(np.array([rate[0] + rate[2], rate[1], rate[2], ringing])), energy)
+        return float(largest(np.array([rate[0] + rate[2], rate[1], rate[2], ringing])))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import pi
+from math import ceil, pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +19,15 @@ Array = NDArray[np.float64]
 
 
 POINTS = 24  # to a patch, of a contact
+FINE = 1e-4  # rtol below which there are more: their share of the error falls like its cube root squared, and faster
 
 
-def contact_law(scene: Scene, points: int = POINTS) -> Law:
+def points_to_a_patch(rtol: float) -> int:
+    """Contact points by which a patch is as accurate as a tolerance asks for."""
+    return ceil(POINTS * max(1.0, FINE / rtol) ** (1 / 3))
+
+
+def contact_law(scene: Scene, points: int | None = None) -> Law:
     """The scene's friction law, with ``points`` to the patch of a rigid hoop under the disk's weight."""
     contact, friction = scene.contact, scene.friction
     eps = float(contact.stiffness)
@@ -29,7 +35,9 @@ def contact_law(scene: Scene, points: int = POINTS) -> Law:
     law = LAWS[contact.law]
     parameters = Parameters(
         law=law.code,
-        spacing=min(2 * half_width / points, 2 * pi / scene.solve.elements / 8),
+        spacing=min(
+            2 * half_width / (points or points_to_a_patch(scene.solve.rtol)), 2 * pi / scene.solve.elements / 8
+        ),
         eps_n=eps,
         eps_t=eps * contact.tangential_ratio,
         mu_s=float(friction.mu_s),
@@ -68,13 +76,13 @@ class RimContact:
     ----------
     vertex : (n_elements,) array
         Angles at which rim elements begin.
-    points : int
-        Contact points to a patch, see :func:`contact_law`.
+    points : int, optional
+        Contact points to a patch; by default what the scene's tolerance asks for.
     tolerance : float
         Of Newton, on forces relative to the disk's weight.
     """
 
-    def __init__(self, scene: Scene, vertex: Array, points: int, tolerance: float) -> None:
+    def __init__(self, scene: Scene, vertex: Array, points: int | None, tolerance: float) -> None:
         self.scene = scene
         self.vertex = vertex
         middle = (vertex + np.append(vertex[1:], vertex[0] + 2 * pi)) / 2

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Scene
+from rigid import Scene, SceneError
 
 from .chain import ChainHoop
 from .exact import ExactHoop
@@ -20,10 +20,10 @@ from .state import State
 Array = NDArray[np.float64]
 Hoop = ReducedHoop | FullHoop | ChainHoop
 
-#: E I/(m g R^2) below which "auto" takes the exact ring. In a pulse that begins undeformed at phi = 2.9 with
-#: phidot = 4 (k = 0.1, r = 1.02, m_h/m = 0.1; E I/(m g R^2) = 0.63 for E b R/(m g) = 1e6) linear and exact part in
-#: the normal impulse by 0.14 % at 63, 0.3 % at 31, 1 % at 13, 2.4 % at 6; in the friction impulse by 1e-4 of the
-#: normal one at 63, 6e-3 at 13; in the friction loss, small itself, by 0.6 % at 630, 1.4 % at 126, 2.6 % at 31.
+#: E I/(m g R^2) below which "auto" takes the chain, exact for large rotations. In a pulse that begins undeformed at
+#: phi = 2.9 with phidot = 4 (k = 0.1, r = 1.02, m_h/m = 0.1; E I/(m g R^2) = 0.63 for E b R/(m g) = 1e6) linear and
+#: exact part in the normal impulse by 0.14 % at 63, 0.3 % at 31, 1 % at 13, 2.4 % at 6; in the friction impulse by 1e-4
+#: of the normal one at 63, 6e-3 at 13; in the friction loss, small itself, by 0.6 % at 630, 1.4 % at 126, 2.6 % at 31.
 SOFT = 40.0
 #: rotation of the rim at the floor up to which the linear ring's normal impulse is good to about 1 %, there
 FAR = 0.0075
@@ -31,10 +31,18 @@ _STIFF = 1e-4  # displacement over R that no such rotation can have
 
 
 def hoop_of(scene: Scene) -> Hoop:
-    """The scene's hoop at the level that it asks for; "auto" is reduced unless the ring is soft."""
+    """The scene's hoop at the level that it asks for.
+
+    "auto" is reduced unless the ring is soft, and then a chain; of a ring that is no rod, all nodes.
+    """
     level = scene.solve.level
     if level == "auto":
-        level = "exact" if scene.ring.bending_stiffness < SOFT else "reduced"
+        if scene.ring.bending_stiffness >= SOFT:
+            return ReducedHoop(scene)
+        try:
+            return ChainHoop(scene)
+        except SceneError:
+            return ExactHoop(scene)
     if level == "reduced":
         return ReducedHoop(scene)
     if level == "chain":
@@ -69,5 +77,5 @@ class Range:
             return ""
         return (
             f"the rim at the floor turned by {self.furthest:.2g} at phi = {self.phi:.4g}, too far for a linear ring"
-            " (solve.level = 'exact' has no such limit)"
+            " (solve.level = 'chain' has no such limit)"
         )

@@ -1,13 +1,11 @@
-"""One implicit step of the reduced hoop: TR-BDF2, Newton on frame, modes and the rim nodes near the floor together.
+"""One implicit stage of the reduced hoop: Newton on frame, modes and the rim nodes near the floor together.
 
-TR-BDF2 is one-step, second order, L-stable and stiffly accurate: what a step does not resolve (the ring's and the
-contact's own vibrations) it damps, so steps follow the motion and not the stiffness. Both of its stages have the form
-``pos = pos_pred + d, vel = vel_pred + d/beta, acc = d/beta^2`` with the small increment d as the unknown.
+The stages of a step (:mod:`flexible.time.methods`) all have the form ``pos = pos_pred + d, vel = vel_pred + d/beta,
+acc = d/beta^2`` with the small increment d as the unknown.
 """
 
 from __future__ import annotations
 
-from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,14 +13,8 @@ import numpy as np
 from rigid.kernel.compile import jit
 
 from ..contact.forces import contact_forces
-from ..contact.points.data import Before, Contact, Damper, Parameters, Rim
-from ..ring.frame import Frame, energies, inertia
-
-TAU = 2 - sqrt(2)  # where the first stage ends, as a fraction of the step
-BETA = TAU / 2
-# weights of the step minus those of its third-order companion (Hosea and Shampine 1996)
-_W = sqrt(2) / 4
-ERROR_WEIGHTS = (_W - (1 - _W) / 3, _W - (3 * _W + 1) / 3, BETA - BETA / 3)
+from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
+from ..ring.frame import Frame, inertia
 
 
 class Predictor(NamedTuple):
@@ -57,7 +49,8 @@ class Solved(NamedTuple):
 def _round_off(contact: Contact, height: float, u: Any, scale: float, damper: Damper) -> float:
     """Size of the rounding errors in the contact's forces: of the gap's, of the damping factor's, of the slip's."""
     res = contact.res
-    floor = 4e-16 * scale * (abs(height) + np.abs(u).max()) + 1e-14 * (damper.relaxation + 1) * res.elastic
+    gap = 4e-16 * scale * (abs(height) + np.abs(u).max())
+    floor = (damper.relaxation + 1) * (gap + 1e-14 * res.elastic)
     floor += 1e-15 * max(damper.drag, res.steepness) * (abs(res.way) + abs(damper.way_0))
     return floor
 
@@ -118,7 +111,8 @@ def solve_stage(
     damping, last = 1.0, np.inf
     way, reach = 0.0, np.inf
     softest = np.abs(compliance).max()
-    for iteration in range(25):
+    damper = pulling(damper, True)
+    for iteration in range(MOST_ITERATIONS):
         pos = pos_pred + d
         acc = d / beta**2
         vel = vel_pred + d / beta
@@ -151,11 +145,14 @@ def solve_stage(
             residual[m + k] = scale * (u[k // 2, k % 2] - modal_part - moved[k])
         # of forces, and of displacements as forces on the foundation
         worst, astray = largest(residual[:m]), largest(residual[m:])
-        small = tolerance * (1 + res.normal) + _round_off(contact, pos[1], u, scale, damper)
+        small = tolerance * (1 + abs(res.normal)) + _round_off(contact, pos[1], u, scale, damper)
         if not np.isfinite(worst + astray + small):
             break
         # a ring softer than the foundation moves by its compliance times what the forces may be off
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
+            if damper.pulls and res.eta < 0:
+                damper, last = pulling(damper, False), np.inf
+                continue
             iterations = iteration
             break
         worst = max(worst, astray)
@@ -177,28 +174,12 @@ def solve_stage(
 
 
 @jit
-def filtered_errors(
-    frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any, moved: Any
-) -> tuple[Any, float]:
-    """Errors of velocities and positions as the step itself passes them on: (M + beta C + beta^2 K)^-1 M times each.
+def filtered_error(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any) -> Any:
+    """The error of the velocities as the step itself passes it on: (M + beta C + beta^2 K)^-1 M times it.
 
     What the step does not resolve, and damps, would otherwise hold the steps down to the vibrations' periods.
-
-    Returns
-    -------
-    error : (3 + n,) array
-        That of the velocities.
-    energy : float
-        What comes with both, beyond the work of the floor's forces.
     """
     size = pos.shape[0]
-    forces = inertia(frame, pos, vel, acc, beta)[0]
-    loads = np.zeros((matrix.shape[0], 2))
-    loads[:size, 0] = (inertia(frame, pos, vel, acc + error, beta)[0] - forces) / beta**2
-    loads[:size, 1] = (inertia(frame, pos, vel, acc + moved, beta)[0] - forces) / beta**2
-    passed = np.linalg.solve(matrix, loads)
-    rate, way = passed[:size, 0].copy(), passed[:size, 1].copy()
-    after = energies(frame, pos + way / 2, vel + rate / 2)
-    before = energies(frame, pos - way / 2, vel - rate / 2)
-    gained = after[0] + after[1] + after[2] - before[0] - before[1] - before[2]
-    return rate, gained - (forces * way).sum()
+    load = np.zeros(matrix.shape[0])
+    load[:size] = inertia(frame, pos, vel, acc + error, beta)[0] - inertia(frame, pos, vel, acc, beta)[0]
+    return np.linalg.solve(matrix, load / beta**2)[:size].copy()

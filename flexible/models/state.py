@@ -57,13 +57,6 @@ class Stage(NamedTuple):
     bristles: Any = None
 
 
-class Errors(NamedTuple):
-    """Of a step."""
-
-    momentum: float  # an impulse over M: a tolerance is the same share of the impulses whatever the mass of the hoop
-    energy: float  # gained, beyond the work of all forces of the floor
-
-
 class Model(Protocol):
     """What the march needs of a level of fidelity."""
 
@@ -89,9 +82,17 @@ class Model(Protocol):
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity, ring strain."""
 
-    def errors(self, state: State, beta: float, matrix: Any, error: Array, moved: Array) -> Errors:
-        """Size and energy of an ``error`` in the velocities and ``moved`` in the positions, after a step whose last
-        matrix of Newton is ``matrix``."""
+    def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:
+        """Of these, what the coordinates hold by themselves, the ring's static displacements left out."""
+
+    def forces(self, pos: Array, vel: Array, acc: Array) -> Array:
+        """Forces of the floor on all coordinates that go with these accelerations."""
+
+    def error(self, state: State, beta: float, matrix: Any, error: Array) -> float:
+        """Size of an ``error`` in the velocities after a step whose last matrix of Newton is ``matrix``.
+
+        An impulse over M: a tolerance is the same share of the impulses whatever the mass of the hoop.
+        """
 
 
 @dataclass(frozen=True, slots=True)

@@ -44,7 +44,8 @@ from ..motion import FlexibleMotion
 from ..ring.fem import ring_of
 from .curves import curves
 from .instants import Instant, instants_at, times_of
-from .recovery import Interior, interior_of
+from .interior import interior_of
+from .recovery import Interior
 from .rim import RIM_FIELDS, rim_of
 
 Array = NDArray[np.float64]

@@ -12,7 +12,7 @@ from rigid import Pulse
 
 from ..models.state import State
 from ..motion import FlexibleMotion, Kept
-from ..time.tr_bdf2 import advanced
+from ..time.step import advanced
 
 Array = NDArray[np.float64]
 

@@ -21,12 +21,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from meshes import gauss_gradient, nodal_gradient
-from rigid import SceneError
 
-from ..models.chain import ChainHoop
-from ..models.exact import ExactHoop
-from ..models.full import FullHoop
-from ..models.reduced import ReducedHoop
 from ..models.state import State
 from ..ring.fem import Ring
 from ..ring.reduction import ReducedRing
@@ -167,23 +162,6 @@ class ExactInterior(Interior):
         turned = np.einsum("niks,nkls,njls->nijs", f, tensor, f)
         turned /= (f[:, 0, 0] * f[:, 1, 1] - f[:, 0, 1] * f[:, 1, 0])[:, None, None]
         return np.stack([turned[:, 0, 0], turned[:, 1, 1], turned[:, 0, 1]], axis=1)
-
-
-def interior_of(hoop: ReducedHoop | FullHoop | ChainHoop) -> Interior:
-    """The interior of a hoop of any level but the chain, which knows only its sections and its rim.
-
-    Raises
-    ------
-    SceneError
-        The hoop is a chain.
-    """
-    if isinstance(hoop, ChainHoop):
-        raise SceneError("solve.level = 'chain' has no fields inside the ring: use 'exact' for a series of them.")
-    mass = hoop.scene.hoop.mass_ratio
-    if isinstance(hoop, ReducedHoop):
-        return ReducedInterior(hoop.ring, mass)
-    kind = ExactInterior if isinstance(hoop, ExactHoop) else Interior
-    return kind(hoop.ring.ring, hoop.ring.stiffness, mass)
 
 
 def _gradient(by_y1: sp.csr_matrix, by_y2: sp.csr_matrix, u: Array) -> Array:

@@ -1,5 +1,6 @@
 """Time stepping, which knows nothing of how a stage is solved.
 
-``tr_bdf2``   one step with its error, impulses and losses
+``methods``   the implicit Runge-Kutta methods
+``step``      one step with its error, impulses and losses
 ``adaptive``  many of them, with stick and slip as located events
 """

@@ -12,7 +12,8 @@ from typing import NamedTuple
 
 from ..models.state import Books, Model, Record, State, record
 from .events import MODE_ENDS, TURN, Ends, locate, passed, watches
-from .tr_bdf2 import MarchError, Step, attempt, restart
+from .methods import ESDIRK3, Method
+from .step import MarchError, Step, attempt, restart
 
 SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
 AFRESH = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
@@ -33,7 +34,7 @@ class Accepted(NamedTuple):
     attempts: int
 
 
-def _until_event(model: Model, state: State, trial: Step, ends: Ends) -> Accepted | None:
+def _until_event(model: Model, state: State, trial: Step, ends: Ends, method: Method) -> Accepted | None:
     """A step that passes no event: ``trial``, or a shorter one up to its first event; None where none can be solved."""
     event, attempts = None, 0
     for watch in watches(model.law, state, ends):
@@ -44,7 +45,7 @@ def _until_event(model: Model, state: State, trial: Step, ends: Ends) -> Accepte
         if past(trial) < 0:
             continue
         before = passed(watch, model.law, ends, state, state)
-        located = locate(lambda h: attempt(model, state, h), past, trial, before, trial.state.t - state.t)
+        located = locate(lambda h: attempt(model, state, h, method), past, trial, before, trial.state.t - state.t)
         attempts += located.attempts
         if located.trial is None:
             return None
@@ -71,6 +72,7 @@ def march(
     limits: Limits = LIMITS,
     progress: Callable[[State], None] | None = None,
     keep: Callable[[State], None] | None = None,
+    method: Method = ESDIRK3,
 ) -> tuple[State, list[Record], int, str]:
     """March to the first of the ends, which is located.
 
@@ -99,22 +101,23 @@ def march(
     attempts, turns, stalls = 0, 0, 0
     if _over(state, ends, turns):
         return state, records, attempts, ""
-    tolerance = 3.0 * rtol**1.5  # second order: the error over a pulse goes as its power 2/3
+    power = 1 / method.estimates
     h = limits.first
     while attempts < limits.most:
         if h < SHORTEST:
             return state, records, attempts, _stuck(state, "no step however short could be solved")
         attempts += 1
         asked = min(h, ends.t - state.t)
-        trial = attempt(model, state, asked)
+        trial = attempt(model, state, asked, method)
+        tolerance = method.tolerance(rtol) * model.law.care(state)
         if trial is None:
             h = asked / 4
             continue
         if trial.error > tolerance:
-            h = asked * max(0.2, 0.9 * (tolerance / trial.error) ** (1 / 3))
+            h = asked * max(0.2, 0.9 * (tolerance / trial.error) ** power)
             continue
-        grown = min(asked * min(3.0, 0.9 * (tolerance / max(trial.error, 1e-300)) ** (1 / 3)), limits.longest)
-        step = _until_event(model, state, trial, ends)
+        grown = min(asked * min(3.0, 0.9 * (tolerance / max(trial.error, 1e-300)) ** power), limits.longest)
+        step = _until_event(model, state, trial, ends, method)
         if step is None:
             h = asked / 4
             continue

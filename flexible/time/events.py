@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from ..contact.laws.law import Law
 from ..models.state import State
-from .tr_bdf2 import Step
+from .step import Step
 
 MODE_ENDS, TURN, LOW_END, HIGH_END = range(4)
 

@@ -7,6 +7,7 @@ from functools import partial
 from typing import Any
 
 import flexible
+from flexible.segment import peak
 from rigid import Motion, Scene
 
 from .peers.scipy_ivp import installed
@@ -36,7 +37,7 @@ def _motion(scene: Scene) -> Callable[[], reference.Measured]:
             float(steps.normal_impulse[-1]),
             float(steps.friction_impulse[-1]),
             float(steps.friction_loss[-1]),
-            float(steps.normal_force.max()),
+            peak(steps.t, steps.normal_force),
         )
 
     return run

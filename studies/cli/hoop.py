@@ -20,6 +20,7 @@ from rigid import Motion, Scene, SceneError, load_scene
 
 from ..running.files import StudyError, folder, to_json, trouble
 from .bench import bench, stress, validate
+from .hop import hop
 from .limit import limit
 from .study import study
 from .view import view
@@ -143,9 +144,15 @@ def _print_motion(motion: Motion, as_json: bool) -> None:
 @click.argument("name", required=False)
 def scenes(name: str | None) -> None:
     """List the shipped scenes, or print one as TOML to start your own from."""
-    from .scenes import listing, text
+    from rigid import scene_names
+    from rigid.scenefile import scene_text
 
-    click.echo(text(name) if name else listing(), nl=False)
+    if name:
+        click.echo(scene_text(name), nl=False)
+        return
+    for each in scene_names():
+        first = scene_text(each).splitlines()[0]  # a comment that says what it is
+        click.echo(f"{each:24} {first.lstrip('# ') if first.startswith('#') else ''}".rstrip())
 
 
 @hoop.command()
@@ -171,6 +178,7 @@ def compile_(shared: bool) -> None:
 
 
 study.add_command(limit)
+study.add_command(hop)
 hoop.add_command(study)
 hoop.add_command(view)
 

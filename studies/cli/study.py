@@ -1,4 +1,4 @@
-"""`hoop study ...`: the limit of stiffness, observed and solved, and sweeps."""
+"""`hoop study ...`: the limit of stiffness, observed and solved, and sweeps; `hop` is in a file of its own."""
 
 from __future__ import annotations
 

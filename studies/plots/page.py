@@ -64,8 +64,8 @@ PARTS = """\
 {% endfor %}</tbody></table></div>
 {% endmacro %}
 {% macro pictures(figures) %}
-{% for name, caption, image in figures %}
-<figure id="{{ name }}"><img alt="{{ caption }}" src="data:image/png;base64,{{ image }}"><figcaption>{{
+{% for name, caption, kind, image in figures %}
+<figure id="{{ name }}"><img alt="{{ caption }}" src="data:image/{{ kind }};base64,{{ image }}"><figcaption>{{
 caption }}</figcaption></figure>
 {% endfor %}
 {% endmacro %}
@@ -85,7 +85,7 @@ def write_page(found: str, path: Path, scene: Scene, command: str, told: Mapping
     scene, command
         What was studied, and how.
     told : dict
-        What the template asks for, and ``title``, ``verdict`` and ``images``: ``{name: (caption, PNG file)}``.
+        What the template asks for, and ``title``, ``verdict`` and ``images``: ``{name: (caption, PNG or GIF file)}``.
     """
     from jinja2 import DictLoader, Environment
     from markupsafe import Markup
@@ -99,7 +99,9 @@ def write_page(found: str, path: Path, scene: Scene, command: str, told: Mapping
         .get_template("page")
         .render(
             {name: value for name, value in told.items() if name != "images"},
-            figures=[(name, caption, embedded(file)) for name, (caption, file) in told["images"].items()],
+            figures=[
+                (name, caption, file.suffix[1:], embedded(file)) for name, (caption, file) in told["images"].items()
+            ],
             style=Markup(PAGE_STYLE),
             scene=toml(scene_to_dict(scene)),
             command=command,

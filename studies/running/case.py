@@ -24,10 +24,12 @@ NEGLIGIBLE = 1e-7
 """Numerical error below this (J_F/J_N, or m g R) is not made smaller: a measure may happen to cross the rigid value,
 and no error is a tenth of nothing."""
 
-REMAINS = 1 / (2 ** (2 / 3) - 1)
-"""Error that is left when a tolerance has been halved, over the change that this made, for the slowest
-decrease to expect: an integrator of second order with its error per step at the tolerance has an error like
-rtol^(2/3)."""
+FINER = 4.0
+"""By how much the second run of a pair is the finer in its tolerance."""
+
+REMAINS = 1.0
+"""Error that is left in the finer run of a pair, over the change from the other one. An error like rtol leaves a third;
+but the instant at which a stick breaks is known no better than either run has it, by luck of single steps."""
 
 TIGHTEST = 1e-8
 """No tolerance below this is tried: round-off of the impulses is not far."""
@@ -61,6 +63,8 @@ class Case:
         Whether the forces through each pulse come back too.
     build : str
         Version and sources that it is meant for; those of this process by default.
+    cut : bool
+        Whether a motion that stops before what was asked is a result too, as far as it came; otherwise it is a failure.
     """
 
     solver: str
@@ -68,6 +72,7 @@ class Case:
     against: tuple[tuple[str, float, float], ...] = ()
     histories: bool = False
     build: str = ""
+    cut: bool = False
 
     def __post_init__(self) -> None:
         if not self.build:
@@ -83,6 +88,7 @@ class Case:
             "against": [list(entry) for entry in self.against],
             "histories": self.histories,
             "build": self.build,
+            "cut": self.cut,
         }
         return hashlib.sha256(json.dumps(described, sort_keys=True).encode()).hexdigest()[:32]
 
@@ -175,7 +181,7 @@ def _once(case: Case, scene: Scene, most: float = inf) -> dict[str, Any]:
             raise Unfinished(f"more than {most:.0f} steps at a tolerance of {scene.solve.rtol:g}")
 
     motion = solver(case.solver)(scene, history=case.histories, progress=count if most < inf else None)
-    if not motion.completed:
+    if not (motion.completed or case.cut):
         raise Unfinished(motion.ended)
     return _described(motion, case.histories) | {"rtol": scene.solve.rtol}
 
@@ -192,7 +198,7 @@ def _described(motion: Motion, histories: bool) -> dict[str, Any]:
 
 
 def _resolved(case: Case) -> dict[str, Any]:
-    """Run at a tolerance and at half of it, and tighten until the error is a ``SHARE`` of the distance
+    """Run at a tolerance and at a quarter of it, and tighten until the error is a ``SHARE`` of the distance
     reported.
 
     Where that is out of reach (the solver stops or follows its own noise, twice in a row its error does not fall
@@ -203,14 +209,14 @@ def _resolved(case: Case) -> dict[str, Any]:
     least, stuck = excess, 0
     steps = spent = best["motion"].get("steps", 0)  # of the finer run; 0 where the solver does not count any
     while least > 1 and stuck < 2:
-        factor = min(max(1.5 * min(excess, 3 * least), 2.0), 3.0)
-        if steps:  # second order with its error per step at the tolerance: steps like rtol^(-1/2)
-            factor = min(factor, (max(MOST_STEPS - spent, 0) / steps) ** 2)
-        if factor < 2 or rtol / factor < 2 * TIGHTEST:
+        factor = min(max(1.5 * min(excess, 3 * least), 2.0), 8.0)
+        if steps:  # third order with its error per step at the tolerance: steps like rtol^(-1/3)
+            factor = min(factor, (max(MOST_STEPS - spent, 0) / steps) ** 3)
+        if factor < 2 or rtol / factor < FINER * TIGHTEST:
             break
         rtol /= factor
         try:
-            pair, excess = _pair(case, rtol, NOISY * factor**0.5 * steps or inf)
+            pair, excess = _pair(case, rtol, NOISY * factor ** (1 / 3) * steps or inf)
         except Unfinished:
             break
         steps = pair["motion"].get("steps", 0)
@@ -228,9 +234,11 @@ def _is_resolved(case: Case, found: dict[str, Any]) -> bool:
 
 
 def _pair(case: Case, rtol: float, most: float = inf) -> tuple[dict[str, Any], float]:
-    """The run at half a tolerance with its error, known from the run at all of it, and how many times it is
+    """The run at a quarter of a tolerance with its error, known from the run at all of it, and how many times it is
     too large; neither may take more than ``most`` steps."""
-    coarse, fine = (_once(case, case.scene.replace(solve={"rtol": tolerance}), most) for tolerance in (rtol, rtol / 2))
+    coarse, fine = (
+        _once(case, case.scene.replace(solve={"rtol": tolerance}), most) for tolerance in (rtol, rtol / FINER)
+    )
     if not fine["pulses"] or len(coarse["pulses"]) != len(fine["pulses"]):
         raise Unfinished(f"no pulse came to its end: {fine['ended']}")
     errors = tuple(_errors(old, new) for old, new in zip(coarse["pulses"], fine["pulses"], strict=True))

@@ -8,6 +8,7 @@ from flexible.contact.points.data import NOTHING, no_bristles
 from flexible.models.state import State
 from flexible.time.adaptive import Limits, march
 from flexible.time.events import Ends
+from flexible.time.methods import ESDIRK3
 from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
 
 #: the hoop of the paper's sec. 3.3, on a floor soft enough to be quick
@@ -30,13 +31,15 @@ def flying(hoop, pos, vel):
     return State(0.0, 0.0, pos, vel, np.zeros_like(pos), 0, window, *nothing, 0.0)
 
 
-def steps_of(hoop, state, t_end, step):
+def steps_of(hoop, state, t_end, step, method=ESDIRK3):
     """March in equal steps; the last state, the records and the states."""
     states = [state]
     count = round((t_end - state.t) / step)
     length = (t_end - state.t) / count * (1 + 1e-12)
-    last, records, _, ended = march(hoop, state, Ends(t=t_end), 0.5, Limits(length, length), progress=states.append)
-    assert not ended
+    last, records, _, ended = march(
+        hoop, state, Ends(t=t_end), 0.5, Limits(length, length), states.append, method=method
+    )
+    assert not ended, ended
     return last, records, states
 
 

@@ -5,8 +5,9 @@ import pytest
 from scipy.sparse.linalg import spsolve
 
 from flexible import simulate
+from flexible.output.interior import interior_of
 from flexible.output.patch import profile
-from flexible.output.recovery import ExactInterior, Interior, interior_of
+from flexible.output.recovery import ExactInterior, Interior
 from flexible.ring.fem import Ring
 from meshes import hoop_stress, ring_mesh
 from rigid import load_scene

@@ -9,6 +9,7 @@ from flexible.contact.forces import contact_forces
 from flexible.contact.laws.patch import SLIDE_RIGHT
 from flexible.contact.points.data import UNDAMPED, Before, Rim
 from flexible.handover import Pose, equilibrium, undeformed
+from flexible.models.chain import ChainHoop
 from flexible.models.exact import ExactElasticity, ExactHoop
 from flexible.models.full import FullHoop, NewtonMatrix, _Factored
 from flexible.models.reduced import ReducedHoop
@@ -17,7 +18,7 @@ from flexible.ring.fem import ring_of
 from flexible.ring.nodal import inertia
 from flexible.time.adaptive import march
 from flexible.time.events import Ends
-from flexible.time.tr_bdf2 import MarchError
+from flexible.time.step import MarchError
 from flexible.units import dimensionless
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
 
@@ -155,10 +156,12 @@ def test_linear_against_exact():
 
 
 def test_level_of_a_scene():
-    """By name, or the exact ring where the linear one would be too soft."""
+    """By name, or the chain where the linear ring would be too soft, or all nodes where that is no rod."""
     assert isinstance(hoop_of(HOOP.replace(solve={"level": "auto"})), ReducedHoop)
     assert type(hoop_of(HOOP.replace(solve={"level": "full"}))) is FullHoop
-    assert isinstance(hoop_of(HOOP.replace(solve={"level": "auto"}, ring={"bending_stiffness": 1.0})), ExactHoop)
+    soft = HOOP.replace(solve={"level": "auto"}, ring={"bending_stiffness": 1.0})
+    assert isinstance(hoop_of(soft), ChainHoop)
+    assert isinstance(hoop_of(soft.replace(hoop={"r": 1.5})), ExactHoop)
 
 
 def test_a_linear_ring_that_goes_too_far_says_so():

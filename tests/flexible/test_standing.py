@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 from flexible.handover import Pose, equilibrium
 from flexible.models.reduced import ReducedHoop
 from flexible.models.rim_contact import relaxation_time
-from flexible.time.tr_bdf2 import restart
+from flexible.time.step import restart
 from rigid import Kind
 
 EPS = 1e6
@@ -37,7 +37,7 @@ def force(depth):
 def test_damping_ratio_by_logarithmic_decrement(mass, ratio):
     """Under M g and with the mass M of disk and hoop: N - M g falls by exp(-2 pi zeta/sqrt(1 - zeta^2)) in a period.
 
-    Kicked by 1 % of the sag: what is not linear is of that size, squared; TR-BDF2 loses (omega h)^3 in a step, 1e-4.
+    Kicked by 1 % of the sag: what is not linear is of that size, squared; a step loses (omega h)^4, 1e-7.
     """
     hoop, weight = hoop_of(mass, ratio), 1 + mass
     sag = brentq(lambda d: force(d) - weight, 0, 1)

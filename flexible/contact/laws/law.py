@@ -82,6 +82,10 @@ class Law:
         """The mode that follows the one that has ended."""
         return state.mode
 
+    def care(self, state: PatchState) -> float:
+        """What share of its tolerance a step may take here, where the end of a mode magnifies errors."""
+        return 1.0
+
     def free(self, state: PatchState) -> int:
         """The mode in which a patch that is off the floor comes down."""
         return state.mode

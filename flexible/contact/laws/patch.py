@@ -127,6 +127,16 @@ class Patch(Law):
             return STICK
         return SLIDE_RIGHT if state.res.friction > 0 else SLIDE_LEFT
 
+    def care(self, state: PatchState) -> float:
+        """A tenth before a stick breaks.
+
+        When it does follows from the momentary F, to which the creep of the patch, a thousandth of the velocities,
+        adds its acceleration: what a step may do to velocities moves that time by more than it may do to impulses.
+        """
+        res = state.res
+        near = state.mode == STICK and abs(res.friction) > self.parameters.mu_s * res.normal / 2
+        return 0.1 if near else 1.0
+
     def free(self, state: PatchState) -> int:
         """A patch off the floor comes down sliding, the way it moves: one that stuck would break as it touches."""
         if state.res.elastic > 0 or state.slip_velocity == 0:

@@ -13,7 +13,7 @@ import numpy as np
 
 from rigid.kernel.compile import jit
 
-from .data import Bristles, Parameters, PointForces, Resultants, Slip
+from .data import Bristles, Damper, Parameters, PointForces, Resultants, Slip
 from .rim import lift
 
 
@@ -31,27 +31,55 @@ class Carried(NamedTuple):
     pull: Any  # tangential force on the point when the step began
 
 
-@jit
-def _entry(g_old: float, g_new: float, sweep: float) -> tuple[float, float, float]:
-    """Fraction of the step at which a point touched, and its derivatives by the new gap and by ``sweep``.
+class _Entry(NamedTuple):
+    """When a point touched, and where."""
 
-    The gap is the parabola from ``g_old`` > 0 to ``g_new`` with second derivative ``sweep`` = dphi^2 in the
-    fraction; a negative fraction says that the point never touched.
+    rest: float  # fraction of the step since then, negative where it never touched
+    psi: float  # angle from the bottom at which it did
+    by_gap: float  # derivatives of the fraction by the new gap and by phi
+    by_phi: float
+    speed: float  # of the angle against the fraction
+    shift: float  # derivative of that angle by phi, the fraction fixed
+
+
+@jit
+def _entry(g_old: float, g_new: float, psi: float, dphi: float, turn: float, ratio: float) -> _Entry:
+    """When a point with the gaps ``g_old`` > 0 and ``g_new`` at the ends of a step touched.
+
+    Its angle is the parabola in time that ends with ``turn`` a step: over a step in which the whole patch is renewed a
+    constant rate would misplace all entries by as much as phidot changes, and the creep with them. What of the gap is
+    not the circle's is linear in time.
     """
-    a = sweep / 2
+    never = _Entry(-1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    a = dphi * dphi / 2
     b = g_new - g_old - a
     disc = b * b - 4 * a * g_old
     if disc <= 0 or b >= 0:
-        return -1.0, 0.0, 0.0
-    root = sqrt(disc)
-    fraction = 2 * g_old / (root - b)
-    if fraction >= 1:
-        return -1.0, 0.0, 0.0
-    return fraction, fraction / root, -fraction * (1 - fraction) / 2 / root
+        return never
+    s = 1 - 2 * g_old / (sqrt(disc) - b)
+    if s <= 0:
+        return never
+    bend = turn - dphi
+    own = g_old - g_new - (lift(psi - dphi) - lift(psi))
+    speed, slope = 0.0, 0.0
+    for _ in range(4):
+        angle = psi - turn * s + bend * s * s
+        speed = -turn + 2 * bend * s
+        slope = sin(angle) * speed + own
+        if slope <= 0:
+            return never
+        s = min(max(s - (g_new + lift(angle) - lift(psi) + own * s) / slope, 0.0), 1.0)
+    angle = psi - turn * s + bend * s * s
+    speed = -turn + 2 * bend * s
+    slope = sin(angle) * speed + own
+    if slope <= 0:
+        return never
+    shift = 1 - ratio * s + (ratio - 1) * s * s
+    return _Entry(s, angle, -(1 - s) / slope, -(sin(angle) * shift - (1 - s) * sin(psi)) / slope, speed, shift)
 
 
 @jit
-def carry(points: Any, bristles: Any, dphi: float, ratio: float, slip: Slip, moved: float) -> Any:
+def carry(points: Any, bristles: Any, dphi: float, damper: Damper, slip: Slip, moved: float) -> Any:
     """Bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered since.
 
     The way of a point that entered is that of rolling, plus a parabola in time that ends with the velocity of the
@@ -60,6 +88,7 @@ def carry(points: Any, bristles: Any, dphi: float, ratio: float, slip: Slip, mov
     that enters behind a sliding edge goes on sliding.
     """
     number, flags = bristles.number, bristles.sliding
+    ratio, turn = damper.ratio, damper.turning_0 + damper.ratio * dphi
     start = slip.way_0 - (slip.way - moved) * (1 - 1 / ratio)
     total = points.gap.shape[0]
     stretch, rate = np.zeros(total), np.zeros(total)
@@ -79,21 +108,20 @@ def carry(points: Any, bristles: Any, dphi: float, ratio: float, slip: Slip, mov
             rate[i] = 1.0
             sliding[i] = flags[p]
             continue
-        fraction, d_gap, d_sweep = _entry(max(points.gap_old[i], 0.0), points.gap[i], dphi * dphi)
-        if fraction >= 0:
+        entry = _entry(max(points.gap_old[i], 0.0), points.gap[i], points.psi[i], dphi, turn, ratio)
+        rest, psi_in = entry.rest, entry.psi
+        if rest >= 0:
             touched[i] = True
-            rest = 1 - fraction
             ending = ratio * (move - start)
             psi = points.psi[i]
-            psi_in = psi - rest * dphi
             lifted, lifted_in = lift(psi), lift(psi_in)
-            rolled = rest * dphi - 2 * cos((psi + psi_in) / 2) * sin(rest * dphi / 2)
+            rolled = psi - psi_in - 2 * cos((psi + psi_in) / 2) * sin((psi - psi_in) / 2)
             way[i] = stretch[i] = rolled + rest * (ending - (ending - move) * rest)
             mean[i] = rest * (slip_ending - (slip_ending - slip.way) * rest)
             rate[i] = rest * (ratio - (ratio - 1) * rest)
-            by_fraction = -(ending - 2 * (ending - move) * rest) - lifted_in * dphi
-            by_gap[i] = by_fraction * d_gap
-            by_phi[i] = by_fraction * d_sweep * 2 * dphi + (1 - rate[i]) * lifted - (1 - rest) * lifted_in
+            by_rest = ending - 2 * (ending - move) * rest - lifted_in * entry.speed
+            by_gap[i] = by_rest * entry.by_gap
+            by_phi[i] = by_rest * entry.by_phi + (1 - rate[i]) * lifted - entry.shift * lifted_in
             if flags.shape[0] > 0:
                 sliding[i] = flags[0] if j < number[0] else flags[-1]
     return Carried(stretch, rate, by_gap, by_phi, touched, sliding, way, mean, pull)

@@ -10,6 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from rigid.kernel.compile import jit
+
 
 class Parameters(NamedTuple):
     """A scene's contact."""
@@ -47,12 +49,18 @@ class Before(NamedTuple):
     bristles: Bristles
 
 
+MOST_ITERATIONS = 40  # of Newton in a stage
+
+
 class Damper(NamedTuple):
     """What rates are to the contact in one implicit stage.
 
-    Pressures are eta times the elastic ones, eta = ``eta_0`` + ``relaxation`` (N_el - ``elastic_0``)/N_el, at least 0.
+    Pressures are eta times the elastic ones, eta = ``eta_0`` + ``relaxation`` (N_el - ``elastic_0``)/N_el, at least 0
+    unless the damper ``pulls``: a floor does not, but Newton without that bound meets no bend in N, see
+    :func:`pulling`.
     With x the mean way of the patch in the step, its slip velocity at the end of the stage is ``velocity_0`` + ``rate``
-    (x - ``way_0``); a damped patch that sticks drags with -``drag`` (x - ``way_0``), shared like the pressure.
+    (x - ``way_0``); a damped patch that sticks drags with -``drag`` (x - ``way_0``), shared like the pressure. The hoop
+    turns by dphi, at the end with ``turning_0`` + ``ratio`` dphi over the stage's length.
     """
 
     relaxation: float  # the damper's time over the stage's beta
@@ -63,6 +71,8 @@ class Damper(NamedTuple):
     ratio: float  # the stage's length over its beta
     rate: float  # 1/beta
     velocity_0: float
+    turning_0: float = 0.0  # end rate of phi, over the stage's length, if the hoop had not turned
+    pulls: bool = False
 
 
 UNDAMPED = Damper(0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
@@ -151,6 +161,20 @@ class Contact(NamedTuple):
 
 
 NOTHING = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, inf, 0.0)
+
+
+@jit
+def pulling(damper: Damper, pulls: bool) -> Damper:
+    """The same damper, which may pull on the floor or not.
+
+    Newton solves a stage with one that may: N is linear in N_el then, where the bound at 0 would leave a guess without
+    any force of the floor, and so without a hint of where it is. Only where the damper pulls in the solution the stage
+    is solved on with the bound; the solution then has N = 0, as inertia and N both grow with N_el.
+    """
+    return Damper(
+        damper.relaxation, damper.elastic_0, damper.eta_0, damper.drag, damper.way_0, damper.ratio, damper.rate,
+        damper.velocity_0, damper.turning_0, pulls,
+    )  # fmt: skip
 
 
 def no_bristles() -> Bristles:

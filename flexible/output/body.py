@@ -1,0 +1,93 @@
+"""How a hoop moves as a whole: mass centre, spin, and what of its kinetic energy is neither; its rim
+and the lowest point of that.
+
+The kinetic energy is a quadratic form of the rates, so momenta and inertias are differences of its values at rates
+that a rigid motion adds. That is exact, and the same for every level of the hoop.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import pi
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..contact.points.rim import gap_at, sideways, upward
+from ..models.select import Hoop
+from ..models.state import State
+
+Array = NDArray[np.float64]
+
+
+class Whole(NamedTuple):
+    """The hoop as a whole, R = m = g = 1. Kinetic energy is the sum of its three shares."""
+
+    velocity: tuple[float, float]
+    """Of the mass centre G, to the right and up."""
+    height: float
+    """Of G over the floor."""
+    spin: float
+    """Angular momentum about G over the moment of inertia about G, clockwise."""
+    translation: float
+    """Kinetic energy of the whole mass moving with G."""
+    rotation: float
+    """Of the bent hoop turning rigidly about G with the spin."""
+    vibration: float
+    """What is left; of all rigid motions this one leaves the least."""
+
+
+def whole(hoop: Hoop, state: State) -> Whole:
+    """Mass centre, spin and shares of the kinetic energy of a hoop in a state."""
+    right, up, turn = np.zeros((3, len(state.vel)))
+    right[0] = up[1] = turn[2] = 1.0
+    turn[0] = -1.0  # C stands: V = x_C - phi
+
+    def energy(rates: Array) -> float:
+        return float(hoop.energies(replace(state, vel=rates))[0])
+
+    def between(one: Array, two: Array) -> float:
+        return (energy(one + two) - energy(one - two)) / 2
+
+    mass = 2 * energy(right)
+    momentum = np.array([between(right, state.vel), between(up, state.vel)])
+    carried = np.array([between(right, turn), between(up, turn)])  # momentum of a unit turn about C
+    inertia = 2 * energy(turn) - float(carried @ carried) / mass
+    about = between(turn, state.vel) - float(carried @ momentum) / mass
+    moved, spun = float(momentum @ momentum) / (2 * mass), about**2 / (2 * inertia)
+    vx, vy = (momentum / mass).tolist()
+    height = 1 + float(state.pos[1]) + float(carried[0]) / mass
+    return Whole((vx, vy), height, about / inertia, moved, spun, energy(state.vel) - moved - spun)
+
+
+def outline(hoop: Hoop, state: State) -> Array:
+    """The rim's nodes in the world, (2 elements, 2), in R; x is 0 where the hoop's centre was at its release."""
+    angle, u_x, u_y = _rim(hoop, state)
+    x = state.x_C - np.sin(angle) + u_x
+    return np.column_stack([x, 1 + state.pos[1] - np.cos(angle) + u_y])
+
+
+def _rim(hoop: Hoop, state: State) -> tuple[Array, Array, Array]:
+    """Angles of the rim's nodes from the bottom, and their displacement to the right and up."""
+    count = len(hoop.vertex)
+    u1, u2 = hoop.displacement(state, (0, count))[: 2 * count].T
+    phi = float(state.pos[2])
+    s, c = np.sin(phi), np.cos(phi)
+    return phi + hoop.rim_angle(np.arange(2 * count)) - pi, sideways(u1, u2, s, c), upward(u1, u2, s, c)
+
+
+def lowest(hoop: Hoop, state: State) -> float:
+    """Height of the rim's lowest point over the floor, in R; below 0 where it is pressed in.
+
+    The parabola through the lowest node and its neighbours: of a circle it misses the depth by (angle between
+    nodes)^4/12, 2e-9 with 240 elements.
+    """
+    angle, _, u_y = _rim(hoop, state)
+    gap = gap_at(float(state.pos[1]), angle, u_y)
+    i = int(np.argmin(gap))
+    near = np.array([i - 1, i, i + 1]) % len(gap)
+    at = angle[near] - angle[i]
+    at -= 2 * pi * np.round(at / (2 * pi))
+    bend, slope, here = np.polyfit(at, gap[near], 2)
+    return float(here - slope**2 / (4 * bend)) if bend > 0 else float(gap[i])

@@ -1,0 +1,118 @@
+"""The implicit Runge-Kutta methods of a step: diagonally implicit, the first stage explicit, L-stable.
+
+
+All are of one form: stage i solves ``y_i = y_0 + h sum_j a_ij f_j`` with the same gamma = a_ii, the first stage is the
+end of the step before, and the last one is the step's result. What a step does not resolve, the ring's and the
+contact's own vibrations, they damp; so steps follow the motion and not the stiffness.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from math import sqrt
+
+import numpy as np
+from numpy.polynomial import Polynomial
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Method:
+    """A method by its table.
+
+    Parameters
+    ----------
+    name : str
+    a : rows of numbers
+        Of all stages, each up to its diagonal; the first has none.
+    companion : numbers
+        Weights of the method by which the error is estimated.
+    order : int
+    estimates : int
+        Power of h with which the estimate falls.
+    share : float
+        Tolerance of a step's error, over rtol to the power ``estimates``/``order``.
+    """
+
+    def __init__(
+        self, name: str, a: list[list[float]], companion: list[float], order: int, estimates: int, share: float
+    ) -> None:
+        stages = len(companion)
+        self.name, self.order, self.estimates, self._share = name, order, estimates, share
+        self.a = np.zeros((stages, stages))
+        for i, row in enumerate(a):
+            self.a[i, : len(row)] = row
+        self.b = self.a[-1]
+        self.c = self.a.sum(axis=1)
+        self.gamma = float(self.a[-1, -1])
+        self.error = self.b - np.array(companion)
+
+    def tolerance(self, rtol: float) -> float:
+        """What the error of one step's velocities may be for a motion with the tolerance ``rtol``."""
+        return float(self._share * rtol ** (self.estimates / self.order))
+
+    @cached_property
+    def _nodes(self) -> list[Polynomial]:
+        """Lagrange's polynomials of the stages, over a step."""
+        found = []
+        for i, c in enumerate(self.c):
+            others = np.delete(self.c, i)
+            node = Polynomial.fromroots(others)
+            found.append(node / node(c))
+        return found
+
+    @cached_property
+    def work(self) -> Array:
+        """(stages, stages) ``force @ work @ way`` is the work of a force along a way, polynomials through the stages.
+
+        Exact for a spring however long the step: a force linear in the way does the work of its ends.
+        """
+        forces, rates = self._nodes, [node.deriv() for node in self._nodes]
+        return np.array([[(f * r).integ()(1.0) for r in rates] for f in forces])
+
+    @cached_property
+    def end_rate(self) -> Array:
+        """(stages,) Rate at the end of a step of unit length of what is known at the stages."""
+        return np.array([node.deriv()(1.0) for node in self._nodes])
+
+
+def _tr_bdf2() -> Method:
+    """Bank et al. 1985; its companion is of third order (Hosea and Shampine 1996)."""
+    beta, w = 1 - sqrt(2) / 2, sqrt(2) / 4
+    a = [[], [beta, beta], [w, w, beta]]
+    return Method("tr-bdf2", a, [(1 - w) / 3, (3 * w + 1) / 3, beta / 3], 2, 3, 3.0)
+
+
+def _esdirk3() -> Method:
+    """ARK3(2)4L[2]SA's implicit half (Kennedy and Carpenter 2003); its companion is of second order."""
+    gamma = 1767732205903 / 4055673282236
+    third = [2746238789719 / 10658868560708, -640167445237 / 6845629431997, gamma]
+    last = [1471266399579 / 7840856788654, -4482444167858 / 7529755066697, 11266239266428 / 11593286722821, gamma]
+    companion = [
+        2756255671327 / 12835298489170, -10771552573575 / 22201958757719, 9247589265047 / 10645013368117,
+        2193209047091 / 5459859503100,
+    ]  # fmt: skip
+    return Method("esdirk3", [[], [gamma, gamma], third, last], companion, 3, 3, 0.1)
+
+
+def _esdirk4() -> Method:
+    """ARK4(3)6L[2]SA's implicit half (Kennedy and Carpenter 2003); its companion is of third order."""
+    last = [82889 / 524892, 0.0, 15625 / 83664, 69875 / 102672, -2260 / 8211, 0.25]
+    a = [
+        [],
+        [0.25, 0.25],
+        [8611 / 62500, -1743 / 31250, 0.25],
+        [5012029 / 34652500, -654441 / 2922500, 174375 / 388108, 0.25],
+        [15267082809 / 155376265600, -71443401 / 120774400, 730878875 / 902184768, 2285395 / 8070912, 0.25],
+        last,
+    ]
+    companion = [
+        4586570599 / 29645900160, 0.0, 178811875 / 945068544, 814220225 / 1159782912, -3700637 / 11593932,
+        61727 / 225920,
+    ]  # fmt: skip
+    return Method("esdirk4", a, companion, 4, 4, 0.3)
+
+
+TR_BDF2, ESDIRK3, ESDIRK4 = _tr_bdf2(), _esdirk3(), _esdirk4()
+METHODS = {method.name: method for method in (TR_BDF2, ESDIRK3, ESDIRK4)}

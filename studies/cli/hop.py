@@ -1,0 +1,186 @@
+"""`hoop study hop`: does an elastic hoop hop?"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rigid import Scene, SceneError, load_scene
+from rigid.elastic import LAWS
+
+from ..running.files import folder, to_json, write_text
+from .study import as_json, scheduler, workers
+
+if TYPE_CHECKING:
+    from ..hop.study import Asked, HopStudy
+
+
+@click.command()
+@click.argument("scene", default="paper-3.3-heavier")
+@as_json
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Write hop.json, figures, a film and report.html here; finished rolls are kept and found again.",
+)
+@click.option(
+    "--over",
+    multiple=True,
+    metavar="KEY=LOW:HIGH:COUNT",
+    help="Range of ring.bending_stiffness (0.5:1e4:24 by default), and of one key more (hoop.k, hoop.mass_ratio, "
+    "contact.stiffness, friction.mu, ...) for a map; evenly in the logarithm, evenly from 0. Or KEY=VALUE,VALUE,...",
+)
+@click.option(
+    "--bisections", type=click.IntRange(0, 30), default=4, metavar="N", help="Of each threshold, 4 by default."
+)
+@click.option(
+    "--rtol",
+    type=click.FloatRange(1e-8, 0.5),
+    metavar="T",
+    help="Tolerance of the rolls, 3e-3 by default; thresholds are held against a third of it.",
+)
+@click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
+@click.option(
+    "--level",
+    type=click.Choice(["auto", "reduced", "full", "exact", "chain"]),
+    help="Level of the ring, in place of the scene's.",
+)
+@workers
+@scheduler
+@click.pass_obj
+def hop(
+    line: str,
+    scene: str,
+    as_json: bool,
+    out: Path | None,
+    over: tuple[str, ...],
+    bisections: int,
+    rtol: float | None,
+    law: str | None,
+    level: str | None,
+    workers: int | None,
+    scheduler: str | None,
+) -> int:
+    """The paper's footnote: does the energy stored in hoop and floor make the hoop hop?
+
+    Hoops released at rest roll, flexible throughout, over a range of bending stiffness and one key more; every flight
+    is listed with where it begins, how high it goes and where its energy came from.
+    """
+    from ..hop.study import RTOL, hop_study
+    from ..running.progress import bar
+    from ..running.workers import pool
+
+    described = load_scene(scene)
+    if law is not None:
+        described = described.replace(contact={"law": law})
+    asked = asked_of(described, over, rtol=rtol or RTOL, bisections=bisections, level=level)
+    target = folder(out) if out is not None else None
+    say: Callable[[str], None] = (lambda sentence: None) if as_json else _say
+    say(f"{asked.count} rolls, and up to {3 * (bisections + 2)} more for each threshold line.")
+    with bar(f"{asked.count} rolls") as progress, pool(workers, scheduler) as place:
+        if scheduler is None:
+            _compile(asked)
+        found = hop_study(asked, pool=place, out=target, progress=progress, say=say)
+    if target is not None:
+        _write(found, target, line)
+    if as_json:
+        click.echo(to_json(found.to_dict()))
+    else:
+        from ..hop.summary import hop_sheets
+        from .tables import show
+
+        show(*hop_sheets(found))
+        if target is not None:
+            click.echo(f"Figures, film, table and report are in {target}; open {target / 'report.html'}.")
+    return 1 if found.unfinished else 0
+
+
+def _compile(asked: Asked) -> None:
+    """What the softest and the stiffest roll need that this machine does not have yet: one process for all workers."""
+    from flexible import simulate
+    from rigid import Run
+    from rigid.kernel.store import is_cold
+
+    if not is_cold("flexible"):
+        return
+    for stiffness in (min(asked.stiffness), max(asked.stiffness)):
+        simulate(asked.scenes[0].replace(ring={"bending_stiffness": stiffness}, run=Run(t_end=1e-3)))
+
+
+def parse_over(text: str) -> tuple[str, tuple[Any, ...]]:
+    """KEY=LOW:HIGH:COUNT or KEY=VALUE,VALUE,... as a key and its values.
+
+    A range runs evenly in the logarithm; from 0 it runs evenly.
+
+    Raises
+    ------
+    SceneError
+        One sentence on what is wrong.
+    """
+    import numpy as np
+
+    key, equals, values = text.partition("=")
+    key = key.strip()
+    wrong = SceneError(f"--over {text} is not possible: it is KEY=LOW:HIGH:COUNT or KEY=VALUE,VALUE,...")
+    if not equals or "." not in key:
+        raise wrong
+    try:
+        if ":" not in values:
+            return key, tuple(float(value) for value in values.split(","))
+        low, high, count = values.split(":")
+        first, last, number = float(low), float(high), int(count)
+    except ValueError:
+        raise wrong from None
+    if not (0 <= first < last < float("inf")) or not 2 <= number <= 10_000:
+        raise SceneError(f"--over {text} is not possible: a range runs upward from 0 or above, in 2 to 10000 values.")
+    run = np.linspace(first, last, number) if first == 0 else np.geomspace(first, last, number)
+    return key, tuple(run.tolist())
+
+
+def asked_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> Asked:
+    """The study that a command line asks for.
+
+    Raises
+    ------
+    SceneError
+        A key that no scene has, a value it cannot take, or more than one key besides the bending stiffness.
+    """
+    import numpy as np
+
+    from ..hop.study import DEFAULT, STIFFNESS, Asked
+
+    ranges = [parse_over(text) for text in over]
+    keys = [key for key, _ in ranges]
+    if len(set(keys)) < len(keys) or len(set(keys) - {STIFFNESS}) > 1:
+        raise SceneError(f"--over takes {STIFFNESS} and one key more, each once: it was given {', '.join(keys)}.")
+    stiffness = dict(ranges).get(STIFFNESS, tuple(np.geomspace(*DEFAULT).tolist()))
+    other = next(((key, values) for key, values in ranges if key != STIFFNESS), (None, (None,)))
+    for value in stiffness:
+        scene.replace(ring={"bending_stiffness": value})
+    return Asked(scene, stiffness, other[0], other[1], **settings)
+
+
+def _write(found: HopStudy, target: Path, line: str) -> None:
+    from ..hop.figures import chosen, of_hop
+    from ..hop.film import film
+    from ..hop.report import hop_report
+    from ..plots.style import save
+    from ..running.progress import bar
+
+    write_text(target / "hop.json", to_json(found.to_dict()))
+    with bar("figures, film and report") as progress:
+        drawn = chosen(found)
+        progress(0.3)
+        images = {name: save(figure, target / f"{name}.png") for name, figure in of_hop(found, drawn).items()}
+        progress(0.5)
+        if drawn is not None:
+            images["hop"] = film(drawn, target / "hop.gif")
+        hop_report(found, images, line, target / "report.html")
+
+
+def _say(sentence: str) -> None:
+    click.echo(f"hoop: {sentence}", err=True)

@@ -1,0 +1,272 @@
+"""The figures of a hop study: the map, one hop's energies, the ring as it leaves the floor."""
+
+from __future__ import annotations
+
+from math import degrees, sin
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PathCollection
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+from matplotlib.patches import Circle
+from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+
+from flexible.models.state import State
+from flexible.output.body import lowest, outline, whole
+from rigid import Scene
+
+from ..plots.style import OKABE_ITO, RIGID, STYLE, blank
+from .energies import Roll
+from .roll import roll, spans, steps_of
+from .study import HopCase, HopStudy, Line
+from .summary import SYMBOL
+
+HEIGHTS = (1e-4, 1e-1)
+"""Of a hop over R, between which colours run."""
+
+AROUND = 1.5
+"""Of a hop's duration is shown before and after it, and no less than ``LEAST``."""
+LEAST = 0.25
+
+
+class Chosen:
+    """A hop that is drawn, rolled once more with its steps kept."""
+
+    def __init__(self, case: HopCase, number: int) -> None:
+        self.case, self.hop = case, case.hops[number]
+        motion = roll(case.scene, history=True)
+        self.steps: Roll = steps_of(motion)
+        self.unit = case.scene.time_unit
+        start = self.hop["t"] / self.unit
+        flying = spans(self.steps.history.normal_force == 0)
+        t = self.steps.history.t
+        self.first, self.last = min(flying, key=lambda span: abs(t[span[0]] - start))
+        margin = max(AROUND * (t[self.last] - t[self.first]), LEAST)
+        shown = np.flatnonzero((t >= t[self.first] - margin) & (t <= t[self.last] + margin))
+        self.shown = range(int(shown[0]), int(shown[-1]) + 1)
+
+    @property
+    def title(self) -> str:
+        """Which hop it is."""
+        scene = self.case.scene
+        return (
+            f"{SYMBOL} = {self.case.bending_stiffness:.3g}, k = {scene.hoop.k:g}, m_h/m = {scene.hoop.mass_ratio:g}: "
+            f"lift-off at φ = {degrees(self.hop['phi']):.0f}°"
+        )
+
+
+def chosen(study: HopStudy) -> Chosen | None:
+    """The highest hop of a first pulse, or of all where none begins there; None without any."""
+    best: tuple[bool, float] = (False, 0.0)
+    found: tuple[HopCase, int] | None = None
+    for line in study.lines:
+        window = line.windows.get("pulse")
+        for case in (*line.mapped, *line.between):
+            for number, hop in enumerate(case.hops):
+                inside = window is not None and window.low <= hop["swept"] <= window.high
+                if (inside, hop["height"]) > best:
+                    best, found = (inside, hop["height"]), (case, number)
+    return None if found is None else Chosen(*found)
+
+
+def hop_map(study: HopStudy) -> Figure:
+    """Where each hop begins and how high it goes, over the bending stiffness; one panel to a line."""
+    with matplotlib.rc_context(STYLE):
+        shown = study.lines if len(study.lines) <= 6 else study.lines[:: -(-len(study.lines) // 6)]
+        figure = blank(4.2 * min(len(shown), 3) + 1.2, 3.6 * -(-len(shown) // 3))
+        grid = figure.subplots(-(-len(shown) // 3), min(len(shown), 3), squeeze=False, sharex=True, sharey=True)
+        dots = None
+        for axes, line in zip(grid.ravel(), shown, strict=False):
+            dots = _line(axes, study, line) or dots
+        for axes in grid.ravel()[len(shown) :]:
+            axes.set_visible(False)
+        for axes in grid[:, 0]:
+            axes.set_ylabel("φ at lift-off [°]")
+        for axes in grid[-1]:
+            axes.set_xlabel(SYMBOL)
+        if dots is not None:
+            figure.colorbar(dots, ax=grid, label="height over R")
+        return figure
+
+
+def _line(axes: Axes, study: HopStudy, line: Line) -> PathCollection | None:
+    cases = (*line.mapped, *line.between)
+    R = study.scene.hoop.R
+    points = np.array(
+        [(c.bending_stiffness, degrees(hop["phi"]), hop["height"] / R) for c in cases for hop in c.hops]
+    ).reshape(-1, 3)
+    for where, shade in (("pulse", "0.93"), ("bottom", "0.82")):
+        if (window := line.windows.get(where)) is not None:
+            down = 1 if sin(line.scene.release.phi0) >= 0 else -1
+            low, high = (degrees(line.scene.release.phi0 + down * x) for x in (window.low, window.high))
+            axes.axhspan(low, high, color=shade, zorder=0)
+    dots = axes.scatter(
+        points[:, 0], points[:, 1], c=np.clip(points[:, 2], *HEIGHTS), norm=LogNorm(*HEIGHTS), cmap="viridis_r", s=16,
+        zorder=3,
+    )  # fmt: skip
+    stopped = [(c.bending_stiffness, degrees(line.scene.release.phi0 + c.motion["swept"])) for c in cases
+               if not c.motion["completed"]]  # fmt: skip
+    if stopped:
+        axes.plot(*np.array(stopped).T, "x", color="0.5", markersize=5, label="stopped early")
+        axes.legend(loc="lower right")
+    hoop = line.scene.hoop
+    name = f"k = {hoop.k:.3g}, m_h/m = {hoop.mass_ratio:.3g}"
+    if study.second not in (None, "hoop.k", "hoop.mass_ratio"):
+        name += f"\n{study.second} = {line.value:.3g}"
+    stiffness = [case.bending_stiffness for case in cases]
+    axes.set(xscale="log", title=name, ylim=(0, 360), yticks=range(0, 361, 90),
+             xlim=(min(stiffness) / 1.2, max(stiffness) * 1.2))  # fmt: skip
+    _in_plain_numbers(axes)
+    return dots if len(points) else None
+
+
+def _in_plain_numbers(axes: Axes) -> None:
+    """Ticks of a logarithmic axis of stiffness: 1, 3, 10, 30, ..."""
+    axes.xaxis.set_major_locator(FixedLocator([m * 10.0**n for n in range(-12, 13) for m in (1, 3)]))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_locator(NullLocator())
+
+
+def height_map(study: HopStudy) -> Figure | None:
+    """Height of the highest hop over bending stiffness and the second key, with the thresholds."""
+    if study.second is None:
+        return None
+    with matplotlib.rc_context(STYLE):
+        figure = blank(8.4, 5.0)
+        axes = figure.subplots()
+        values = np.array([line.value for line in study.lines], dtype=float)
+        stiffness = np.array([case.bending_stiffness for case in study.lines[0].mapped])
+        R = study.scene.hoop.R
+        heights = np.array([[_height(case, R) for case in line.mapped] for line in study.lines])
+        even = values.min() > 0 and len(values) > 2
+        axes.set(xscale="log", yscale="log" if even else "linear", xlabel=SYMBOL, ylabel=study.second)
+        painted = axes.pcolormesh(
+            stiffness, values, np.where(heights > 0, np.clip(heights, *HEIGHTS), np.nan), norm=LogNorm(*HEIGHTS),
+            cmap="viridis_r", shading="nearest",
+        )  # fmt: skip
+        for line in study.lines:
+            for case in line.mapped:
+                if not case.motion["completed"]:
+                    axes.plot(case.bending_stiffness, line.value, "x", color="0.3", markersize=4)
+        for where, style in (("anywhere", "-"), ("pulse", "--"), ("bottom", ":")):
+            known = [(line.threshold(where).value, line.value) for line in study.lines if where in line.windows]
+            known = [pair for pair in known if pair[0] is not None]
+            if known:
+                axes.plot(*np.array(known).T, style, color=OKABE_ITO["friction_loss"], marker="o", ms=4,
+                          label=f"hops below: {where}")  # fmt: skip
+        if study.second == "hoop.k":
+            axes.plot(1.3 / values, values, color=RIGID, lw=1, label="1.3/k: the wall gives way")
+        axes.set_xlim(stiffness.min() / 1.25, stiffness.max() * 1.25)
+        axes.legend(loc="upper right", frameon=True)
+        axes.set_yticks(values, [f"{value:g}" for value in values])
+        axes.minorticks_off()
+        _in_plain_numbers(axes)
+        axes.grid(False)
+        figure.colorbar(painted, ax=axes, label="height of the highest hop over R (white: none)")
+        return figure
+
+
+def _height(case: HopCase, R: float) -> float:
+    return np.nan if case.height is None else case.height / R
+
+
+def energies_figure(found: Chosen) -> Figure:
+    """What is stored, what vibrates, what is lost, through one hop; below the height of the rim and N."""
+    steps, history = found.steps, found.steps.history
+    index = np.array(found.shown)
+    t = history.t[index] - history.t[found.first]
+    shares = [whole(steps.hoop, steps.states[i]) for i in index]
+    lost = history.friction_loss + history.damping_loss
+    curves = {
+        "ring_strain": ("strain of the ring", history.ring_strain[index]),
+        "contact_spring": ("springs of the floor", history.contact_spring[index]),
+        "kinetic": ("kinetic energy of vibration", np.array([share.vibration for share in shares])),
+        "friction_loss": ("lost to friction and damper", lost[index] - lost[index[0]]),
+    }
+    with matplotlib.rc_context(STYLE):
+        figure = blank(8.0, 7.4)
+        stored, gap, force = figure.subplots(3, 1, sharex=True, height_ratios=[3, 2, 2])
+        for axes in (stored, gap, force):
+            axes.axvspan(0, history.t[found.last] - history.t[found.first], color="0.94", zorder=0)
+        for name, (words, values) in curves.items():
+            stored.plot(t, values, color=OKABE_ITO[name], label=words)
+        stored.set(ylabel="energy$/(mgR)$", ylim=(0, None), title=found.title)
+        stored.legend()
+        gap.plot(t, [lowest(steps.hoop, steps.states[i]) for i in index], color=OKABE_ITO["gravity"])
+        gap.set_ylabel("lowest point of\nthe rim over R")
+        force.plot(t, history.normal_force[index], color=RIGID)
+        force.set(ylabel="$N/(mg)$", xlabel=r"time since lift-off $t/\sqrt{R/g}$", ylim=(0, None))
+        return figure
+
+
+def liftoff_figure(found: Chosen) -> Figure:
+    """The ring as it leaves the floor, over the circle it would be undeformed; beside it the wall at the floor."""
+    with matplotlib.rc_context(STYLE):
+        figure = blank(10.0, 5.2)
+        left, right = figure.subplots(1, 2, width_ratios=[1, 1])
+        draw_hoop(left, found.case.scene, found.steps, found.first)
+        left.set(title=found.title, xlabel="x/R", ylabel="y/R")
+        instants = {
+            "last step on the floor": (found.first - 1, "0.6"),
+            "in the middle of the hop": ((found.first + found.last) // 2, OKABE_ITO["kinetic"]),
+            "last step in the air": (found.last, OKABE_ITO["friction_loss"]),
+        }
+        touched = []
+        for words, (i, colour) in instants.items():
+            rim = _closed(outline(found.steps.hoop, found.steps.states[i]))
+            x = float(rim[int(np.argmin(rim[:, 1])), 0])
+            touched.append(x)
+            near = np.abs(rim[:, 0] - x) < 0.5
+            right.plot(*np.where(near[:, None], rim, np.nan).T, color=colour, label=words)
+        right.axhline(0, color=RIGID, lw=1)
+        top = max(3 * found.hop["height"] / found.case.scene.hoop.R, 2e-3)
+        right.set(xlim=(min(touched) - 0.3, max(touched) + 0.3), ylim=(-0.15 * top, top))
+        right.set(title="the rim over the floor, enlarged", xlabel="x/R", ylabel="y/R")
+        figure.legend(*right.get_legend_handles_labels(), loc="outside lower right", ncols=3)
+        return figure
+
+
+class Drawn:
+    """Ring, disk and floor in a picture."""
+
+    def __init__(self, axes: Axes, scene: Scene, steps: Roll) -> None:
+        self.axes, self.hoop = axes, steps.hoop
+        self.reach = (1 - scene.hoop.k) / scene.hoop.r
+        self.circle = Circle((0, 1), 1.0, fill=False, ec="0.75", ls="--", lw=1)
+        self.disk = Circle((0, 1), max(scene.hoop.k / scene.hoop.r, 0.01), color="0.35")
+        axes.add_patch(self.circle)
+        axes.add_patch(self.disk)
+        (self.ring,) = axes.plot([], [], color=OKABE_ITO["ring_strain"], lw=2)
+        axes.axhline(0, color=RIGID, lw=1)
+
+    def move(self, state: State) -> None:
+        """To where the hoop is in a state."""
+        phi, x_C, y_C = float(state.pos[2]), state.x_C, 1 + float(state.pos[1])
+        self.circle.center = x_C, y_C
+        self.disk.center = x_C + self.reach * np.sin(phi), y_C + self.reach * np.cos(phi)
+        self.ring.set_data(*_closed(outline(self.hoop, state)).T)
+        self.axes.set(xlim=(x_C - 1.3, x_C + 1.3), ylim=(-0.15, 2.3), aspect="equal")
+
+
+def draw_hoop(axes: Axes, scene: Scene, steps: Roll, i: int) -> Drawn:
+    """Ring, disk and floor at a step."""
+    drawn = Drawn(axes, scene, steps)
+    drawn.move(steps.states[i])
+    return drawn
+
+
+def _closed(points: np.ndarray) -> np.ndarray:
+    return np.concatenate([points, points[:1]])
+
+
+def of_hop(study: HopStudy, found: Chosen | None) -> dict[str, Figure]:
+    """All figures by name."""
+    drawn = {"map": height_map(study), "where": hop_map(study)}
+    if found is not None:
+        drawn |= {"energies": energies_figure(found), "liftoff": liftoff_figure(found)}
+    return {name: figure for name, figure in drawn.items() if figure is not None}
+
+
+__all__ = ["Chosen", "chosen", "draw_hoop", "of_hop"]

@@ -1,0 +1,65 @@
+"""The map as one page: report.html, which needs no network and no file beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from ..plots.page import write_page
+from ..plots.sheet import Sheet
+from .study import HopStudy
+from .summary import (
+    answer,
+    case_sheet,
+    rule_sentence,
+    scaling_sentence,
+    threshold_sheet,
+    unfinished_sentences,
+    verdict,
+)
+
+CAPTIONS = {
+    "map": """\
+Height of the highest hop between release and end, over the bending stiffness and the second key; white: no hop.
+Lines: the bending stiffness below which the hoop leaves the floor anywhere, within its first pulse, and under the disk.
+A cross marks a roll that stopped before its end.""",
+    "where": """\
+Where each hop begins and how high it goes. Light band: the first pulse, the angles at which the rigid hoop's N exceeds
+the weight; dark: the contact is under the disk. A cross marks how far a roll came that stopped before its end.""",
+    "energies": """\
+One hop: what ring and floor store, what vibrates (kinetic energy beyond that of a rigid motion), what is lost since the
+picture begins; the lowest point of the rim over the floor, and N. Shaded: off the floor.""",
+    "liftoff": """\
+The ring at the first step off the floor, over the circle it would be undeformed, not exaggerated; on the right the rim
+over the floor, heights enlarged.""",
+    "hop": "The same hop, moving.",
+}
+
+FOUND = """\
+<ul>{% for sentence in lines %}<li>{{ sentence }}</li>{% endfor %}</ul>
+{% for sentence in sentences %}<p>{{ sentence }}</p>
+{% endfor %}{{ pictures(figures) }}
+{% for sheet in sheets %}
+<h2>{{ sheet.title }}</h2>
+{{ table(sheet.heads, sheet.rows) }}
+{% endfor %}
+"""
+
+
+def hop_report(study: HopStudy, images: Mapping[str, Path], command: str, path: Path) -> Path:
+    """Write the page of a hop study, whole or not at all."""
+    told = {
+        "title": "Does an elastic hoop hop?",
+        "verdict": answer(study),
+        "lines": verdict(study),
+        "sentences": [*scaling_sentence(study), rule_sentence(study), *unfinished_sentences(study)],
+        "sheets": [_rows(threshold_sheet(study)), _rows(case_sheet(study))],
+        "images": {name: (CAPTIONS.get(name, name), file) for name, file in images.items()},
+    }
+    return write_page(FOUND, path, study.scene, command, told)
+
+
+def _rows(sheet: Sheet) -> dict[str, object]:
+    columns = [*sheet.keys, *sheet.columns]
+    rows = list(zip(*(column.cells for column in columns), strict=True))
+    return {"title": sheet.title, "heads": [column.heading for column in columns], "rows": rows}

@@ -1,0 +1,187 @@
+"""One roll of the flexible hoop from rest, and every time that it is off the floor.
+
+:func:`roll` is a solver as studies take them (:mod:`studies.running.solvers`).
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from math import pi, sin, sqrt
+from typing import Any
+
+import numpy as np
+
+from flexible import FlexibleMotion, History, simulate
+from flexible.output.body import lowest
+from rigid import Run, Scene
+from rigid import simulate as rigid_motion
+
+from ..running.files import StudyError
+from .energies import HopEnergies, Roll, hop_energies
+from .rule import DECADE, Scales, scales_of
+
+SOLVER = f"{__name__}:roll"
+"""The name under which cases call it."""
+
+MOST_STEPS = 5000
+"""After which a roll is stopped, some 10 s: a soft hoop that bounces without end takes more in each swing. The bound is
+on steps and not on seconds, so that a case comes out the same on a busy machine."""
+
+
+@dataclass(frozen=True, slots=True)
+class Flight:
+    """A time without contact, in the units of the scene."""
+
+    t: float
+    """Lift-off: the rim's lowest point passes the floor."""
+    phi: float
+    """Where the disk is then."""
+    duration: float
+    """Until it passes it again, or to the end of the motion."""
+    height: float
+    """Of the rim's lowest point, the largest on the way."""
+    prominence: float
+    """See :meth:`studies.hop.rule.Scales.prominence`."""
+    swept: float
+    """The largest angle that the disk has come down from its release by then: tells the first pass of the bottom."""
+    energies: HopEnergies | None = None
+    """Of flights that may count as a hop."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RollingMotion(FlexibleMotion):
+    """A flexible motion with its flights."""
+
+    flights: tuple[Flight, ...] = ()
+    scales: Scales = field(default_factory=lambda: Scales(0.0, 0.0, 0.0))
+    """In R and sqrt(R/g)."""
+    swept: float = 0.0
+    """The largest angle that the disk comes down from its release."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """What a study keeps; phases of a chattering patch may be thousands and are left out."""
+        told = FlexibleMotion.to_dict(self)
+        return {
+            **{name: told[name] for name in ("scene", "ended", "completed", "energy_ledger", "steps")},
+            "t_end": self.t_end,
+            "swept": self.swept,
+            "scales": {
+                "depth": self.scales.depth * self.scene.hoop.R,
+                "sag": self.scales.sag * self.scene.hoop.R,
+                "period": self.scales.period * self.scene.time_unit,
+            },
+            "flights": [dataclasses.asdict(flight) for flight in self.flights],
+        }
+
+
+def from_rest(scene: Scene) -> Scene:
+    """The scene as a roll runs it: flexible throughout, from equilibrium, for as long as the rigid hoop is run.
+
+    The end is a time: the disk of a soft hoop rocks, and every reversal of its rotation is a turn.
+
+    Raises
+    ------
+    StudyError
+        It does not begin at rest.
+    """
+    release = scene.release
+    if release.omega0 or release.slip0:
+        raise StudyError("A hop is asked of a hoop released at rest: release.omega0 and release.slip0 must be 0.")
+    end = rigid_motion(scene.replace(run=Run(until="pulse"))) if scene.run.until == "rest" else rigid_motion(scene)
+    return scene.replace(run=Run(t_end=end.t_end), solve={"resolve": "all", "start": "equilibrium"})
+
+
+def roll(scene: Scene, *, history: bool = False, progress: Callable[[float], None] | None = None) -> RollingMotion:
+    """Roll the hoop of a scene; with ``history`` its steps and states are kept."""
+    motion = simulate(scene, history=True, progress=progress, most_steps=MOST_STEPS)
+    values = {entry.name: getattr(motion, entry.name) for entry in dataclasses.fields(FlexibleMotion)}
+    found = RollingMotion(**values) if not motion.kept else _with_flights(values, steps_of(motion))
+    return found if history else dataclasses.replace(found, history=None, kept=())
+
+
+def steps_of(motion: FlexibleMotion) -> Roll:
+    """The steps of a flexible motion as one run, in the solver's units."""
+    history = motion.history
+    assert history is not None
+    scene = motion.scene
+    units = {
+        **dict.fromkeys(("t",), scene.time_unit),
+        **dict.fromkeys(("normal_force", "friction_force"), scene.force_unit),
+        **dict.fromkeys(("x_C", "y_C"), scene.hoop.R),
+        **dict.fromkeys(
+            ("kinetic", "gravity", "ring_strain", "contact_spring", *_TOTALS),
+            scene.energy_unit,
+        ),
+    }
+    columns = {}
+    lengths = [len(kept.states) for kept in motion.kept]
+    for entry in dataclasses.fields(History):
+        column = getattr(history, entry.name) / units.get(entry.name, 1.0)
+        if entry.name in _TOTALS:  # of each swing: from the beginning on
+            swings = np.split(column, np.cumsum(lengths)[:-1])
+            carried = np.concatenate([[0.0], np.cumsum([swing[-1] for swing in swings])])
+            column = np.concatenate([swing + before for swing, before in zip(swings, carried, strict=False)])
+        columns[entry.name] = column
+    states = [state for kept in motion.kept for state in kept.states]
+    return Roll(motion.kept[0].hoop, states, History(**columns))
+
+
+_TOTALS = ("friction_loss", "damping_loss", "numerical_loss")
+
+
+def _with_flights(values: dict[str, Any], steps: Roll) -> RollingMotion:
+    scene: Scene = values["scene"]
+    history = steps.history
+    scales = scales_of(steps.hoop.scene, max(1 - float(history.y_C[0]), 0.0))
+    slow = max(scales.period, 2 * pi * sqrt(scales.sag))  # of the ring, or of the hoop on it
+    down = 1.0 if sin(scene.release.phi0) >= 0 else -1.0
+    swept = np.maximum.accumulate(down * (history.phi - history.phi[0]))
+    flights = []
+    for first, last in spans(history.normal_force == 0):
+        found = _flight(steps, first, last, scales)
+        if found.prominence >= DECADE[0] and first > 0:
+            energies = hop_energies(steps, first, last, slow)
+            found = dataclasses.replace(found, energies=_scaled(energies, scene.energy_unit))
+        flights.append(
+            dataclasses.replace(
+                found,
+                t=found.t * scene.time_unit,
+                duration=found.duration * scene.time_unit,
+                height=found.height * scene.hoop.R,
+                swept=float(swept[first]),
+            )
+        )
+    return RollingMotion(**values, flights=tuple(flights), scales=scales, swept=float(swept[-1]))
+
+
+def spans(off: np.ndarray) -> list[tuple[int, int]]:
+    """First and last of every run of true entries."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], off, [False]]).astype(int)))
+    return [(int(first), int(end) - 1) for first, end in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _flight(steps: Roll, first: int, last: int, scales: Scales) -> Flight:
+    """The flight of the steps ``first`` to ``last``, in the solver's units; its ends are where the gap passes 0."""
+    t, phi = steps.history.t, steps.history.phi
+    around = range(max(first - 1, 0), min(last + 1, len(t) - 1) + 1)
+    gap = {i: lowest(steps.hoop, steps.states[i]) for i in around}
+    up = _passes(gap, first - 1, first) if first - 1 in gap else 0.0
+    down = _passes(gap, last + 1, last) if last + 1 in gap and last + 1 != last else 0.0
+    start = t[first] - up * (t[first] - t[max(first - 1, 0)])
+    end = t[last] + down * (t[min(last + 1, len(t) - 1)] - t[last])
+    angle = phi[first] - up * (phi[first] - phi[max(first - 1, 0)])
+    height = max(max(gap.values()), 0.0)
+    duration = max(float(end - start), 0.0)
+    return Flight(float(start), float(angle), duration, height, scales.prominence(height, duration), 0.0)
+
+
+def _passes(gap: dict[int, float], on: int, off: int) -> float:
+    """Share of the step between an instant on the floor and one off it that lies off it."""
+    rise = gap[off] - gap[on]
+    return min(max(gap[off] / rise, 0.0), 1.0) if rise > 0 else 0.0
+
+
+def _scaled(energies: HopEnergies, unit: float) -> HopEnergies:
+    return HopEnergies(**{name: value * unit for name, value in dataclasses.asdict(energies).items()})

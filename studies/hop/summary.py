@@ -1,0 +1,210 @@
+"""What is told of the map, in sentences and rows; the screen and the page print the same."""
+
+from __future__ import annotations
+
+from math import degrees, isfinite
+from typing import Any
+
+from ..plots.sheet import Column, Sheet, number
+from .rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG
+from .study import HopCase, HopStudy, Line, rigid_hops
+from .threshold import Bracket
+
+SYMBOL = "E I/(m g R²)"
+
+PLACES = {
+    "anywhere": "leaves the floor anywhere",
+    "pulse": "hops within its first pulse",
+    "bottom": "hops at φ = π, the contact under the disk",
+}
+
+
+def ends(found: Bracket, digits: int = 3) -> str:
+    """A threshold in words."""
+    if found.low == 0:
+        return f"at none from {number(found.high, digits)} on" if isfinite(found.high) else "undecided"
+    if not isfinite(found.high):
+        return f"still at {number(found.low, digits)}"
+    return f"{number(found.low, digits)} to {number(found.high, digits)}"
+
+
+def answer(study: HopStudy) -> str:
+    """The answer in one sentence."""
+    if not any(case.hops for case in study.cases):
+        return "No: released at rest, none of these elastic hoops was seen to hop."
+    said = []
+    for where, words in PLACES.items():
+        found = [line.threshold(where) for line in study.lines if where in line.windows]
+        values = [value for value in (bracket.value for bracket in found) if value is not None]
+        above = [bracket.low for bracket in found if bracket.low > 0 and bracket.value is None]
+        ends = sorted({number(value, 3) for value in values}, key=float)
+        least = [*ends[:1], *ends[1:][-1:], *(f"more than {number(value, 3)}" for value in above)]
+        if least:
+            said.append(f"{words} below {' to '.join(least)}")
+    over = f", by {study.second}" if study.second is not None else ""
+    return f"Yes: released at rest, an elastic hoop {', it '.join(said)}; all of {SYMBOL}{over}."
+
+
+def verdict(study: HopStudy) -> list[str]:
+    """The answer, a sentence for each line of the map."""
+    return [_line_verdict(study, line) for line in study.lines]
+
+
+def _line_verdict(study: HopStudy, line: Line) -> str:
+    hoop = line.scene.hoop
+    name = f"k = {hoop.k:g}, m_h/m = {hoop.mass_ratio:g}"
+    if study.second not in (None, "hoop.k", "hoop.mass_ratio"):
+        name += f", {study.second} = {line.value:g}"
+    hopping = [case for case in (*line.mapped, *line.between) if case.hops]
+    if not hopping:
+        undecided = any(not case.motion["completed"] for case in line.mapped)
+        return f"{name}: no hop was seen{', but some rolls stopped early' if undecided else ''}."
+    first = max(hopping, key=lambda case: case.bending_stiffness).hops[0]
+    everywhere = _below(line.threshold("anywhere"))
+    said = [
+        f"{name}: yes, released at rest it {PLACES['anywhere']} where {SYMBOL} is {everywhere}, "
+        f"first at φ = {degrees(first['phi']):.0f}°"
+    ]
+    for where in ("pulse", "bottom"):
+        if where in line.windows:
+            found = line.threshold(where)
+            none = f"nowhere from {number(found.high, 3)} on" if isfinite(found.high) else "at none that came so far"
+            below = f"where that is {_below(found)}" if found.low else none
+            said.append(f"it {PLACES[where]} {below}")
+    return "; ".join(said) + "."
+
+
+def _below(found: Bracket) -> str:
+    if found.value is None:
+        return f"{number(found.low, 3)} or less, the stiffest that was rolled"
+    half = (found.high - found.low) / 2
+    told = f"below {number(found.value, 3)} ± {number(half, 2)}"
+    return told + (f" ({found.open} undecided in between)" if found.open else "")
+
+
+def rule_sentence(study: HopStudy) -> str:
+    """What counts as a hop, and that the rigid hoop has none."""
+    flights = sum(rigid_hops(line.scene) for line in study.lines)
+    beside = "never leaves the floor" if flights == 0 else f"leaves the floor {flights} times"
+    return (
+        f"A flight is a hop, and not chatter, if the rim's lowest point rises over {HEIGHT_OVER_DEPTH:g} times the "
+        f"depth to which the floor gives way under the weight and over {HEIGHT_OVER_SAG:g} of the sag at rest, for "
+        f"longer than {DURATION_OVER_PERIOD:g} of the ring's slowest period. The rigid hoop {beside}."
+    )
+
+
+def unfinished_sentences(study: HopStudy) -> list[str]:
+    """How many rolls stopped early, and why the first of them did."""
+    stopped = study.unfinished
+    if not stopped:
+        return []
+    first = stopped[0]
+    why = (first.outcome.failure or first.outcome.ended).rstrip(".")
+    return [
+        f"{len(stopped)} of {len(study.cases)} rolls stopped before their end; what they did until then counts. "
+        f"At {SYMBOL} = {number(first.bending_stiffness, 3)}: {why}."
+    ]
+
+
+def threshold_sheet(study: HopStudy) -> Sheet:
+    """Thresholds line by line, and between which values they move over a decade of the rule's constants."""
+    keys = []
+    if study.second is not None:
+        keys = [Column(study.second.replace(".", ".\n"), [number(line.value) for line in study.lines])]
+    keys = keys or [Column("scene", [f"k = {line.scene.hoop.k:g}" for line in study.lines], words=True)]
+    columns = []
+    for where in PLACES:
+        lines = [line if where in line.windows else None for line in study.lines]
+        columns += [
+            Column(f"{where}\n", ["-" if line is None else ends(line.threshold(where)) for line in lines]),
+            Column("rule over\na decade", ["-" if line is None else _span(line, where) for line in lines], joined=True),
+            Column("rtol/3\nagrees", ["-" if line is None else _yes(line.holds(where)) for line in lines], joined=True),
+        ]
+    return Sheet(f"{SYMBOL} below which the hoop hops (hops at the first, not at the second)", keys, columns)
+
+
+def _span(line: Line, where: str) -> str:
+    found = [line.threshold(where, factor) for factor in reversed(DECADE)]
+    told = [_middle(bracket) for bracket in found]
+    return " to ".join(told)
+
+
+def _middle(found: Bracket) -> str:
+    if found.value is not None:
+        return number(found.value, 3)
+    return "none" if found.low == 0 else f">{number(found.low, 3)}"
+
+
+def _yes(holds: bool | None) -> str:
+    return "-" if holds is None else "yes" if holds else "no"
+
+
+def case_sheet(study: HopStudy) -> Sheet:
+    """Each roll with its first hop and the highest one."""
+    cases = study.cases
+    time, length, energy = _units(study)
+    firsts = [case.hops[0] if case.hops else None for case in cases]
+    keys = [Column(f"{SYMBOL}\n", [number(case.bending_stiffness, 4) for case in cases])]
+    if study.second is not None:
+        values = [line.value for line in study.lines for _ in (*line.mapped, *line.between)]
+        keys.append(Column(study.second.replace(".", ".\n"), [number(value) for value in values]))
+    columns = [
+        Column("hops", [str(len(case.hops)) for case in cases]),
+        Column("chatter", [str(case.chatter) for case in cases]),
+        Column("first at\nphi [deg]", ["-" if hop is None else f"{degrees(hop['phi']):.1f}" for hop in firsts]),
+        Column(f"its height\n[{length}]", ["-" if hop is None else number(hop["height"], 3) for hop in firsts]),
+        Column(f"duration\n[{time}]", ["-" if hop is None else number(hop["duration"], 3) for hop in firsts]),
+        Column(f"stored\n[{energy}]", [_share(hop, "stored_in_ring", "stored_in_floor") for hop in firsts]),
+        Column("of which to\nthe whole", [_share(hop, "mass_centre", "rolling") for hop in firsts]),
+        Column("vibration\nat lift-off", [_share(hop, "vibration") for hop in firsts]),
+        Column("friction\nand damper", [_share(hop, "friction", "damping") for hop in firsts]),
+        Column("landing", [_share(hop, "landing") for hop in firsts]),
+        Column(f"highest\n[{length}]", [number(case.height, 3) for case in cases]),
+        Column("whole\nroll", ["yes" if case.motion["completed"] else "no" for case in cases]),
+    ]
+    return Sheet("Rolls from rest, softest first", keys, columns)
+
+
+def _share(hop: dict[str, Any] | None, *names: str) -> str:
+    if hop is None or hop["energies"] is None:
+        return "-"
+    return number(sum(hop["energies"][name] for name in names), 3)
+
+
+def _units(study: HopStudy) -> tuple[str, str, str]:
+    from ..running.measures import Unit
+
+    time, energy = (unit.label(study.scene) for unit in (Unit.TIME, Unit.ENERGY))
+    return time, "R" if study.scene.hoop.R == 1 else "m", energy
+
+
+def scaling_sentence(study: HopStudy) -> list[str]:
+    """The power of k with which the thresholds fall, where the map is over k."""
+    if study.second != "hoop.k":
+        return []
+    import numpy as np
+
+    said = []
+    for where in PLACES:
+        found = [(line.value, line.threshold(where).value) for line in study.lines if where in line.windows]
+        known = np.array([(k, value) for k, value in found if value is not None])
+        if len(known) < 3:
+            continue
+        k, value = np.log(known).T
+        power, constant = np.polyfit(k, value, 1)
+        scatter = float(np.exp(np.abs(value - power * k - constant).max()))
+        said.append(f"{where}: {np.exp(constant):.3g} k^{power:.2f} (within a factor {scatter:.2f})")
+    if not said:
+        return []
+    return [f"Over k the threshold goes like: {'; '.join(said)}. The wall gives way inside the pulse below 1.3/k."]
+
+
+def hop_sheets(study: HopStudy) -> list[Any]:
+    """All of it, as the screen shows it."""
+    return [
+        answer(study), *verdict(study), *scaling_sentence(study), rule_sentence(study), threshold_sheet(study),
+        case_sheet(study), *unfinished_sentences(study),
+    ]  # fmt: skip
+
+
+__all__ = ["HopCase", "answer", "hop_sheets", "verdict"]

@@ -1,0 +1,93 @@
+"""The bending stiffness below which a hoop hops: between neighbours of a map, then by bisection.
+
+Where it hops is told three ways: anywhere between release and end; in the first pulse, the interval of phi in which the
+rigid hoop's N exceeds the weight; and at the bottom, while the contact is under the disk.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from math import asin, isfinite, pi, sqrt
+from typing import Any
+
+from rigid import Run, Scene, simulate
+
+WHERE = ("anywhere", "pulse", "bottom")
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """Angles that the disk has come down from its release, between which a lift-off counts."""
+
+    low: float
+    high: float
+
+
+def windows(scene: Scene) -> dict[str, Window | None]:
+    """Where a lift-off counts, by name; None is no restriction. Without a rigid pulse there is only "anywhere"."""
+    found: dict[str, Window | None] = {"anywhere": None}
+    pulses = [pulse for pulse in simulate(scene.replace(run=Run(until="pulse"))).pulses if not pulse.cut]
+    if pulses:
+        first, last = (abs(phi - scene.release.phi0) for phi in (pulses[0].phi_start, pulses[0].phi_end))
+        found["pulse"] = Window(first, last)
+        bottom = abs(pi + 2 * pi * round((pulses[0].phi_start - pi) / (2 * pi)) - scene.release.phi0)
+        under = asin(min(scene.hoop.k / (1 - scene.hoop.k), 1.0))  # half the disk as seen from the hoop's centre
+        found["bottom"] = Window(bottom - under, bottom + under)
+    return found
+
+
+def hops_in(motion: Mapping[str, Any], window: Window | None, least: float = 1.0) -> bool | None:
+    """Whether a roll hops there, of flights at least so prominent; None where it stopped before that was decided.
+
+    In a window the first pass counts, by how far the disk has come down: later ones begin with what vibration the
+    first one left.
+    """
+    for flight in motion["flights"]:
+        if flight["prominence"] is not None and flight["prominence"] < least:
+            continue
+        if window is None or (window.low <= flight["swept"] <= window.high):
+            return True
+    decided = motion["completed"] if window is None else motion["completed"] or motion["swept"] > window.high
+    return False if decided else None
+
+
+@dataclass(frozen=True, slots=True)
+class Bracket:
+    """A threshold between two stiffnesses: it hops at ``low`` and not at ``high``."""
+
+    low: float
+    """The largest stiffness that hops; 0 where none does."""
+    high: float
+    """The next larger that does not; infinite where the stiffest hops."""
+    open: int = 0
+    """Cases between the two that stopped too early to tell."""
+    gaps: int = 0
+    """How often a larger stiffness hops where a smaller one does not."""
+
+    @property
+    def value(self) -> float | None:
+        """Their geometric mean, None without both."""
+        return sqrt(self.low * self.high) if self.low > 0 and isfinite(self.high) else None
+
+    def to_dict(self) -> dict[str, Any]:
+        """As JSON prints it."""
+        return {
+            "value": self.value,
+            "low": self.low or None,
+            "high": self.high if isfinite(self.high) else None,
+            "undecided_between": self.open,
+            "gaps": self.gaps,
+        }
+
+
+def bracket(answers: Mapping[float, bool | None]) -> Bracket:
+    """The threshold that answers by stiffness enclose."""
+    hopping = [stiffness for stiffness, hops in answers.items() if hops]
+    low = max(hopping, default=0.0)
+    high = min((s for s, hops in answers.items() if hops is False and s > low), default=float("inf"))
+    between = sum(hops is None and low < s < high for s, hops in answers.items())
+    decided = [hops for _, hops in sorted(answers.items()) if hops is not None]
+    gaps = sum(not one and two for one, two in pairwise(decided))
+    return Bracket(low, high, between, gaps)

@@ -1,0 +1,84 @@
+"""The hoop as a whole: mass centre, spin and shares of the kinetic energy against rigid mechanics; its lowest point."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from flexible.contact.points.data import NOTHING, no_bristles
+from flexible.models.chain import ChainHoop
+from flexible.models.full import FullHoop
+from flexible.models.reduced import ReducedHoop
+from flexible.models.state import State
+from flexible.output.body import lowest, outline, whole
+from rigid import Friction, Hoop, Release, Scene
+
+LEVELS = [ReducedHoop, FullHoop, ChainHoop]
+
+
+def scene_of(mass_ratio: float) -> Scene:
+    scene = Scene(Hoop(k=0.2, r=1.05, mass_ratio=mass_ratio), Friction(0.3, 0.3), Release(0.3))
+    return scene.replace(ring={"bending_stiffness": 20.0}, solve={"elements": 48})
+
+
+def state_of(hoop, phi=2.1, height=0.25, rates=(0.3, -0.7, 1.9)):
+    """An undeformed hoop off the floor that moves rigidly: (xdot_C, ydot_C, phidot)."""
+    pos, vel = np.zeros((2, 3 + hoop.coordinates))
+    pos[1], pos[2] = height, phi
+    vel[:3] = rates[0] - rates[2], rates[1], rates[2]
+    return State(
+        t=0.0, x_C=0.0, pos=pos, vel=vel, acc=np.zeros_like(pos), mode=0,
+        window=(0, 0), u=np.zeros((1, 2)), nodal=np.zeros((1, 2)), res=NOTHING, bristles=no_bristles(),
+        slip_velocity=0.0,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("mass_ratio", [0.0, 0.4])
+def test_a_rigid_motion_has_the_energy_of_its_mass_centre_and_of_its_rotation(level, mass_ratio):
+    """G lies e from C towards the disk, and the moment of inertia about it is M K (rigid.scene, (3) and (6)).
+
+    The mesh's area and moments miss the annulus by (element)^4: 48 elements, 1e-6.
+    """
+    scene = scene_of(mass_ratio)
+    hoop = level(scene)
+    state = state_of(hoop)
+    found = whole(hoop, state)
+    e, K, M = scene.hoop.e, scene.hoop.K, 1 + mass_ratio
+    phi, omega = 2.1, 1.9
+    velocity = (0.3 + omega * e * np.cos(phi), -0.7 - omega * e * np.sin(phi))
+    assert found.velocity == pytest.approx(velocity, abs=1e-6)
+    assert found.height == pytest.approx(1.25 + e * np.cos(phi), abs=1e-6)
+    assert found.spin == pytest.approx(omega, rel=1e-9)
+    assert found.translation == pytest.approx(M * (velocity[0] ** 2 + velocity[1] ** 2) / 2, abs=1e-5)
+    assert found.rotation == pytest.approx(M * K * omega**2 / 2, abs=1e-5)
+    assert abs(found.vibration) < 1e-12 * found.rotation + 1e-13  # round-off of the differences
+
+
+@pytest.mark.parametrize("level", LEVELS)
+def test_what_is_neither_is_never_less_than_nothing(level):
+    """The shares add up to the kinetic energy, and of all rigid motions the one taken leaves the least."""
+    hoop = level(scene_of(0.4))
+    state = state_of(hoop)
+    state.vel[3:] = np.random.default_rng(4).normal(size=hoop.coordinates)
+    found = whole(hoop, state)
+    kinetic = hoop.energies(state)[0]
+    assert found.translation + found.rotation + found.vibration == pytest.approx(kinetic, rel=1e-12)
+    assert found.vibration > 0
+    nearer = state.vel.copy()
+    nearer[:3] += 1e-3, 2e-3, -1e-3
+    more = whole(hoop, replace(state, vel=nearer))
+    assert more.vibration == pytest.approx(found.vibration, rel=1e-9), "a rigid motion more is no vibration"
+
+
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("height", [0.25, 0.0, -1e-9])
+def test_the_lowest_point_of_a_circle(level, height):
+    """The parabola through three of 96 nodes misses a circle's depth by less than (2 pi/96)^4/12 = 1.5e-6."""
+    hoop = level(scene_of(0.4))
+    state = state_of(hoop, height=height)
+    assert lowest(hoop, state) == pytest.approx(height, abs=1.5e-6)
+    centre = np.array([0.0, 1 + height])
+    assert np.hypot(*(outline(hoop, state) - centre).T) == pytest.approx(1.0, abs=1e-12)

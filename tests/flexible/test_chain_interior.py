@@ -1,0 +1,71 @@
+"""The inside of a chain's ring against that of all nodes on the same mesh, and against what the march knows."""
+
+import numpy as np
+import pytest
+from scenes import HOOP
+
+import flexible
+from flexible.handover import Pose, equilibrium
+from flexible.models.chain import ChainHoop
+from flexible.models.exact import ExactHoop
+from flexible.output import fields
+from flexible.output.interior import interior_of
+from meshes import hoop_stress
+from rigid import Kind
+
+
+def scene(stiffness, mass=0.05):
+    return HOOP.replace(ring={"bending_stiffness": stiffness}, hoop={"mass_ratio": mass})
+
+
+@pytest.mark.parametrize(("stiffness", "pose"), [
+    (10.0, Pose(3.0, 3.0, 0.0, 20.0, 2.0, Kind.ROLL)),
+    (1.0, Pose(2.6, 3.0, 0.0, 3.0, 0.3, Kind.ROLL)),
+])  # fmt: skip
+def test_a_soft_ring_against_all_nodes(stiffness, pose):
+    """Equilibria in which the rim moves by R/10 to R/3: displacement, hoop stress and energy.
+
+    The chain's are off by the square of the rotation within a part, up to 0.1: 1e-3 of the energy. Its curvature is
+    linear within a part where the mesh's moment is not: its square over 8, a hundredth, of the stress.
+    """
+    chain, exact = ChainHoop(scene(stiffness)), ExactHoop(scene(stiffness), through=2)
+    a, b = equilibrium(chain, pose), equilibrium(exact, pose)
+    ours, theirs = interior_of(chain), interior_of(exact)
+    u, v = ours.displacement([a]), theirs.displacement([b])
+    assert np.abs(v).max() > 0.05
+    assert np.abs(u - v).max() < 5e-4 * np.abs(v).max()
+    stresses = [hoop_stress(i.mesh, i.stress(x)[0][..., 0]) for i, x in ((ours, u), (theirs, v))]
+    assert np.abs(stresses[0] - stresses[1]).max() < 0.03 * np.abs(stresses[1]).max()
+    assert ours.element_energy(u).sum() == pytest.approx(chain.energies(a)[2], rel=2e-3)
+    rim = ours.mesh.rim_nodes[chain.ring.window(*a.window)[0]]
+    assert np.abs(u[rim, :, 0] - a.u).max() < 1e-4 * np.abs(v).max()
+
+
+def test_a_stiff_ring_moves_as_its_mesh():
+    """No mass and E I = 1e6: the mesh's static answer to the contact's forces, to the square of the bending, 1e-6."""
+    chain = ChainHoop(scene(1e6, mass=0.0))
+    state = equilibrium(chain, Pose(2.7, 1.0, 0.0, 4.0, 0.4, Kind.ROLL))
+    ring = chain.ring.ring
+    load = np.zeros(len(ring.free))
+    number = chain.ring.window(*state.window)[0]
+    np.add.at(load, ring.rim_dofs[np.column_stack([2 * number, 2 * number + 1]).ravel()], state.nodal.ravel())
+    expected = ring.expand(ring.solve(load)) / chain.ring.stiffness
+    found = interior_of(chain).displacement([state])[..., 0]
+    assert np.abs(found - expected).max() < 1e-4 * np.abs(expected).max()
+
+
+def test_fields_of_a_soft_motion(tmp_path):
+    """Frames of a soft ring through its pulse; velocities are near the mean ones of two steps, a few percent each."""
+    soft = scene(20.0).replace(solve={"rtol": 1e-2, "level": "auto"})
+    motion = flexible.simulate(soft, history=True)
+    assert isinstance(motion.kept[0].hoop, ChainHoop)  # "auto"
+    fields.write_fields(motion, tmp_path, frames=3)
+    assert (tmp_path / "fields.pvd").exists()
+    states = motion.kept[0].states
+    i = next(k for k in range(3, len(states)) if states[k].t - states[k - 2].t < 1e-3 and states[k].t > states[k - 1].t)
+    before, now, after = states[i - 2], states[i - 1], states[i]
+    interior = interior_of(motion.kept[0].hoop)
+    rate = interior.rate([now], [before], [after])[..., 0]
+    places = interior.displacement([before, after])
+    mean = (places[..., 1] - places[..., 0]) / (after.t - before.t)
+    assert np.abs(rate - mean).max() < 0.2 * np.abs(mean).max()

@@ -1,0 +1,181 @@
+"""The map of hops and its thresholds, judged on rolls whose thresholds are known by construction; and its rule."""
+
+from __future__ import annotations
+
+import json
+from math import inf, pi
+
+import numpy as np
+import pytest
+from command_line import is_one_sentence
+from third_hop import LIFTS
+
+from rigid import SceneError, load_scene, simulate
+from studies import StudyError
+from studies.cli.hop import asked_of, parse_over
+from studies.hop.roll import from_rest, spans
+from studies.hop.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG, Scales
+from studies.hop.study import DEFAULT, hop_study
+from studies.hop.threshold import Window, bracket, hops_in, windows
+
+SCENE = "paper-3.3-heavier"
+
+
+@pytest.fixture
+def leaping(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("studies.hop.study.SOLVER", "third_hop:leap")
+
+
+def rolled(bisections: int = 6, *over: str, **settings: object):
+    asked = asked_of(load_scene(SCENE), ("ring.bending_stiffness=1:1000:10", *over), bisections=bisections)
+    return hop_study(asked, **settings)
+
+
+def test_the_prominence_is_the_least_of_three_ratios():
+    scales = Scales(depth=1e-5, sag=1e-2, period=0.5)
+    height = max(HEIGHT_OVER_DEPTH * 1e-5, HEIGHT_OVER_SAG * 1e-2)
+    duration = DURATION_OVER_PERIOD * 0.5
+    assert scales.prominence(height, duration) == pytest.approx(1.0)
+    assert scales.prominence(height, 7 * duration) == pytest.approx(1.0)
+    assert scales.prominence(3 * height, duration / 4) == pytest.approx(0.25)
+    assert scales.prominence(0.0, 1.0) == 0.0
+    assert Scales(1e-5, 1e-2, 0.0).prominence(5 * height, 1e-9) == pytest.approx(5.0), "no mass, no period"
+
+
+def test_spans_are_the_runs_of_true_entries():
+    assert spans(np.array([True, False, True, True, False, True])) == [(0, 0), (2, 3), (5, 5)]
+    assert spans(np.array([False, False])) == []
+
+
+def test_a_roll_is_cut_by_time_and_begins_at_rest():
+    """The disk of a soft hoop rocks, and each reversal would count as a turn."""
+    scene = load_scene(SCENE)
+    asked = from_rest(scene)
+    assert asked.run.t_end == pytest.approx(simulate(scene).turns[1].t)
+    assert asked.solve.resolve == "all"
+    with pytest.raises(StudyError, match=r"released at rest.*must be 0\.$"):
+        from_rest(scene.replace(release={"omega0": 0.1}))
+
+
+def test_windows_are_the_rigid_pulse_and_the_disk_over_the_floor():
+    """Angles count from the release; mirrored, they are the same."""
+    scene = load_scene(SCENE)
+    found = windows(scene)
+    bottom = found["bottom"]
+    assert (bottom.low + bottom.high) / 2 == pytest.approx(pi - scene.release.phi0)
+    assert (bottom.high - bottom.low) / 2 == pytest.approx(np.arcsin(0.1 / 0.9))  # the disk as seen from C
+    assert found["pulse"].low < bottom.low < bottom.high < found["pulse"].high
+    mirrored = windows(scene.replace(release={"phi0": -scene.release.phi0}))
+    for name in ("pulse", "bottom"):
+        assert (mirrored[name].low, mirrored[name].high) == pytest.approx((found[name].low, found[name].high))
+
+
+def test_a_roll_that_stopped_decides_only_what_it_has_seen():
+    flights = [{"swept": 3.0, "prominence": 2.0}, {"swept": 4.0, "prominence": None}]
+    early = {"flights": flights, "completed": False, "swept": 4.2}
+    assert hops_in(early, Window(2.5, 3.5)) is True
+    assert hops_in(early, Window(2.5, 3.5), least=2.5) is False, "it has gone through"
+    assert hops_in(early, Window(3.9, 5.0), least=99) is True, "no period and no sag: above any constant"
+    assert hops_in(early, Window(4.1, 5.0)) is None, "it may still hop"
+    assert hops_in(early | {"flights": []}, None) is None
+    assert hops_in(early | {"flights": [], "completed": True}, None) is False
+
+
+def test_a_bracket_lies_above_the_stiffest_hop():
+    found = bracket({1.0: True, 2.0: False, 4.0: True, 8.0: None, 16.0: False, 32.0: False})
+    assert (found.low, found.high, found.open, found.gaps) == (4.0, 16.0, 1, 1)
+    assert found.value == pytest.approx(8.0)
+    assert bracket({1.0: False, 2.0: False}).value is None
+    assert bracket({1.0: True}).high == inf
+
+
+@pytest.mark.usefixtures("leaping")
+def test_thresholds_are_found_by_bisection():
+    """Six bisections of a third of a decade leave 10^(1/3/64), 3.7 %."""
+    study = rolled()
+    line = study.lines[0]
+    for where, exact in LIFTS.items():
+        found = line.threshold(where)
+        assert found.low < exact < found.high
+        assert found.high / found.low == pytest.approx(10 ** (1 / 3 / 64))
+        assert line.holds(where) is True
+    for factor in DECADE:  # the made-up prominence falls like the fourth power of the stiffness
+        found = line.threshold("pulse", factor)
+        assert found.low < LIFTS["pulse"] * factor**-0.25 < found.high
+
+
+@pytest.mark.usefixtures("leaping")
+def test_json_is_the_contract(hoop):
+    status, out, err = hoop(
+        "study", "hop", SCENE, "--over", "ring.bending_stiffness=0.5:100:5", "--over", "hoop.k=0.1,0.2", "--bisections",
+        2, "--workers", 1, "--json",
+    )  # fmt: skip
+    assert (status, err) == (1, ""), "the softest rolls stop early"
+    found = json.loads(out, parse_constant=lambda word: pytest.fail(f"{word} is not JSON"))
+    assert {"cases", "threshold"} <= set(found)
+    for case in found["cases"]:
+        assert {"bending_stiffness", "k", "mass_ratio", "hops", "chatter", "completed"} <= set(case)
+        assert case["rigid"] == {"hops": 0}
+        for hop in case["hops"]:
+            assert {"t", "phi", "duration", "height", "energy"} <= set(hop)
+    assert {case["k"] for case in found["cases"]} == {0.1, 0.2}
+    for where, exact in LIFTS.items():
+        assert [row["hoop.k"] for row in found["threshold"][where]] == [0.1, 0.2]
+        for row in found["threshold"][where]:
+            assert row["low"] < exact < row["high"]
+            assert set(row["by_rule"]) == {"0.316", "3.16"}
+
+
+def test_a_map_goes_on_where_it_was(leaping, tmp_path, monkeypatch):
+    counted = tmp_path / "counted"
+    monkeypatch.setenv("COUNTED", str(counted))
+    first = rolled(2, out=tmp_path / "map")
+    rolls = len(counted.read_text().splitlines())
+    assert rolls == len(first.cases) + sum(len(line.finer) for line in first.lines)
+    again = rolled(2, out=tmp_path / "map")
+    assert len(counted.read_text().splitlines()) == rolls, "nothing is rolled twice"
+    assert again.to_dict() == first.to_dict()
+
+
+@pytest.mark.usefixtures("leaping")
+def test_the_screen_answers_first(hoop):
+    status, out, _ = hoop("study", "hop", SCENE, "--over", "ring.bending_stiffness=1:1000:7", "--workers", 1)
+    assert status == 0
+    assert out.splitlines()[0].startswith("Yes: released at rest, an elastic hoop leaves the floor anywhere below")
+    assert "k = 0.1, m_h/m = 0.1: yes" in out
+    assert "The rigid hoop never leaves the floor" in " ".join(out.split())
+
+
+@pytest.mark.usefixtures("leaping")
+def test_what_was_not_rolled_far_enough_is_not_denied(hoop):
+    """Below STOPS every roll stops before its pulse: only from there on is anything known."""
+    _, out, _ = hoop("study", "hop", SCENE, "--over", "ring.bending_stiffness=0.1,0.2,30,200", "--workers", 1,
+                     "--bisections", 0)  # fmt: skip
+    assert "hops within its first pulse nowhere from 30 on" in " ".join(out.split())
+
+
+def test_ranges_are_read():
+    assert parse_over("hoop.k=0.1,0.2") == ("hoop.k", (0.1, 0.2))
+    key, values = parse_over("ring.bending_stiffness=1:100:3")
+    assert values == pytest.approx((1.0, 10.0, 100.0))
+    assert parse_over("hoop.mass_ratio=0:1:3")[1] == (0.0, 0.5, 1.0)
+    assert len(asked_of(load_scene(SCENE), ()).stiffness) == DEFAULT[2]
+
+
+@pytest.mark.parametrize(
+    "over",
+    ["hoop.k", "k=1:2:3", "hoop.k=1:2", "hoop.k=a,b", "hoop.k=0.2:0.1:3", "hoop.k=0.1:0.2:1", "hoop.q=1,2",
+     "hoop.k=2,3", "ring.bending_stiffness=-1,2", "hoop.k=nan:1:3"],
+)  # fmt: skip
+def test_a_range_that_cannot_be_is_one_sentence(hoop, over):
+    status, out, err = hoop("study", "hop", SCENE, "--over", over)
+    assert (status, out) == (2, "")
+    assert is_one_sentence(err)
+
+
+def test_two_keys_are_enough():
+    scene = load_scene(SCENE)
+    with pytest.raises(SceneError, match="one key more"):
+        asked_of(scene, ("hoop.k=0.1,0.2", "friction.mu=0.1,0.2"))
+    with pytest.raises(SceneError, match="each once"):
+        asked_of(scene, ("hoop.k=0.1,0.2", "hoop.k=0.3,0.4"))
