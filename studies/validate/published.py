@@ -30,7 +30,7 @@ WITHOUT = (
     (
         "Theron, Math. Comput. Model. 35 (2002) 1135",
         "the elastic hopping hoop",
-        "not at hand; `hoop study stiffness` asks the same of this hoop",
+        "not at hand; `hoop study hop` asks the same of a hoop with a heavy disk",
     ),
     (
         "Gomez, Hernandez-Gomez and Marquina, Eur. J. Phys. 33 (2012) 1359, arXiv:1204.0600",
