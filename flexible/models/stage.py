@@ -17,6 +17,9 @@ from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Para
 from ..ring.frame import Frame, inertia
 
 
+MOST_POINTS = 5000  # to a patch, two hundred times as wide as under the weight: 1e7 weights are no solution
+
+
 class Predictor(NamedTuple):
     """A stage's form: pos = ``pos`` + d, vel = ``vel`` + d/``beta``, acc = d/``beta``^2."""
 
@@ -146,7 +149,7 @@ def solve_stage(
         # of forces, and of displacements as forces on the foundation
         worst, astray = largest(residual[:m]), largest(residual[m:])
         small = tolerance * (1 + abs(res.normal)) + _round_off(contact, pos[1], u, scale, damper)
-        if not np.isfinite(worst + astray + small):
+        if not np.isfinite(worst + astray + small) or res.length > MOST_POINTS * law.spacing:
             break
         # a ring softer than the foundation moves by its compliance times what the forces may be off
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
