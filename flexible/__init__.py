@@ -3,10 +3,10 @@
 A :class:`rigid.Scene` goes in, a :class:`FlexibleMotion` comes out::
 
     from flexible import simulate
-    from rigid import load_scene
 
-    motion = simulate(load_scene("paper-3.3-massless"))
+    motion = simulate("paper-3.3-massless")
     motion.pulses, motion.ledger, motion.at([0.0, 1.0])
+    motion.pulses[0].plot(), motion.to_dataframe()
 
 In the order in which they build on each other:
 
@@ -18,22 +18,28 @@ In the order in which they build on each other:
 ``time``      one implicit step; adaptive steps with located events
 ``handover``  where a flexible segment begins: in the equilibrium of a rigid motion
 ``solve``     simulate(scene); ``builder`` what a motion is put together from, ``segment`` records read as phases and
-              pulses, ``units``, ``motion`` what comes back
+              pulses, ``units``, ``motion`` what comes back, ``saved`` from a file
 ``output``    displacement and stress, all fields as a series on disk, the hoop as a whole (not loaded here)
 """
 
 from typing import TYPE_CHECKING
 
 from .motion import FlexibleMotion, FlexiblePulse, History, Ledger
+from .saved import load_motion
 from .solve import simulate
 
 if TYPE_CHECKING:
+    __version__: str
     from .contact.laws.listing import rigid_limit
     from .output.fields import write_fields
 
 
 def __getattr__(name: str) -> object:
-    """Fields and the limit on demand: a motion needs neither."""
+    """Fields and the limit on demand: a motion needs neither. The version too."""
+    if name == "__version__":
+        import rigid
+
+        return rigid.__version__
     if name == "write_fields":
         from .output.fields import write_fields
 
@@ -49,4 +55,14 @@ def __dir__() -> list[str]:
     return sorted(__all__)
 
 
-__all__ = ["FlexibleMotion", "FlexiblePulse", "History", "Ledger", "rigid_limit", "simulate", "write_fields"]
+__all__ = [
+    "FlexibleMotion",
+    "FlexiblePulse",
+    "History",
+    "Ledger",
+    "__version__",
+    "load_motion",
+    "rigid_limit",
+    "simulate",
+    "write_fields",
+]

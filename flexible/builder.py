@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Hoop, Kind, Motion, Phase, Scene, Side, States, Turn
+from rigid import Hoop, Kind, Motion, Phase, Scene, Side, States, Turn, scene_to_dict
+from rigid.output.file import Stored
 
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range
@@ -50,6 +52,31 @@ class Sampler:
 
     pieces: tuple[Piece, ...]
     scene: Scene
+
+    def stored(self, motion: FlexibleMotion) -> Stored:
+        """What a file keeps of the motion: the records of its flexible segments and the rigid motions between them,
+        not the states of the ring."""
+        arrays: dict[str, NDArray[Any]] = {}
+        pieces = []
+        for number, piece in enumerate(self.pieces):
+            told: dict[str, Any] = {name: getattr(piece, name) for name in ("t_start", "t_end", "origin", "x_C")}
+            if piece.segment is not None:
+                found = piece.segment.columns
+                told["columns"] = list(found)
+            else:
+                assert piece.motion is not None
+                rigid = piece.motion.sample.stored(piece.motion)  # type: ignore[attr-defined]
+                found, told["rigid"], told["scene"] = rigid.arrays, rigid.told, scene_to_dict(piece.motion.scene)
+            arrays |= {f"{number}.{name}": column for name, column in found.items()}
+            pieces.append(told)
+        lists = {name: [dataclasses.asdict(item) for item in getattr(motion, name)] for name in ("phases", "turns")}
+        pulses = [dataclasses.asdict(replace(pulse, sample=None)) for pulse in motion.pulses]
+        told = {
+            **lists, "pulses": pulses, "pieces": pieces, "ledger": dataclasses.asdict(motion.ledger),
+            "ended": motion.ended, "completed": motion.completed, "steps": motion.steps,
+            "history": motion.history is not None,
+        }  # fmt: skip
+        return Stored("flexible", told, arrays)
 
     def __call__(self, t: Array, side: Side) -> States:
         flat = np.atleast_1d(np.asarray(t, dtype=float)).ravel() / self.scene.time_unit
@@ -182,25 +209,28 @@ class Builder:
             self.initial or 0.0, *self.held, self.friction_loss, self.landing_loss, self.damping_loss, self.hand_over,
             self.numerical_loss, self.residual,
         )  # fmt: skip
+        sample = Sampler(tuple(self.pieces), scene)
         return FlexibleMotion(
             scene=scene,
             phases=tuple(with_units(phase, scene) for phase in self.phases),
             turns=tuple(with_units(turn, scene) for turn in self.turns),
-            pulses=tuple(with_units(pulse, scene) for pulse in self.pulses),
+            pulses=tuple(replace(with_units(pulse, scene), sample=sample) for pulse in self.pulses),
             ended=ended,
             completed=self.completed,
-            sample=Sampler(tuple(self.pieces), scene),
+            sample=sample,
             ledger=with_units(ledger, scene),
             steps=self.steps,
-            history=with_units(self._history(), scene) if history else None,
+            history=with_units(history_of(self.pieces), scene) if history else None,
             kept=tuple(self.kept or ()),
         )
 
-    def _history(self) -> History:
-        segments = [piece.segment for piece in self.pieces if piece.segment is not None]
-        return History(
-            **{
-                field.name: np.concatenate([segment[field.name] for segment in segments] or [np.empty(0)])
-                for field in dataclasses.fields(History)
-            }
-        )
+
+def history_of(pieces: Iterable[Piece]) -> History:
+    """Every step of the flexible pieces, in the solver's units."""
+    segments = [piece.segment for piece in pieces if piece.segment is not None]
+    return History(
+        **{
+            field.name: np.concatenate([segment[field.name] for segment in segments] or [np.empty(0)])
+            for field in dataclasses.fields(History)
+        }
+    )

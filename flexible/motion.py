@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from rigid import Motion, Phase, Pulse
 
 if TYPE_CHECKING:
+    import pandas
+
     from .models.chain import ChainHoop
     from .models.full import FullHoop
     from .models.reduced import ReducedHoop
@@ -63,7 +65,7 @@ class FlexiblePulse(Pulse):
     phases: tuple[Phase, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class History:
     """Every accepted step of the flexible segments, as arrays over time; stored only when asked for.
 
@@ -92,6 +94,15 @@ class History:
     normal_impulse: Array
     friction_impulse: Array
 
+    def __repr__(self) -> str:
+        return f"History({len(self.t)} steps)"
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each step."""
+        import pandas
+
+        return pandas.DataFrame({entry.name: getattr(self, entry.name) for entry in dataclasses.fields(self)})
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Kept:
@@ -104,7 +115,7 @@ class Kept:
         return f"Kept({len(self.states)} states)"
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class FlexibleMotion(Motion):
     """The motion of the flexible hoop: the common vocabulary, the energy ledger, the steps if they were asked for.
 
@@ -115,6 +126,18 @@ class FlexibleMotion(Motion):
     steps: int
     history: History | None = None
     kept: tuple[Kept, ...] = ()
+
+    def _lines(self) -> list[tuple[str, str]]:
+        scene, books = self.scene, self.ledger
+        lost = {"friction": books.friction_loss, "the damper": books.damping_loss, "landings": books.landing_loss,
+                "the integrator": books.numerical_loss}  # fmt: skip
+        return [
+            *Motion._lines(self),
+            ("ring", f"E I/(m g R^2) = {scene.ring.bending_stiffness:g}, foundation {scene.contact.stiffness:g}, "
+                     f"{scene.contact.law}, damping {scene.contact.damping:g}"),
+            ("energy", f"{books.initial:.6g}, of which lost to " + ", ".join(f"{k} {v:.3g}" for k, v in lost.items())),
+            ("steps", f"{self.steps}{', all kept' if self.history is not None else ''}"),
+        ]  # fmt: skip
 
     def to_dict(self) -> dict[str, Any]:
         """The common keys and ``energy_ledger``."""

@@ -50,6 +50,19 @@ class Segment:
             for field in dataclasses.fields(Record)
         }
 
+    @classmethod
+    def of(cls, columns: dict[str, Array], hoop: Hoop) -> Segment:
+        """The same from its columns.
+
+        Raises
+        ------
+        KeyError
+            One that a record has is missing.
+        """
+        segment = cls([], hoop)
+        segment.columns = {name: columns[name] for name in segment.columns}
+        return segment
+
     def __getitem__(self, name: str) -> Array:
         return self.columns[name]
 

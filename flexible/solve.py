@@ -20,7 +20,7 @@ from math import ceil, floor, inf, nan, pi
 import numpy as np
 
 import rigid
-from rigid import Kind, Motion, Pulse, Release, Run, Scene
+from rigid import Kind, Motion, Pulse, Release, Run, Scene, SceneLike
 from rigid.phases.choice import LEAST_LOSS, SLIPS
 
 from .builder import Builder
@@ -58,13 +58,14 @@ class _Progress:
 
 
 def simulate(
-    scene: Scene, *, history: bool = False, progress: Progress | None = None, most_steps: int | None = None
+    scene: SceneLike, *, history: bool = False, progress: Progress | None = None, most_steps: int | None = None
 ) -> FlexibleMotion:
     """Move the flexible hoop through a scene.
 
     Parameters
     ----------
-    scene : Scene
+    scene : Scene, str, path or dict
+        Or what says which: as :func:`rigid.simulate` takes it.
     history : bool
         Keep every step, as ``motion.history``, and the ring's states, of which fields are made.
     progress : callable, optional
@@ -80,8 +81,9 @@ def simulate(
     Raises
     ------
     SceneError
-        A point mass without inertia cannot ride on a flexible hoop.
+        No such scene, one that cannot be, or a point mass without inertia, which cannot ride on a flexible hoop.
     """
+    scene = rigid.as_scene(scene)
     if scene.hoop.k == 0 and scene.hoop.mass_ratio == 0:
         raise rigid.SceneError(
             "hoop.k = 0 is not possible here: the flexible hoop needs a disk with a radius, or a hoop with a mass."

@@ -12,12 +12,30 @@
 ``draw``     what these are made of
 """
 
+from typing import TYPE_CHECKING
+
 from .fields import Block, Frame, SeriesError, disk_block, floor_block, rim_block, ring_block
 from .gradient import gauss_gradient, nodal_gradient
 from .placing import Placement, bending_stress, hoop_stress, von_mises
 from .ring import MeshError, Quality, RingMesh, ring_mesh
 from .series import Series, SeriesWriter, read
 from .times import frame_times
+
+if TYPE_CHECKING:
+    __version__: str
+
+
+def __getattr__(name: str) -> object:
+    if name == "__version__":
+        import rigid
+
+        return rigid.__version__
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
+
 
 __all__ = [
     "Block",
@@ -29,6 +47,7 @@ __all__ = [
     "Series",
     "SeriesError",
     "SeriesWriter",
+    "__version__",
     "bending_stress",
     "disk_block",
     "floor_block",

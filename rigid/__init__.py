@@ -2,10 +2,11 @@
 
 A :class:`Scene` goes in, a :class:`Motion` comes out::
 
-    from rigid import load_scene, simulate
+    from rigid import simulate
 
-    motion = simulate(load_scene("paper-3.1"))
+    motion = simulate("paper-3.1")
     motion.phases, motion.turns, motion.pulses, motion.at([0.0, 1.0])
+    motion.plot(), motion.pulses[0].plot(over="phi"), motion.to_dataframe()
 
 ``scene``      what a user describes; the constants (3), (6), (9) of a hoop; ``elastic`` the flexible solver's parts,
                ``allowed`` what is refused, in a sentence
@@ -14,6 +15,7 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
 ``solve``      one scene to its motion; ``batch`` many at once; ``thresholds`` where rolling ends
 ``lists``      the records of a run as phases, turns and pulses
 ``phases``     the mechanics of each kind of phase, which one is next, and any instant of them
+``output``     a motion as curves, as a table, in a few lines, in a file
 ``record``     what a phase leaves behind; the measures of a pulse
 ``kernel``     what phases are computed with, and why all of this runs both interpreted and compiled
 
@@ -28,16 +30,22 @@ from .allowed import SceneError
 from .batch import Batch, simulate_batch
 from .elastic import Contact, Ring, Solve
 from .motion import Kind, Motion, Phase, Pulse, Side, States, Turn
+from .output.file import MotionFileError
 from .scene import Friction, Hoop, Landing, Release, Run, Scene
-from .scenefile import load_scene, scene_from_dict, scene_names, scene_to_dict
-from .solve import simulate
+from .scenefile import SceneLike, as_scene, load_scene, scene_from_dict, scene_names, scene_to_dict
+from .solve import load_motion, simulate
 
 if TYPE_CHECKING:
+    __version__: str
     from .thresholds import inception_mu_s, rolling_k, rolling_mu_s
 
 
 def __getattr__(name: str) -> object:
-    """Thresholds on demand: they need scipy, which a motion does not."""
+    """Thresholds on demand: they need scipy, which a motion does not. The version too."""
+    if name == "__version__":
+        from .output.file import version
+
+        return version()
     if name in ("inception_mu_s", "rolling_k", "rolling_mu_s"):
         from . import thresholds
 
@@ -57,6 +65,7 @@ __all__ = [
     "Kind",
     "Landing",
     "Motion",
+    "MotionFileError",
     "Phase",
     "Pulse",
     "Release",
@@ -64,11 +73,15 @@ __all__ = [
     "Run",
     "Scene",
     "SceneError",
+    "SceneLike",
     "Side",
     "Solve",
     "States",
     "Turn",
+    "__version__",
+    "as_scene",
     "inception_mu_s",
+    "load_motion",
     "load_scene",
     "rolling_k",
     "rolling_mu_s",

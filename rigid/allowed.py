@@ -1,14 +1,111 @@
-"""What a scene may hold: every refusal is one sentence with the key, the value and what is allowed."""
+"""What a scene may hold: every refusal is one sentence with the key, the value and what is allowed.
+
+A part of a scene says the same whether it is made by its constructor, changed by ``Scene.replace`` or read from a file.
+"""
 
 from __future__ import annotations
 
+import inspect
 import sys
-from math import log10
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from difflib import get_close_matches
+from functools import wraps
+from math import log10, radians
+from typing import Any, TypeVar
+
+import numpy as np
+
+C = TypeVar("C")
+
+_MEANT = {
+    "mu_k": "mu", "mu_d": "mu", "mu_kinetic": "mu", "mu_dynamic": "mu", "mu_static": "mu_s", "mu_0": "mu_s",
+    "radius": "R", "mass": "m", "gravity": "g", "nu": "poisson", "omega": "omega0", "slip": "slip0", "tol": "rtol",
+}  # fmt: skip
+"""What other books call a key."""
 
 
 class SceneError(ValueError):
     """A scene that cannot be: one sentence that names the key, the value and what is allowed."""
+
+
+def unknown(kind: str, name: str, known: Sequence[str]) -> SceneError:
+    """What to say of a key that there is not: the one that was meant, if that can be told, or all that there are."""
+    key = name.rpartition(".")[2]
+    meant = _MEANT.get(key)
+    near = [meant] if meant in known else get_close_matches(key, known, n=1)
+    hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}."
+    return SceneError(f"{name} is not a {kind}: {hint}")
+
+
+def in_radians(key: str, value: Any) -> float:
+    """An angle given in degrees."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise SceneError(f"{key} = {value!r} is not possible: it must be a number, in degrees.")
+    try:
+        return radians(value)
+    except OverflowError:
+        raise SceneError(f"{key} = {shown(value)} is not possible: it must be finite.") from None
+
+
+def plain(key: str, value: Any) -> Any:
+    """A number or a word as Python has it, a scalar of numpy's included."""
+    if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
+        value = value.item()
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        raise SceneError(f"{key} = {value!r} is not possible: it must be a number or a word.")
+    return value
+
+
+def answering(name: str | None, degrees: Mapping[str, str] | None = None) -> Callable[[type[C]], type[C]]:
+    """A constructor that answers a wrong key, a missing one or a wrong type as a scene file is answered.
+
+    Parameters
+    ----------
+    name : str or None
+        The table of a scene file that this class stands for; None for the scene, whose keys are its parts.
+    degrees : mapping, optional
+        Fields that may be given in degrees too, and how they are called then.
+    """
+    angles = {key: field for field, key in (degrees or {}).items()}
+    table = "a scene" if name is None else f"[{name}]"
+    kind = "part of a scene" if name is None else f"key of {table}"
+
+    def called(key: str) -> str:
+        return key if name is None else f"{name}.{key}"
+
+    def checked(field: str, value: Any) -> Any:
+        return value if name is None or value is None else plain(called(field), value)
+
+    def decorate(cls: type[C]) -> type[C]:
+        create = cls.__init__
+        signature = inspect.signature(create)
+        fields = [field for field in signature.parameters if field != "self"]
+        needed = [field for field in fields if signature.parameters[field].default is inspect.Parameter.empty]
+
+        @wraps(create)
+        def init(self: Any, *values: Any, **keys: Any) -> None:
+            if len(values) > len(fields):
+                raise SceneError(f"{table} has {len(fields)} keys, {', '.join(fields)}: {len(values)} were given.")
+            given = dict(zip(fields, values, strict=False))
+            for key, value in keys.items():
+                if key not in fields and key not in angles:
+                    raise unknown(kind, called(key), [*fields, *angles])
+                field = angles.get(key, key)
+                if field in given:
+                    raise SceneError(f"{called(key)} = {value!r} is not possible: {called(field)} is given already.")
+                given[field] = in_radians(called(key), checked(key, value)) if key in angles else value
+            for field in needed:
+                if field not in given:
+                    raise SceneError(f"{called((degrees or {}).get(field, field))} is missing: a scene needs it.")
+            create(self, **{field: checked(field, value) for field, value in given.items()})
+
+        more = [inspect.Parameter(key, inspect.Parameter.KEYWORD_ONLY, default=None) for key in angles]
+        signed = signature.replace(parameters=[*signature.parameters.values(), *more])
+        init.__signature__ = signed  # type: ignore[attr-defined]
+        cls.__init__ = init  # type: ignore[method-assign]
+        return cls
+
+    return decorate
 
 
 def require(

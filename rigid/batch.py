@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, fields
 from math import inf
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,7 +18,9 @@ from .kernel import layout as at
 from .kernel.compile import compiled, kernel
 from .kernel.layout import MORE, ORDER, RECORDS, SERIES, STATE, STEPS, WIDTH, WORK_BOUND, T
 from .motion import Array
+from .output import summary
 from .phases.choice import entry_run, release_from
+from .phases.reasons import reason
 from .record.pulse import cut_pulse
 from .record.rows import (  # fmt: skip
     CODE,
@@ -31,12 +34,20 @@ from .record.rows import (  # fmt: skip
     Rows,
     gather,
 )
-from .scene import Friction, Hoop, Landing, Release, Run, Scene, hoop_constants, is_point_mass
-from .solve import LOG_RECORDS, UNTIL_CODES, reason
+from .scene import Friction, Hoop, Landing, Release, Run, hoop_constants, is_point_mass
+from .scenefile import SceneLike, as_scene
+from .solve import LOG_RECORDS, UNTIL_CODES
 from .solve import STEPS as WORK
+
+if TYPE_CHECKING:
+    import pandas
 
 CHUNK = 64
 QUANTITIES = ("k", "r", "mass_ratio", "mu_s", "mu", "phi0", "omega0", "slip0", "restitution")
+PULSE_MEASURES = (
+    "normal_impulse", "friction_impulse", "friction_loss", "peak_normal_force",
+    "newton_restitution", "poisson_restitution", "energetic_restitution",
+)  # fmt: skip
 _DEFAULTS = {"r": 1.0, "mass_ratio": 0.0, "omega0": 0.0, "slip0": 0.0, "restitution": 0.0}
 
 
@@ -63,7 +74,7 @@ def entry_batch(pars, release, low, high, work, state, events, rows):
         rows.ends[scene, T_STOP] = state[T]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Batch:
     """What became of ``n`` scenes, in the paper's units (R, m, g).
 
@@ -110,6 +121,46 @@ class Batch:
         """In words, why a motion ended."""
         return reason(int(self.code[scene]))
 
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each pulse of each scene, indexed by both: the pulse's measures, and how the scene's motion ended.
+
+        A scene without a pulse has one row, of pulse 0, whose measures are NaN.
+        """
+        import pandas
+
+        measures = ("t_start", "t_stop", "phi_start", "phi_stop", *PULSE_MEASURES, "impulse_ratio", "cut")
+        columns = {name: getattr(self, name) for name in measures}
+        there = ~np.isnan(self.t_start)
+        without = ~there.any(axis=1)
+        scene, pulse = np.nonzero(there)
+        scene, pulse = np.append(scene, np.flatnonzero(without)), np.append(pulse, np.full(without.sum(), -1))
+        order = np.lexsort((pulse, scene))
+        scene, pulse = scene[order], pulse[order]
+        nothing = np.full((len(self), 1), np.nan)  # which the pulse -1 is
+        table = {name: np.append(column, nothing, axis=1)[scene, pulse] for name, column in columns.items()}
+        table["cut"] = table["cut"] == 1
+        table |= {name: getattr(self, name)[scene] for name in ("phase_count", "turn_count", "pulse_count", "t_end")}
+        table["ended"] = [self.ended(int(i)) for i in scene]
+        index = pandas.MultiIndex.from_arrays([scene, pulse + 1], names=["scene", "pulse"])
+        return pandas.DataFrame(table, index=index)
+
+    def __repr__(self) -> str:
+        return summary.text(self._title(), self._lines())
+
+    def _repr_html_(self) -> str:
+        return summary.html(self._title(), self._lines())
+
+    def _title(self) -> str:
+        return f"Batch of {len(self)} scenes"
+
+    def _lines(self) -> list[summary.Line]:
+        ends = zip(*np.unique(self.code, return_counts=True), strict=True)
+        told = [("ended", f"{n}: {reason(int(code))}") for code, n in ends]
+        first = self.impulse_ratio[:, :1][np.isfinite(self.impulse_ratio[:, :1])]
+        if first.size:
+            told.append(("J_F/J_N", f"{first.min():.6g} to {first.max():.6g} in the first pulse"))
+        return told
+
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Batch):
             return NotImplemented
@@ -117,7 +168,7 @@ class Batch:
 
 
 def simulate_batch(
-    scenes: Sequence[Scene] | Mapping[str, ArrayLike],
+    scenes: Sequence[SceneLike] | Mapping[str, ArrayLike],
     *,
     turns: int | None = None,
     t_end: float | None = None,
@@ -129,10 +180,10 @@ def simulate_batch(
 
     Parameters
     ----------
-    scenes : sequence of Scene, or mapping of arrays
-        The arrays are k, r, mass_ratio, mu_s, mu, phi0, omega0, slip0, restitution in the paper's units (k,
-        mu_s, mu and phi0 are needed), of any shapes that broadcast to (n,). Of scenes in SI units, omega0 and
-        slip0 are made dimensionless; results are in the paper's units always.
+    scenes : sequence of scenes, or mapping of arrays
+        Each of a sequence is anything that :func:`rigid.simulate` takes; of scenes in SI units, omega0 and slip0 are
+        made dimensionless. The arrays are k, r, mass_ratio, mu_s, mu, phi0, omega0, slip0, restitution in the paper's
+        units (k, mu_s, mu, phi0 are needed), of any shapes that broadcast to (n,). Results are in the paper's units.
     turns, t_end, until
         How far to run, the same for all (see :class:`rigid.Run`); 2 turns if nothing is said. The ``run`` of
         the scenes is not looked at.
@@ -182,7 +233,7 @@ def simulate_batch(
     )
 
 
-def _table(scenes: Sequence[Scene] | Mapping[str, ArrayLike]) -> Array:
+def _table(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
     """One row of ``QUANTITIES`` per scene."""
     if isinstance(scenes, Mapping):
         unknown = set(scenes) - set(QUANTITIES)
@@ -196,7 +247,7 @@ def _table(scenes: Sequence[Scene] | Mapping[str, ArrayLike]) -> Array:
         _check(table)
         return np.ascontiguousarray(table)
     rows = []
-    for scene in scenes:
+    for scene in map(as_scene, scenes):
         hoop, friction, release = scene.hoop, scene.friction, scene.release
         time = scene.time_unit
         rows.append(

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from math import inf, pi, radians
 from typing import Any
 
-from .allowed import SceneError, require, require_choice, require_whole
+from .allowed import SceneError, answering, require, require_choice, require_whole
 
 
+@answering("ring", {"weld_half_angle": "weld_half_angle_deg"})
 @dataclass(frozen=True, slots=True)
 class Ring:
     """The elastic ring of the flexible hoop (the rigid solver does not look at it).
@@ -23,7 +24,8 @@ class Ring:
     thickness : float or None
         Wall h over R. It follows from r when r > 1; when r = 1 it defaults to 0.02.
     weld_half_angle : float
-        Half the arc of the inner rim that is welded to the disk, seen from the centre, in radians.
+        Half the arc of the inner rim that is welded to the disk, seen from the centre, in radians;
+        ``weld_half_angle_deg`` gives it in degrees.
     """
 
     bending_stiffness: float = 1e4
@@ -65,6 +67,7 @@ class Ring:
 LAWS = ("patch", "brush", "regularised")
 
 
+@answering("contact")
 @dataclass(frozen=True, slots=True)
 class Contact:
     """The compliant frictional contact of the flexible hoop with the floor.
@@ -123,6 +126,7 @@ class Contact:
         )
 
 
+@answering("solve")
 @dataclass(frozen=True, slots=True)
 class Solve:
     """How the flexible solver works: what it resolves, how finely, and to which tolerance.

@@ -11,7 +11,7 @@ import numpy as np
 
 from .kernel import layout as at
 from .kernel.angle import angle_of
-from .motion import Array, Kind, Phase, Pulse, Turn
+from .motion import Array, Kind, Phase, Pulse, Side, States, Turn
 from .scene import Scene
 
 KINDS = {
@@ -21,6 +21,7 @@ KINDS = {
 
 T = TypeVar("T")
 Row = list[float]
+Sample = Callable[[Array, Side], States]
 
 
 class Lazy(Sequence[T], Generic[T]):
@@ -141,9 +142,16 @@ class Listing:
     """Phases, turns and pulses of the records of a run, and the starts from which any instant can be computed.
 
     ``starts`` are records of phases, those after a repetition moved back by it; ``fold`` says what is repeated.
+    ``sample``, made of these two, is any instant of the motion.
     """
 
-    def __init__(self, records: list[Row], end: Row, scene: Scene) -> None:
+    def __init__(
+        self,
+        records: list[Row],
+        end: Row,
+        scene: Scene,
+        sampler: Callable[[tuple[tuple[float, ...], ...], Fold | None], Sample],
+    ) -> None:
         self.scene = scene
         where = next((i for i, row in enumerate(records) if row[0] == at.REPEAT), len(records))
         self.fold: Fold | None = None
@@ -154,15 +162,16 @@ class Listing:
             self.fold = Fold(row[at.R_T], row[at.R_PERIOD], row[at.R_WAY], row[at.R_WHOLE], int(row[at.R_COUNT]))
             self.later = Later(self.fold.period * scene.time_unit, 2 * pi * self.fold.whole)
             first = where - int(row[at.R_RECORDS])
-        before, once, after = records[:where], records[first:where], records[where + 1 :]
-        self.turns = self._list(before, once, after, (at.TURN,), self._turn)
-        self.pulses = self._list(before, once, after, (at.PULSE,), self._pulse)
-        phases = [row for row in before + after if row[0] not in (at.TURN, at.PULSE)]
+        parts = records[:where], records[first:where], records[where + 1 :]
+        phases = [row for row in parts[0] + parts[2] if row[0] not in (at.TURN, at.PULSE)]
         kept = {id(row) for row in merged(phases, end)}
-        before, once, after = ([row for row in part if id(row) in kept] for part in (before, once, after))
+        before, once, after = ([row for row in part if id(row) in kept] for part in parts)
         edges = self._list(before, once, [*after, end], (*KINDS, at.END), self._start)
         self.phases: Sequence[Phase] = Spans(edges) if self.fold else Spans(edges)[:]
         self.starts = tuple(map(tuple, [*before, *map(self._moved_back, after)]))
+        self.sample = sampler(self.starts, self.fold)
+        self.turns = self._list(*parts, (at.TURN,), self._turn)
+        self.pulses = self._list(*parts, (at.PULSE,), self._pulse)
 
     def _list(
         self, before: list[Row], once: list[Row], after: list[Row], tags: tuple[int, ...], make: Callable[[Row], T]
@@ -209,6 +218,7 @@ class Listing:
             poisson_restitution=row[14],
             energetic_restitution=row[15],
             cut=bool(row[at.PULSE_CUT]),
+            sample=self.sample,
         )
 
 

@@ -11,14 +11,19 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
-from math import nan
-from typing import Any, Literal
+from math import degrees, nan
+from os import PathLike
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .output import sampling, summary
 from .scene import Scene
 from .scenefile import scene_to_dict
+
+if TYPE_CHECKING:
+    import pandas
 
 Array = NDArray[np.float64]
 Side = Literal["left", "right"]
@@ -65,7 +70,7 @@ class Pulse:
     ydot_G = 0), and the square root of Stronge's -W_r/W_c.
 
     ``cut`` marks a pulse in which the run begins or ends: its measures are those of the part that was run, its
-    restitutions NaN.
+    restitutions NaN. ``sample`` is that of the motion which the pulse is a part of.
     """
 
     t_start: float
@@ -80,6 +85,7 @@ class Pulse:
     poisson_restitution: float
     energetic_restitution: float
     cut: bool = False
+    sample: Callable[[Array, Side], States] | None = field(default=None, repr=False, compare=False)
 
     @property
     def impulse_ratio(self) -> float:
@@ -88,7 +94,28 @@ class Pulse:
 
     def to_dict(self) -> dict[str, Any]:
         """All measures by name, the ratio among them."""
-        return {**dataclasses.asdict(self), "impulse_ratio": self.impulse_ratio}
+        told = dataclasses.asdict(dataclasses.replace(self, sample=None))
+        del told["sample"]
+        return {**told, "impulse_ratio": self.impulse_ratio}
+
+    def plot(self, *quantities: str, over: str = "t", axes: Any = None) -> NDArray[np.object_]:
+        """N, F and slip velocity, or the quantities named, through the pulse; see :meth:`Motion.plot`.
+
+        Raises
+        ------
+        ValueError
+            A pulse that belongs to no motion, or a quantity that there is not.
+        """
+        from .output.axes import draw
+
+        if self.sample is None:
+            raise ValueError("This pulse belongs to no motion that could be sampled.")
+        sample = self.sample
+        span = (self.t_start, self.t_end)
+        middle = sampling.bottom(lambda t: sample(t, "right").phi, *span)
+        t = sampling.times(lambda t: _forces(sample(t, "right")), span, [middle])
+        paper = getattr(getattr(sample, "scene", None), "dimensionless", True)
+        return draw(_columns(sample(t, "right")), quantities, over, dimensionless=paper, axes=axes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +138,7 @@ class States:
     energy: Array
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Motion:
     """What a solver returns: phases, turns and pulses as plain values, and any instant between on demand.
 
@@ -165,6 +192,91 @@ class Motion:
         found = search(self.phases, t, key=lambda phase: phase.t_start)
         return self.phases[max(found - 1, 0)]
 
+    def times(self, start: float = 0.0, end: float | None = None) -> Array:
+        """Times at which to sample the motion for a picture or a table: N and F are straight between them, to two
+        thousandths of their range, and both sides of every jump are among them.
+        """
+        end = self.t_end if end is None else end
+        inside = [pulse for pulse in self.pulses if pulse.t_end >= start and pulse.t_start <= end]
+        lowest = [sampling.bottom(lambda t: self.at(t).phi, pulse.t_start, pulse.t_end) for pulse in inside]
+        edges = [phase.t_end for phase in self.phases]
+        return sampling.times(lambda t: _forces(self.at(t)), (start, end), lowest, edges)
+
+    def plot(self, *quantities: str, over: str = "t", axes: Any = None) -> NDArray[np.object_]:
+        """Curves of the motion, a panel for each quantity; phases that do not roll are shaded.
+
+        Parameters
+        ----------
+        *quantities : str
+            Fields of :class:`States`; N, F and slip velocity if none are named.
+        over : str
+            The abscissa: "t", "phi" or any other.
+        axes : matplotlib Axes or sequence of them, optional
+            Where to draw; by default a new figure.
+
+        Returns
+        -------
+        (n,) array of matplotlib Axes
+        """
+        from .output.axes import draw
+
+        where = {"t": ("t_start", "t_end"), "phi": ("phi_start", "phi_end")}.get(over)
+        spans = [(str(p.kind), getattr(p, where[0]), getattr(p, where[1])) for p in self.phases] if where else []
+        paper = self.scene.dimensionless
+        return draw(_columns(self.at(self.times())), quantities, over, dimensionless=paper, spans=spans, axes=axes)
+
+    def to_dataframe(self, t: ArrayLike | None = None) -> pandas.DataFrame:
+        """The states at times ``t`` (n,), by default :meth:`times`, and the kind of phase: a row for each."""
+        import pandas
+
+        states = self.at(self.times() if t is None else np.atleast_1d(np.asarray(t, dtype=float)))
+        frame = pandas.DataFrame(_columns(states))
+        frame["phase"] = [str(self.phase_at(time).kind) for time in frame["t"]]
+        return frame
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the motion into a file, with its scene and the version of this program; ``load_motion`` reads it.
+
+        Raises
+        ------
+        ValueError
+            A motion of a solver that says not how.
+        """
+        from .output.file import write
+
+        stored = getattr(self.sample, "stored", None)
+        if stored is None:
+            raise ValueError("A motion of this solver cannot be saved.")
+        write(path, scene_to_dict(self.scene), stored(self))
+
+    def __repr__(self) -> str:
+        return summary.text(self._title(), self._lines())
+
+    def _repr_html_(self) -> str:
+        header = ("pulse", "t", "J_N", "J_F", "J_F/J_N", "friction loss", "peak N")
+        rows = [
+            (str(number), f"{p.t_start:.6g} to {p.t_end:.6g}", *(f"{value:.6g}" for value in (
+                p.normal_impulse, p.friction_impulse, p.impulse_ratio, p.friction_loss, p.peak_normal_force)))
+            for number, p in enumerate(self.pulses[: summary.SHOWN], 1)
+        ]  # fmt: skip
+        return summary.html(self._title(), self._lines(), header, rows)
+
+    def _title(self) -> str:
+        return f"{type(self).__name__} to t = {self.t_end:.6g}: {self.ended}"
+
+    def _lines(self) -> list[summary.Line]:
+        """What there is to tell of the motion."""
+        hoop, friction, release = self.scene.hoop, self.scene.friction, self.scene.release
+        shown = summary.SHOWN
+        return [
+            ("scene", f"k = {hoop.k:g}, r = {hoop.r:g}, m_h/m = {hoop.mass_ratio:g}, mu_s = {friction.mu_s:g}, "
+                      f"mu = {friction.mu:g}, from {degrees(release.phi0):g} degrees"),
+            ("phases", summary.some([str(phase.kind) for phase in self.phases[:shown]], len(self.phases))),
+            ("turns", summary.some([f"phi = {turn.phi:.6g}" for turn in self.turns[:shown]], len(self.turns))),
+            ("pulses", summary.some([f"J_F/J_N = {p.impulse_ratio:.6g}" for p in self.pulses[:shown]],
+                                    len(self.pulses))),
+        ]  # fmt: skip
+
     def to_dict(self) -> dict[str, Any]:
         """The motion as the command line's JSON prints it."""
         return {
@@ -175,3 +287,11 @@ class Motion:
             "ended": self.ended,
             "completed": self.completed,
         }
+
+
+def _columns(states: States) -> dict[str, Array]:
+    return {entry.name: getattr(states, entry.name) for entry in dataclasses.fields(states)}
+
+
+def _forces(states: States) -> Array:
+    return np.vstack([states.normal_force, states.friction_force])

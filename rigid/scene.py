@@ -12,14 +12,16 @@ Equation numbers are those of V. A. Lubarda, J. Mech. Mater. Struct. 4(6), 2009.
 from __future__ import annotations
 
 import dataclasses
+import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import inf, sqrt
-from typing import Any, Generic, NamedTuple, TypeVar
+from math import degrees, inf, pi, sqrt
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .allowed import SceneError, require, require_choice, require_whole
+from .allowed import SceneError, answering, require, require_choice, require_whole, unknown
 from .elastic import Contact, Ring, Solve
 
 N = TypeVar("N", float, NDArray[np.float64])
@@ -54,6 +56,7 @@ def is_point_mass(hoop: HoopConstants[N]) -> bool | NDArray[np.bool_]:
     return (hoop.K < 1e-100) & (hoop.one_minus_e < 1e-40)
 
 
+@answering("hoop")
 @dataclass(frozen=True, slots=True)
 class Hoop:
     """The hoop and the disk welded inside its rim.
@@ -78,14 +81,8 @@ class Hoop:
     g: float = 1.0
 
     def __post_init__(self) -> None:
-        require(
-            "hoop.k",
-            self.k,
-            0,
-            1,
-            "k is the disk's radius over the hoop's inner radius, at least 0 and below 1",
-            open_high=True,
-        )
+        allowed = "k is the disk's radius over the hoop's inner radius, at least 0 and below 1"
+        require("hoop.k", self.k, 0, 1, allowed, open_high=True)
         # the upper bounds here and below keep squares and products within what a float holds
         require("hoop.r", self.r, 1, 1e9, "r is the hoop's outer over its inner radius, 1 to 1e9")
         require("hoop.mass_ratio", self.mass_ratio, 0, 1e12, "mass_ratio is m_h/m, 0 to 1e12")
@@ -113,6 +110,7 @@ class Hoop:
         return self.constants.K
 
 
+@answering("friction")
 @dataclass(frozen=True, slots=True)
 class Friction:
     """Coulomb friction: static coefficient ``mu_s`` >= kinetic coefficient ``mu`` >= 0."""
@@ -130,20 +128,41 @@ class Friction:
             )
 
 
+@answering("release", {"phi0": "phi0_deg"})
 @dataclass(frozen=True, slots=True)
 class Release:
-    """The state at t = 0: angle ``phi0``, angular velocity ``omega0``, and the contact point's velocity ``slip0``."""
+    """The state at t = 0: angle ``phi0``, angular velocity ``omega0``, and the contact point's velocity ``slip0``.
+
+    ``Release(phi0_deg=10)`` is ``Release(phi0=radians(10))``. A ``phi0`` beyond a turn with no more than two decimals
+    looks like degrees, which a warning says.
+    """
 
     phi0: float
     omega0: float = 0.0
     slip0: float = 0.0
 
+    if TYPE_CHECKING:
+
+        def __init__(
+            self, phi0: float = ..., omega0: float = 0.0, slip0: float = 0.0, *, phi0_deg: float = ...
+        ) -> None: ...
+
     def __post_init__(self) -> None:
         for key in ("phi0", "omega0", "slip0"):
             # of a larger angle too few digits would be left within a turn
             require(f"release.{key}", getattr(self, key), -1e9, 1e9, f"{key} lies between -1e9 and 1e9")
+        # where a motion has got to has more digits
+        if abs(self.phi0) > 2 * pi and self.phi0 == round(self.phi0, 2):
+            said = f"{abs(self.phi0) / (2 * pi):.2g} turns in radians: did you mean phi0_deg = {self.phi0!r}?"
+            warnings.warn(f"release.phi0 = {self.phi0!r} is {said}", stacklevel=4)
+
+    @property
+    def phi0_deg(self) -> float:
+        """The angle in degrees."""
+        return degrees(self.phi0)
 
 
+@answering("run")
 @dataclass(frozen=True, slots=True)
 class Run:
     """How far to run: to a number of turns (instants with phidot = 0 after release), to a time, or until an event.
@@ -172,6 +191,7 @@ class Run:
             require_choice("run.until", self.until, ("pulse", "rest"))
 
 
+@answering("landing")
 @dataclass(frozen=True, slots=True)
 class Landing:
     """Landing of the rigid hoop after a flight: energetic coefficient of restitution, 0 (no bounce) to 1."""
@@ -182,6 +202,7 @@ class Landing:
         require("landing.restitution", self.restitution, 0, 1, "restitution runs from 0 to 1")
 
 
+@answering(None)
 @dataclass(frozen=True, slots=True)
 class Scene:
     """Everything both solvers need to know; see the parts for their parameters.
@@ -189,7 +210,7 @@ class Scene:
     Examples
     --------
     >>> from rigid import Scene, Hoop, Friction, Release
-    >>> scene = Scene(Hoop(k=0.1), Friction(mu_s=0.35, mu=0.3), Release(phi0=0.1745))
+    >>> scene = Scene(Hoop(k=0.1), Friction(mu_s=0.35, mu=0.3), Release(phi0_deg=10))
     """
 
     hoop: Hoop
@@ -201,12 +222,22 @@ class Scene:
     contact: Contact = field(default_factory=Contact)
     solve: Solve = field(default_factory=Solve)
 
+    def __post_init__(self) -> None:
+        for name, kind in PARTS.items():
+            if not isinstance(part := getattr(self, name), kind):
+                raise SceneError(f"{name} = {part!r} is not possible: it must be a {kind.__name__}.")
+
     @property
     def wall(self) -> float:
         """Thickness of the ring over the outer radius R."""
         if self.hoop.r > 1:
             return 1 - 1 / self.hoop.r
         return 0.02 if self.ring.thickness is None else self.ring.thickness
+
+    @property
+    def dimensionless(self) -> bool:
+        """Whether it is in the paper's scaling."""
+        return self.hoop.R == self.hoop.m == self.hoop.g == 1
 
     @property
     def time_unit(self) -> float:
@@ -236,15 +267,30 @@ class Scene:
     def replace(self, **changes: Any) -> Scene:
         """A copy with keys of its parts changed, each part given as a dict: ``scene.replace(hoop={"k": 0.2})``.
 
-        A part may also be given whole; ``run`` given as a dict replaces how far to run.
+        A part may also be given whole; ``run`` given as a dict replaces how far to run. Angles may be in degrees
+        (``phi0_deg``), as in a file.
+
+        Raises
+        ------
+        SceneError
+            What no scene can have, in the sentence that a file with it is answered by.
         """
         parts: dict[str, Any] = {}
         for name, change in changes.items():
-            part = getattr(self, name)
-            if name == "run" and isinstance(change, dict):
-                parts[name] = Run(**change)
-            elif isinstance(change, dict):
-                parts[name] = dataclasses.replace(part, **change)
-            else:
+            if name not in PARTS:
+                raise unknown("part of a scene", name, list(PARTS))
+            if not isinstance(change, Mapping):
                 parts[name] = change
+                continue
+            part = getattr(self, name)
+            # an angle in degrees takes the place of the one in radians
+            keys = [f.name for f in dataclasses.fields(part) if name != "run" and f"{f.name}_deg" not in change]
+            parts[name] = PARTS[name](**{key: getattr(part, key) for key in keys} | dict(change))
         return dataclasses.replace(self, **parts)
+
+
+PARTS: dict[str, type] = {
+    "hoop": Hoop, "friction": Friction, "release": Release, "run": Run, "landing": Landing,
+    "ring": Ring, "contact": Contact, "solve": Solve,
+}  # fmt: skip
+"""The parts of a scene: tables of its file."""

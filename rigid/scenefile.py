@@ -14,30 +14,24 @@ from collections.abc import Mapping
 from difflib import get_close_matches
 from importlib.resources import files
 from math import degrees, inf, isclose, nextafter, radians
+from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from .allowed import SceneError, shown
-from .elastic import SECTION, Contact, Ring, Solve, ring_of_section
-from .scene import Friction, Hoop, Landing, Release, Run, Scene
+from .allowed import SceneError, in_radians, plain, unknown
+from .elastic import SECTION, ring_of_section
+from .scene import PARTS, Scene
 
-_PARTS: dict[str, type] = {
-    "hoop": Hoop,
-    "friction": Friction,
-    "release": Release,
-    "run": Run,
-    "landing": Landing,
-    "ring": Ring,
-    "contact": Contact,
-    "solve": Solve,
-}
+SceneLike = Scene | str | PathLike[str] | Mapping[str, Any]
+"""What a solver takes for a scene: one, the name of a shipped one, the path of a file, what a file says as a dict."""
+
 _NEEDED = {"hoop": ("k",), "friction": ("mu_s", "mu"), "release": ("phi0_deg",)}
 _IN_DEGREES = {"phi0": "phi0_deg", "weld_half_angle": "weld_half_angle_deg"}
 
 
 def _file_keys(part: str) -> dict[str, str]:
     """Key in a file -> field of the part, for one part of a scene."""
-    return {_IN_DEGREES.get(f.name, f.name): f.name for f in dataclasses.fields(_PARTS[part])}
+    return {_IN_DEGREES.get(f.name, f.name): f.name for f in dataclasses.fields(PARTS[part])}
 
 
 def _exact_degrees(angle: float) -> float:
@@ -47,12 +41,6 @@ def _exact_degrees(angle: float) -> float:
         if radians(candidate) == angle:
             return candidate
     return value
-
-
-def _unknown(kind: str, name: str, known: list[str]) -> SceneError:
-    near = get_close_matches(name.rpartition(".")[2], known, n=1)
-    hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}."
-    return SceneError(f"{name} is not a {kind}: {hint}")
 
 
 def scene_from_dict(data: Mapping[str, Any]) -> Scene:
@@ -66,8 +54,8 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
     parts: dict[str, Any] = {}
     data = _without_section(data)
     for part, table in data.items():
-        if part not in _PARTS:
-            raise _unknown("part of a scene", part, list(_PARTS))
+        if part not in PARTS:
+            raise unknown("part of a scene", part, list(PARTS))
         if not isinstance(table, Mapping):
             raise SceneError(f"{part} = {table!r} is not possible: {part} is a table, [{part}].")
         keys = _file_keys(part)
@@ -77,18 +65,9 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
                 continue
             if key not in keys:
                 known = [*keys, *SECTION] if part == "ring" else list(keys)
-                raise _unknown(f"key of [{part}]", f"{part}.{key}", known)
-            name = keys[key]
-            if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-                raise SceneError(f"{part}.{key} = {value!r} is not possible: it must be a number or a word.")
-            if name in _IN_DEGREES:
-                if isinstance(value, str):
-                    raise SceneError(f"{part}.{key} = {value!r} is not possible: it must be a number, in degrees.")
-                try:
-                    value = radians(value)
-                except OverflowError:
-                    raise SceneError(f"{part}.{key} = {shown(value)} is not possible: it must be finite.") from None
-            values[name] = value
+                raise unknown(f"key of [{part}]", f"{part}.{key}", known)
+            name, value = keys[key], plain(f"{part}.{key}", value)
+            values[name] = in_radians(f"{part}.{key}", value) if name in _IN_DEGREES else value
         values |= _to_the_last_bit(part, table, values)
         parts[part] = values
     _point_mass(data.get("hoop", {}), parts)
@@ -96,7 +75,7 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
         for key in needed:
             if _file_keys(part)[key] not in parts.get(part, {}):
                 raise SceneError(f"{part}.{key} is missing: a scene needs it.")
-    return Scene(**{part: _PARTS[part](**values) for part, values in parts.items()})
+    return Scene(**{part: PARTS[part](**values) for part, values in parts.items()})
 
 
 def _without_section(data: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -138,7 +117,7 @@ def _point_mass(hoop: Mapping[str, Any], parts: dict[str, Any]) -> None:
 def scene_to_dict(scene: Scene) -> dict[str, dict[str, Any]]:
     """The scene as the nested dict of its TOML file; keys that say nothing are left out."""
     data: dict[str, dict[str, Any]] = {}
-    for part in _PARTS:
+    for part in PARTS:
         table = {}
         for key, name in _file_keys(part).items():
             value = getattr(getattr(scene, part), name)
@@ -157,6 +136,23 @@ def scene_names() -> list[str]:
     )
 
 
+def as_scene(source: SceneLike) -> Scene:
+    """A scene from whatever says which: see ``SceneLike``.
+
+    Raises
+    ------
+    SceneError
+        No such scene, or one that cannot be.
+    """
+    if isinstance(source, Scene):
+        return source
+    if isinstance(source, Mapping):
+        return scene_from_dict(source)
+    if isinstance(source, (str, PathLike)):
+        return load_scene(source)
+    raise SceneError(f"{source!r} is not a scene: it must be a Scene, a name, the path of a file, or a dict.")
+
+
 def scene_text(name: str) -> str:
     """The TOML of a shipped scene.
 
@@ -171,7 +167,7 @@ def scene_text(name: str) -> str:
     return (files("rigid.scenes") / f"{name}.toml").read_text(encoding="utf-8")
 
 
-def load_scene(source: str | Path) -> Scene:
+def load_scene(source: str | PathLike[str]) -> Scene:
     """A scene by the name of a shipped one ("paper-3.1") or by the path of a TOML file.
 
     Raises

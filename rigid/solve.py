@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf, pi
-from typing import Any
+from os import PathLike
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .kernel import layout as at
 from .kernel.compile import compiled
-from .lists import Fold, Listing
+from .lists import Fold, Listing, Row
 from .motion import Array, Motion, Side, States
+from .output.file import Stored, read
 from .phases import instant
 from .phases.choice import MOST_STALLS, entry_run, release_from
-from .phases.rolling.phase import LISTED_PERIODS
+from .phases.reasons import reason
 from .record.pulse import cut_pulse
 from .scene import Scene, is_point_mass
+from .scenefile import SceneLike, as_scene, scene_from_dict
 
 LOG_RECORDS = 128
 STEPS = 200_000  # the work bound of one motion: Taylor steps and phases
@@ -26,21 +29,6 @@ MOST_RECORDS = 200_000  # and its phases, turns and pulses together
 PATIENCE = 4_000  # interpreted steps, some 0.4 s, after which a process goes over to the compiled kernel
 
 UNTIL_CODES = {None: at.NOTHING, "pulse": at.FIRST_PULSE, "rest": at.REST}
-_REASONS = {
-    at.TIME_REACHED: "the time to run is over",
-    at.PULSE_OVER: "the first pulse is over",
-    at.RESTS: "rests: nothing moves any more",
-    at.SLIDES: "slides for ever: a smooth floor takes no energy",
-    at.HITS_FLOOR: "the point mass hits the floor",
-    at.CREEPS: "creeps up to the top and never gets there",
-    at.SETTLES: "all but rolls for ever: a hundred slips took less than a ten-thousandth of its energy",
-    at.TURNS_REACHED: "the last turn asked for is reached",
-    at.ROLLS: "rolls for ever: |F| < mu_s N over the whole swing",
-    at.WHIRLS: "rolls for ever, over the top in every revolution, so there is no turn to wait for",
-    at.ROLLS_ON: f"the time to run is over; it rolls for ever, of which {LISTED_PERIODS:g} periods are listed",
-    at.WORK_BOUND: "the work bound is reached",
-    at.LIFTED: "the point mass rises out of the hoop's reach and takes it off the floor",
-}
 _interpreted_steps = 0
 
 
@@ -142,13 +130,14 @@ def _unroll(events: Any, state: Any, records: list[list[float]]) -> None:
     records += [row[i : i + at.WIDTH] for i in range(0, used, at.WIDTH)]
 
 
-def simulate(scene: Scene) -> Motion:
+def simulate(scene: SceneLike) -> Motion:
     """The rigid motion of a scene, exact to round-off.
 
     Parameters
     ----------
-    scene : Scene
-        Hoop, friction, release and how far to run; its ring and contact are not looked at.
+    scene : Scene, str, path or dict
+        Hoop, friction, release and how far to run (its ring and contact are not looked at), or what says so: the name
+        of a shipped scene, the path of a TOML file, a dict as such a file gives it.
 
     Returns
     -------
@@ -157,22 +146,35 @@ def simulate(scene: Scene) -> Motion:
         that of a motion that ends rolling for ever. A motion never fails: what stops it is said in ``ended``.
         The lists of one without loss are as long as they are and take no room: their part that comes again is kept
         once.
+
+    Raises
+    ------
+    SceneError
+        No such scene, or one that cannot be.
     """
-    par = parameters(scene)
-    code, records, final = _run(par, release_state(scene))
+    scene = as_scene(scene)
+    return _motion(scene, Log(*_run(parameters(scene), release_state(scene))))
+
+
+class Log(NamedTuple):
+    """What a run leaves: all of its motion follows."""
+
+    code: int  # why it ended
+    records: list[Row]
+    final: list[float]  # the state at its end
+
+
+def _motion(scene: Scene, log: Log) -> Motion:
+    """The motion of a scene from what its run left."""
+    code, records, final = log
+    par = tuple(parameters(scene))
     end = [float(at.END), *final[: at.MOVING]]
-    listed = Listing(records, end, scene)
+    listed = Listing(records, end, scene, lambda starts, fold: Sampler(par, starts, fold, scene, log))
     period = final[at.PERIOD] * scene.time_unit if 0 < final[at.PERIOD] < inf else None
-    sample = Sampler(tuple(par), listed.starts, listed.fold, scene)
     return Motion(
-        scene, listed.phases, listed.turns, listed.pulses, _ended(code, scene, period, final), sample, period,
+        scene, listed.phases, listed.turns, listed.pulses, _ended(code, scene, period, final), listed.sample, period,
         code != at.WORK_BOUND,
     )  # fmt: skip
-
-
-def reason(code: int) -> str:
-    """Why a motion ends, in words."""
-    return _REASONS[code]
 
 
 def _ended(code: int, scene: Scene, period: float | None, final: list[float]) -> str:
@@ -187,6 +189,23 @@ def _ended(code: int, scene: Scene, period: float | None, final: list[float]) ->
     return f"{words}; period {period:.12g}"
 
 
+def unstored(told: Stored, scene: Scene) -> Motion:
+    """The motion that a file has kept."""
+    arrays = told.arrays
+    return _motion(scene, Log(int(told.told["code"]), arrays["records"].tolist(), arrays["final"].tolist()))
+
+
+def load_motion(path: str | PathLike[str]) -> Motion:
+    """A motion of the rigid hoop that was saved by :meth:`Motion.save`, the same to the last bit.
+
+    Raises
+    ------
+    MotionFileError
+        Not a saved motion, a damaged one, or one of the flexible hoop, which :func:`flexible.load_motion` reads.
+    """
+    return read(path, {"rigid": unstored}, scene_from_dict)
+
+
 @dataclass(frozen=True)
 class Sampler:
     """Evaluates a motion at given times from the starting states of its phases; a plain value."""
@@ -195,6 +214,12 @@ class Sampler:
     starts: tuple[tuple[float, ...], ...]
     fold: Fold | None
     scene: Scene
+    log: Log = field(compare=False)
+
+    def stored(self, motion: Motion) -> Stored:
+        """What a file keeps of the motion."""
+        code, records, final = self.log
+        return Stored("rigid", {"code": code}, {"records": np.array(records), "final": np.array(final)})
 
     def __call__(self, t: Array, side: Side) -> States:
         """States at times of any shape, in the units of the scene."""

@@ -1,16 +1,16 @@
 """What is compared, swept, drawn and reported, and the command line::
 
-    from rigid import load_scene
     from studies import Ladder, stiffness_study
 
-    study = stiffness_study(load_scene("paper-3.3-massless"), Ladder("both", low=1e7, high=1e13, count=7))
-    study.limits["impulse_ratio"], study.rungs
+    study = stiffness_study("paper-3.3-massless", Ladder("both", low=1e7, high=1e13, count=7))
+    study.limits["impulse_ratio"], study.rungs, study.plot(), study.to_dataframe()
 
 ``stiffness``  the flexible hoop against the rigid one as stiffness grows: ladder, rates, limit, figures, page
 ``limit``      that limit solved, from the inner problems (``inner``) of the rigid hoop's events
 ``hop``        the paper's footnote: which hoops, released at rest, leave the floor, and where
 ``sweep``      the product of scene keys over processes or a Dask cluster
 ``paper``      every number and figure of the paper again
+``validate``   everything published or provable beside what the solvers find
 ``bench``      run time against error;  ``stress``  thousands of scenes and what must hold of them
 ``running``    scenes through solvers, in processes, kept in a folder, whatever the study
 ``plots``      what all figures share
@@ -27,21 +27,27 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    __version__: str
+
+    from .limit.study import LimitStudy, limit_study
     from .running.files import StudyError
     from .running.measures import MEASURES, Measure, Unit, measure, measures
     from .running.workers import pool
+    from .stiffness.found import Rung, StiffnessStudy
     from .stiffness.ladder import Ladder
     from .stiffness.limits import Limit, limit_of
-    from .stiffness.study import Rung, StiffnessStudy, stiffness_study
+    from .stiffness.study import stiffness_study
     from .sweep import Sweep, Table, load_sweep, run_sweep, sweep_from_dict
 
 _HOMES = {
+    "LimitStudy": "limit.study",
+    "limit_study": "limit.study",
     "MEASURES": "running.measures",
     "Ladder": "stiffness.ladder",
     "Limit": "stiffness.limits",
     "Measure": "running.measures",
-    "Rung": "stiffness.study",
-    "StiffnessStudy": "stiffness.study",
+    "Rung": "stiffness.found",
+    "StiffnessStudy": "stiffness.found",
     "StudyError": "running.files",
     "Sweep": "sweep",
     "Table": "sweep",
@@ -59,6 +65,10 @@ _HOMES = {
 
 def __getattr__(name: str) -> object:
     """What a study needs (pandas, matplotlib, a solver) is loaded with it and not before."""
+    if name == "__version__":
+        import rigid
+
+        return rigid.__version__
     if name in _HOMES:
         return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
@@ -72,6 +82,7 @@ __all__ = [
     "MEASURES",
     "Ladder",
     "Limit",
+    "LimitStudy",
     "Measure",
     "Rung",
     "StiffnessStudy",
@@ -79,7 +90,9 @@ __all__ = [
     "Sweep",
     "Table",
     "Unit",
+    "__version__",
     "limit_of",
+    "limit_study",
     "load_sweep",
     "measure",
     "measures",

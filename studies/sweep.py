@@ -19,7 +19,7 @@ from .running.history import rows_to_csv
 from .running.measures import MEASURES
 from .running.runs import run_cases
 from .running.solvers import version
-from .running.workers import Pool
+from .running.workers import Here, Pool
 
 if TYPE_CHECKING:
     import pandas
@@ -83,7 +83,7 @@ class Row:
     """The result, or the reason why there is none."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class Table:
     """The rows of a sweep, in the order of the product."""
 
@@ -112,6 +112,12 @@ class Table:
         import pandas
 
         return pandas.DataFrame.from_records(self.records())
+
+    def __repr__(self) -> str:
+        return f"Table({len(self.rows)} rows, {self.failures} failed)"
+
+    def _repr_html_(self) -> str:
+        return str(self.to_dataframe().to_html(max_rows=20, index=False))
 
     def to_csv(self) -> str:
         """The table as text, numbers to the last bit."""
@@ -233,19 +239,22 @@ def _filled(tables: Mapping[str, Any], keys: Sequence[str], values: tuple[Any, .
 
 def run_sweep(
     sweep: Sweep,
-    pool: Pool,
+    pool: Pool | None = None,
     out: str | Path | None = None,
     progress: Callable[[float], None] | None = None,
     say: Callable[[str], None] | None = None,
 ) -> Table:
-    """Run a sweep and give its table; see :func:`run_cases` for what is kept in ``out`` and what is said."""
+    """Run a sweep and give its table; see :func:`run_cases` for what is kept in ``out`` and what is said.
+
+    Without a ``pool`` (:func:`studies.pool`) the cases run here, one after the other.
+    """
     asked: list[tuple[dict[str, Any], str, Case | str]] = []
     for values, scene in sweep.points:
         for name in sweep.solvers:
             what = scene if isinstance(scene, str) else Case(name, scene, histories=sweep.histories)
             asked.append((dict(zip(sweep.keys, values, strict=True)), name, what))
     cases = [case for _, _, case in asked if isinstance(case, Case)]
-    outcomes = iter(run_cases(cases, pool, out, progress, forget=True, say=say))
+    outcomes = iter(run_cases(cases, pool or Here(), out, progress, forget=True, say=say))
     rows = []
     for at, name, case in asked:
         outcome = next(outcomes) if isinstance(case, Case) else Outcome("", name, {}, version(), failure=case)

@@ -202,8 +202,13 @@ def test_a_friction_law_is_known_by_its_own_file_alone() -> None:
     words = re.compile(rf"([\"'])({'|'.join(LAWS)})\1")
     allowed = own | {"rigid.elastic"}
     said = {module for module, path in SOURCES.items() if words.search(code_of(path))} - allowed
-    # scenes of a benchmark and of an example, and what the README says of one
-    assert said == {"studies.bench.truth.reference", "studies.examples.own_friction_law", "studies.readme"}
+    # scenes of a benchmark and of an example, what the README says of one, and what theory does
+    assert said == {
+        "studies.bench.truth.reference",
+        "studies.examples.own_friction_law",
+        "studies.readme",
+        "studies.validate.contact",
+    }
 
 
 def code_of(path: Path) -> str:

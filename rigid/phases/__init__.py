@@ -6,4 +6,5 @@
 ``flight``, ``impact``, ``pointmass``     off the floor; landings and jams; k = 0 without a hoop's mass
 ``choice``                                the phase machine: which phase comes next
 ``instant``                               any instant of a phase, from its start
+``reasons``                               why a motion ends, in words
 """

@@ -1,4 +1,4 @@
-"""`hoop bench` and `hoop stress`: run time against error, and stability over everything a user can type."""
+"""`hoop bench`, `hoop stress`, `hoop validate`: run time against error, stability over all input, outside truth."""
 
 from __future__ import annotations
 
@@ -77,4 +77,25 @@ def stress(ctx: click.Context, as_json: bool, out: Path | None, seed: int, scene
     else:
         click.echo(report.text())
     if report.failures:
+        ctx.exit(1)
+
+
+@click.command()
+@click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
+@click.pass_context
+def validate(ctx: click.Context, as_json: bool) -> None:
+    """Everything published or provable, beside what the solvers find; status 1 if a row fails."""
+    from ..running.progress import bar
+    from ..validate import table
+
+    with bar("validate") as progress:
+        rows = table.validate(progress)
+    if as_json:
+        click.echo(to_json(table.to_dict(rows)))
+    else:
+        from .tables import show
+
+        show(table.sheet(rows))
+        click.echo("\n".join(table.notes(rows)))
+    if table.failed(rows):
         ctx.exit(1)

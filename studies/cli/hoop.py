@@ -19,7 +19,7 @@ import click
 from rigid import Motion, Scene, SceneError, load_scene
 
 from ..running.files import StudyError, folder, to_json, trouble
-from .bench import bench, stress
+from .bench import bench, stress, validate
 from .hop import hop
 from .limit import limit
 from .study import study
@@ -212,6 +212,7 @@ def paper(out: Path | None, chosen: str) -> None:
 
 hoop.add_command(bench)
 hoop.add_command(stress)
+hoop.add_command(validate)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

@@ -13,8 +13,9 @@ from ..running.files import StudyError, to_json, trouble, write_text
 
 
 def write_motion(motion: Motion, out: Path) -> None:
-    """``motion.json``, ``history.csv`` and, where there is a pulse, ``pulse.png`` into ``out``."""
+    """``motion.json``, ``motion.npz`` (which ``load_motion`` reads), ``history.csv``; of a pulse, ``pulse.png`` too."""
     write_text(out / "motion.json", to_json(motion.to_dict()))
+    motion.save(out / "motion.npz")
     write_text(out / "history.csv", history.to_csv(history.whole(motion)))
     if not motion.pulses:
         return

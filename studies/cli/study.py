@@ -14,7 +14,7 @@ from rigid.elastic import LAWS
 from ..running.files import folder, to_json, write_text
 
 if TYPE_CHECKING:
-    from ..stiffness.study import StiffnessStudy
+    from ..stiffness.found import StiffnessStudy
 
 as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
 workers = click.option(

@@ -31,7 +31,7 @@ from .account import HEADING, account, remarks
 if TYPE_CHECKING:
     from flexible import FlexibleMotion
 
-    from ..stiffness.study import StiffnessStudy
+    from ..stiffness.found import StiffnessStudy
     from ..sweep import Table as SweepTable
 
 _REASONS = 10

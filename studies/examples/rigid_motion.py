@@ -11,7 +11,7 @@ COLOURS = {"roll": "0.9", "spin": "#56B4E9", "skid": "#E69F00"}
 
 
 def main(out: Path = Path()) -> Path:
-    motion = rigid.simulate(rigid.load_scene("paper-3.1"))
+    motion = rigid.simulate("paper-3.1")
     first, pulse = motion.turns[0], motion.pulses[0]
     print(f"the disk turns back at phi = {first.phi:.5f}; J_F/J_N = {pulse.impulse_ratio:.5f} in the first pulse")
     t = np.union1d(np.linspace(0, first.t, 500), np.linspace(pulse.t_start, pulse.t_end, 500))

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from flexible.contact.laws.listing import LAWS
-from rigid import Run, Scene, scene_to_dict, simulate
+from rigid import Run, Scene, SceneLike, as_scene, scene_to_dict, simulate
+from rigid.output import summary
 
 from ..inner.creep import creep
 from ..inner.critical import critical_theta
@@ -97,7 +98,7 @@ class Other:
     """How it comes there, at this scene's damping; None where that is not predicted."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class LimitStudy:
     """What the study found."""
 
@@ -114,6 +115,21 @@ class LimitStudy:
     """What was observed."""
     others: tuple[Other, ...]
     """What the same hoop tends to under other compliances, this one's among them."""
+
+    def __repr__(self) -> str:
+        return summary.text(self._title(), self._lines())
+
+    def _repr_html_(self) -> str:
+        return summary.html(self._title(), self._lines())
+
+    def _title(self) -> str:
+        return f"Limit study: {len(self.events)} events, {len(self.sights)} runs beside them"
+
+    def _lines(self) -> list[summary.Line]:
+        terms = self.prediction.terms.items()
+        lines = [(n, f"{term.limit:.6g} + {term.coefficient:.4g} x^{term.exponent:.3g}") for n, term in terms]
+        parameter = "foundation^(-1/3)" if self.prediction.parameter == "eps" else "the slip velocity scale"
+        return [*lines, ("x", parameter), ("events", ", ".join(found.event.kind for found in self.events))]
 
     def small(self, foundation: float) -> float:
         """The prediction's small parameter at a foundation."""
@@ -159,7 +175,7 @@ class LimitStudy:
 
 
 def limit_study(
-    scene: Scene,
+    scene: SceneLike,
     *,
     damping: float | None = None,
     foundations: Sequence[float] = FOUNDATIONS,
@@ -172,7 +188,7 @@ def limit_study(
 
     Parameters
     ----------
-    scene : Scene
+    scene : Scene, str, path or dict
         Its foundation does not matter.
     damping : float, optional
         Damping ratio of the patch; by default the scene's own.
@@ -188,6 +204,7 @@ def limit_study(
     StudyError
         There is no pulse, or there is more in it than rolling and sliding.
     """
+    scene = as_scene(scene)
     if damping is not None:
         scene = scene.replace(contact={"damping": damping})
     scene = scene.replace(run=Run(until="pulse"))

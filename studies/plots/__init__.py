@@ -1,1 +1,2 @@
-"""What all output shares: the ``style`` of figures, the curves through a ``pulse``, the ``sheet`` of a table."""
+"""What all output shares: the ``style`` of figures, the curves through a ``pulse``, the ``distance`` to
+a limit, the ``sheet`` of a table."""

@@ -129,9 +129,9 @@ class Outcome:
     numerical_error: tuple[dict[str, float], ...] = ()
     """Change of each measure from twice the tolerance to this one, per pulse; empty when nothing was
     asked."""
-    motion: dict[str, Any] = field(default_factory=dict)
+    motion: dict[str, Any] = field(default_factory=dict, repr=False)
     """The motion as JSON prints it."""
-    histories: tuple[Columns, ...] = ()
+    histories: tuple[Columns, ...] = field(default=(), repr=False)
     """Forces and the rest through each pulse, if asked for."""
 
 

@@ -6,7 +6,6 @@ import csv
 import dataclasses
 import io
 from collections.abc import Iterable
-from math import ceil, floor, pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,7 +43,7 @@ def through(motion: Motion, pulse: Pulse) -> Columns:
     """
     own = own_steps(motion)
     if own is None:
-        columns = at(motion, times(motion, pulse.t_start, pulse.t_end, bottom(motion, pulse)))
+        columns = at(motion, motion.times(pulse.t_start, pulse.t_end))
     else:
         kept = (own["t"] >= pulse.t_start) & (own["t"] <= pulse.t_end)
         columns = {name: values[kept] for name, values in own.items()}
@@ -62,7 +61,7 @@ def whole(motion: Motion) -> Columns:
     own = own_steps(motion)
     if own is not None:
         return own
-    return at(motion, times(motion, 0.0, motion.t_end, *(bottom(motion, pulse) for pulse in motion.pulses)))
+    return at(motion, motion.times())
 
 
 def dimensionless(columns: Columns, scene: Scene) -> Columns:
@@ -98,65 +97,6 @@ def at(motion: Motion, t: Array) -> Columns:
 def accumulated(t: Array, values: Array) -> Array:
     """Integral from the first time to each (trapezoids)."""
     return np.concatenate([[0.0], np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(t))]) if t.size else t.copy()
-
-
-def bottom(motion: Motion, pulse: Pulse) -> float:
-    """Time in a pulse at which the disk is lowest, phi = pi (mod 2 pi), or the pulse's middle if it never
-    is."""
-    low, high = sorted((pulse.phi_start, pulse.phi_end))
-    turns = [n for n in range(floor(low / (2 * pi)) - 1, ceil(high / (2 * pi)) + 1) if low <= pi + 2 * pi * n <= high]
-    early, late = pulse.t_start, pulse.t_end
-    if not turns:
-        return 0.5 * (early + late)
-    target = pi + 2 * pi * turns[0]
-    rising = pulse.phi_end > pulse.phi_start
-    for _ in range(4):  # phi is monotonic in a pulse; 129 points at once, four times, is 1e-8 of its length
-        grid = np.linspace(early, late, 129)
-        passed = (motion.at(grid).phi >= target) == rising
-        index = int(np.argmax(passed)) if passed.any() else grid.size - 1
-        early, late = float(grid[max(index - 1, 0)]), float(grid[index])
-    return 0.5 * (early + late)
-
-
-def times(
-    motion: Motion, start: float, end: float, *bottoms: float, tolerance: float = 2e-3, limit: int = 20_000
-) -> Array:
-    """Times from ``start`` to ``end`` between which N and F are straight to ``tolerance`` of their range.
-
-    The first grid crowds geometrically on ``bottoms``: the spike of a small disk there is k^2 wide, and
-    bisection alone would step over it. Both sides of every change of phase are among the times.
-    """
-    length = end - start
-    if length <= 0:
-        return np.array([start])
-    crowd = length * np.logspace(-9, 0, 46)
-    grid = [np.linspace(start, end, 129)]
-    grid += [side for middle in bottoms for side in (np.array([middle]), middle - crowd, middle + crowd)]
-    edges = np.array([phase.t_end for phase in motion.phases])
-    nearest = 1e-12 * max(1.0, abs(end))
-    grid += [edges - nearest, edges + nearest]
-    t = np.unique(np.clip(np.concatenate(grid), start, end))
-    values = _forces(motion, t)
-    fresh = np.ones(t.size - 1, dtype=bool)
-    while fresh.any() and t.size < limit:
-        where = np.flatnonzero(fresh & (np.diff(t) > 4 * nearest))
-        middle = 0.5 * (t[where] + t[where + 1])
-        found = _forces(motion, middle)
-        scale = np.ptp(values, axis=1, keepdims=True) + 1e-300
-        bent = (np.abs(found - 0.5 * (values[:, where] + values[:, where + 1])) > tolerance * scale).any(axis=0)
-        if not bent.any():
-            break
-        where, middle, found = where[bent], middle[bent], found[:, bent]
-        t, values = np.insert(t, where + 1, middle), np.insert(values, where + 1, found, axis=1)
-        fresh = np.zeros(t.size - 1, dtype=bool)
-        halves = where + np.arange(where.size)
-        fresh[halves] = fresh[halves + 1] = True
-    return t
-
-
-def _forces(motion: Motion, t: Array) -> Array:
-    states = motion.at(t)
-    return np.vstack([states.normal_force, states.friction_force])
 
 
 def to_csv(columns: Columns) -> str:

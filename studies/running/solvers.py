@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Protocol
 
 from rigid import Motion, Scene
+from rigid.output.file import version
 
 from .files import StudyError
 
@@ -87,15 +88,6 @@ def solver(name: str) -> Solver:
         raise StudyError(f"{name!r} is not a solver: it cannot be called.")
     chosen: Solver = found
     return chosen
-
-
-@cache
-def version() -> str:
-    """Version of this package."""
-    try:
-        return metadata.version("hoop-pulse")
-    except metadata.PackageNotFoundError:
-        return "uninstalled"
 
 
 @cache

@@ -1,6 +1,6 @@
 """Does the compliant hoop become the paper's hoop as its stiffness grows, and how fast?
 
 ``ladder``   which stiffnesses are run          ``limits``   the limit of a sequence, with its uncertainty
-``study``    the study                          ``summary``  what is told of it, in rows and sentences
-``figures``, ``report``, ``page``  the same drawn, and as a page
+``study``    the study                          ``found``    what it found, as a table and a picture
+``summary``  what is told of it                 ``figures``, ``report``  the same drawn, and as a page
 """

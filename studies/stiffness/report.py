@@ -23,7 +23,7 @@ from .summary import (
 )
 
 if TYPE_CHECKING:
-    from .study import StiffnessStudy
+    from .found import StiffnessStudy
 
 CAPTIONS = {
     "pulse": """\

@@ -9,7 +9,7 @@ from ..plots.sheet import number
 from ..running.measures import MEASURES
 
 if TYPE_CHECKING:
-    from .study import Rung, StiffnessStudy
+    from .found import Rung, StiffnessStudy
 
 
 REST = ("normal_impulse", "peak_normal_force", "time_off_floor")

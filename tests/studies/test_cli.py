@@ -13,10 +13,11 @@ from pathlib import Path
 import pytest
 from command_line import HANGS, SCENE, command, environment, is_one_sentence, process
 
-from flexible import Ledger
+from flexible import Ledger, load_motion
 from meshes import read
 from rigid import load_scene, simulate
 from studies.running import solvers
+from studies.running.files import to_json
 
 HEAVY = ("skfem", "meshio", "pyvista", "vtk", "matplotlib", "pandas", "dask", "distributed", "jinja2")
 
@@ -197,7 +198,9 @@ def test_a_flexible_run_leaves_motion_ledger_and_fields(hoop, tmp_path):
     assert {field.name for field in dataclasses.fields(Ledger)} == set(books)
     assert abs(books["residual"]) < 1e-3 * books["initial"]  # rtol; every other term is an integral of its own
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert {"motion.json", "history.csv", "pulse.png", "energy.png", "fields.pvd"} <= names
+    assert {"motion.json", "motion.npz", "history.csv", "pulse.png", "energy.png", "fields.pvd"} <= names
+    again = load_motion(tmp_path / "out" / "motion.npz")
+    assert json.loads(to_json(again.to_dict())) == found
     assert len(read(tmp_path / "out")) > 10
 
 

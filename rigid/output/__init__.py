@@ -1,0 +1,9 @@
+"""A motion for people: where to sample it, as curves, as a table, in a few lines of text, in a file.
+
+``sampling``  times between which forces are straight
+``axes``      curves over time or angle, in matplotlib
+``summary``   text of a screen's length, and the same as HTML
+``file``      arrays and a header, written whole and read with care
+
+Nothing here knows a motion: plain names and arrays come in. matplotlib and pandas are loaded where they are used.
+"""

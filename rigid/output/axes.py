@@ -1,0 +1,115 @@
+"""Curves of a motion over time or angle, in matplotlib."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+
+_WORDS = {
+    "t": ("time", "$t$", r"\sqrt{R/g}"),
+    "phi": ("angle", r"$\varphi$", "rad"),
+    "omega": ("angular velocity", r"$\dot\varphi$", r"\sqrt{g/R}"),
+    "alpha": ("angular acceleration", r"$\ddot\varphi$", "g/R"),
+    "x_C": ("way of the centre", "$x_C$", "R"),
+    "y_C": ("height of the centre", "$y_C$", "R"),
+    "slip_velocity": ("slip velocity", "$v$", r"\sqrt{gR}"),
+    "normal_force": ("normal force", "$N$", "mg"),
+    "friction_force": ("friction force", "$F$", "mg"),
+    "energy": ("energy", "$E$", "mgR"),
+}
+"""Name, symbol and unit of everything that a state has."""
+
+_SHADES = {"spin": "#cfe3f3", "skid": "#fbe0cd", "flight": "#e6e6e6", "skim": "#e6e6e6"}
+"""Behind the phases in which the contact point does not roll."""
+
+MOST_SHADES = 200  # more phases than this are not shaded: nobody could see them
+
+Span = tuple[str, float, float]
+"""A kind of phase and where it begins and ends on the abscissa."""
+
+
+def label(name: str, dimensionless: bool) -> str:
+    """What an axis is called; in the units of a scene that has its own, it says no unit."""
+    words, symbol, unit = _WORDS[name]
+    if name == "phi":
+        return f"{words} {symbol} (rad)"
+    return f"{words} {symbol[:-1]}/{_grouped(unit)}$" if dimensionless else f"{words} {symbol}"
+
+
+def _grouped(unit: str) -> str:
+    return unit if unit.startswith("\\") or len(unit) == 1 else f"({unit})"
+
+
+def check(names: Iterable[str]) -> None:
+    """Refuse what no state has.
+
+    Raises
+    ------
+    ValueError
+        One sentence with all names there are.
+    """
+    for name in names:
+        if name not in _WORDS:
+            raise ValueError(f"{name!r} is not a quantity of a motion: known are {', '.join(_WORDS)}.")
+
+
+def draw(
+    columns: Mapping[str, Array],
+    quantities: Sequence[str],
+    over: str,
+    *,
+    dimensionless: bool,
+    spans: Sequence[Span] = (),
+    axes: Any = None,
+) -> NDArray[np.object_]:
+    """One panel below the other, a quantity each.
+
+    Parameters
+    ----------
+    columns : mapping
+        Arrays (n,) by name.
+    quantities : sequence of str
+        What is drawn; N, F and slip velocity if nothing is named.
+    over : str
+        The abscissa, usually "t" or "phi".
+    dimensionless : bool
+        Whether the numbers are in the paper's scaling, which the labels then say.
+    spans : sequence
+        Phases, of which those that do not roll are shaded.
+    axes : matplotlib Axes or sequence of them, optional
+        Where to draw; as many as there are quantities.
+
+    Returns
+    -------
+    (n,) array of matplotlib Axes
+    """
+    quantities = quantities or ("normal_force", "friction_force", "slip_velocity")
+    check([*quantities, over])
+    panels: list[Axes]
+    if axes is None:
+        from matplotlib import pyplot
+
+        figure, made = pyplot.subplots(
+            len(quantities), sharex=True, squeeze=False, figsize=(7, 1.2 + 1.8 * len(quantities)), layout="constrained"
+        )
+        panels = list(made[:, 0])
+    else:
+        panels = list(np.atleast_1d(axes).ravel())
+        if len(panels) != len(quantities):
+            raise ValueError(f"{len(quantities)} quantities need as many axes, not {len(panels)}.")
+    for panel, name in zip(panels, quantities, strict=True):
+        for kind, start, end in spans if len(spans) <= MOST_SHADES else ():
+            if kind in _SHADES and end != start:
+                panel.axvspan(start, end, color=_SHADES[kind], linewidth=0, zorder=0)
+        panel.plot(columns[over], columns[name], linewidth=1.2)
+        panel.set_ylabel(label(name, dimensionless))
+    panels[-1].set_xlabel(label(over, dimensionless))
+    return np.array(panels, dtype=object)

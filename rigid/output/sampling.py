@@ -1,0 +1,83 @@
+"""Where to sample a motion: dense where something happens."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import ceil, floor, pi
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+Curve = Callable[[Array], Array]
+
+
+def bottom(phi: Curve, start: float, end: float) -> float:
+    """Time from ``start`` to ``end`` at which ``phi``, monotonic there, is pi (mod 2 pi); the middle if it never is."""
+    ends = phi(np.array([start, end]))
+    low, high = ends.min(), ends.max()
+    turns = [n for n in range(floor(low / (2 * pi)) - 1, ceil(high / (2 * pi)) + 1) if low <= pi + 2 * pi * n <= high]
+    early, late = start, end
+    if not turns:
+        return 0.5 * (early + late)
+    target = pi + 2 * pi * turns[0]
+    rising = ends[1] > ends[0]
+    for _ in range(4):  # 129 points at once, four times, is 1e-8 of the length
+        grid = np.linspace(early, late, 129)
+        passed = (phi(grid) >= target) == rising
+        index = int(np.argmax(passed)) if passed.any() else grid.size - 1
+        early, late = float(grid[max(index - 1, 0)]), float(grid[index])
+    return 0.5 * (early + late)
+
+
+def times(
+    forces: Curve,
+    span: tuple[float, float],
+    bottoms: Sequence[float] = (),
+    edges: ArrayLike = (),
+    *,
+    tolerance: float = 2e-3,
+    limit: int = 20_000,
+) -> Array:
+    """Times over a span between which forces are straight to ``tolerance`` of their range.
+
+    The first grid crowds geometrically on ``bottoms``: the spike of a small disk there is k^2 wide, and bisection alone
+    would step over it. Both sides of every one of ``edges``, where forces jump, are among the times.
+
+    Parameters
+    ----------
+    forces : callable
+        Times (n,) to forces (m, n).
+    span : (float, float)
+    bottoms, edges : sequence of float
+    tolerance : float
+    limit : int
+        Of the number of times, about.
+    """
+    start, end = span
+    length = end - start
+    if length <= 0:
+        return np.array([start])
+    crowd = length * np.logspace(-9, 0, 46)
+    grid = [np.linspace(start, end, 129)]
+    grid += [side for middle in bottoms for side in (np.array([middle]), middle - crowd, middle + crowd)]
+    nearest = 1e-12 * max(1.0, abs(end))
+    jumps = np.asarray(edges, dtype=float)
+    grid += [jumps - nearest, jumps + nearest]
+    t = np.unique(np.clip(np.concatenate(grid), start, end))
+    values = forces(t)
+    fresh = np.ones(t.size - 1, dtype=bool)
+    while fresh.any() and t.size < limit:
+        where = np.flatnonzero(fresh & (np.diff(t) > 4 * nearest))
+        middle = 0.5 * (t[where] + t[where + 1])
+        found = forces(middle)
+        scale = np.ptp(values, axis=1, keepdims=True) + 1e-300
+        bent = (np.abs(found - 0.5 * (values[:, where] + values[:, where + 1])) > tolerance * scale).any(axis=0)
+        if not bent.any():
+            break
+        where, middle, found = where[bent], middle[bent], found[:, bent]
+        t, values = np.insert(t, where + 1, middle), np.insert(values, where + 1, found, axis=1)
+        fresh = np.zeros(t.size - 1, dtype=bool)
+        halves = where + np.arange(where.size)
+        fresh[halves] = fresh[halves + 1] = True
+    return t

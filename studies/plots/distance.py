@@ -1,0 +1,84 @@
+"""Distance to a value that a sequence tends to, on logarithmic axes, with the rate that was fitted to it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .style import RIGID
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+
+WORDS = {
+    "impulse_ratio": "impulse ratio $J_F/J_N$",
+    "friction_loss": "friction loss$/(mgR)$",
+    "normal_impulse": r"normal impulse $J_N/(m\sqrt{gR})$",
+}
+COLOURS = ("#0072B2", "#D55E00", "#009E73")
+
+
+class Distance(NamedTuple):
+    """A sequence about the value it tends to."""
+
+    stiffness: Array
+    off: Array  # with its sign
+    error: Array  # numerical, of each
+    rate: float
+    rate_interval: tuple[float, float]
+    confidence: str
+    rate_cases: tuple[int, ...]  # that the rate was fitted to
+    predicted: tuple[Array, Array] | None  # stiffness, distance
+    label: str  # of the abscissa
+
+
+def draw(distances: Mapping[str, Distance], axes: Any = None) -> NDArray[np.object_]:
+    """A panel for each, beside one another; on ``axes`` or in a new figure."""
+    if axes is None:
+        from matplotlib import pyplot
+
+        size = (4.8 * len(distances), 4.4)
+        axes = pyplot.subplots(1, len(distances), squeeze=False, figsize=size, layout="constrained")[1]
+    panels = np.atleast_1d(axes).ravel()
+    if len(panels) != len(distances):
+        raise ValueError(f"{len(distances)} measures need as many axes, not {len(panels)}.")
+    for axis, (name, distance), colour in zip(panels, distances.items(), COLOURS, strict=False):
+        panel(axis, distance, WORDS.get(name, name), colour)
+    panels[0].set_ylabel("distance to the rigid value")
+    return panels
+
+
+def panel(axes: Axes, distance: Distance, words: str, colour: str) -> None:
+    """Filled above the value, open below it; numerical errors, fitted rate, and what is predicted without a fit."""
+    s, off, error = distance.stiffness, distance.off, distance.error
+    for side, fill, said in ((off > 0, colour, "above the rigid value"), (off < 0, "white", "below it")):
+        if side.any():
+            axes.plot(s[side], abs(off[side]), "o", color=colour, markerfacecolor=fill, zorder=4, label=said)
+    axes.plot(s, np.where(error > 0, error, np.nan), "v", color="0.6", markersize=4, label="numerical error")
+    _rate_line(axes, distance, colour)
+    if distance.predicted is not None:
+        axes.plot(*distance.predicted, color=RIGID, linewidth=1, label="predicted, no fit")
+    axes.set(xscale="log", yscale="log", xlabel=distance.label, title=words)
+    axes.legend(loc="best", fontsize=8)
+
+
+def _rate_line(axes: Axes, distance: Distance, colour: str) -> None:
+    """The fitted rate through the cases it was fitted to."""
+    s, away = distance.stiffness, abs(distance.off)
+    used = [i for i in distance.rate_cases if away[i] > 0]
+    if len(used) < 2 or not np.isfinite(distance.rate):
+        return
+    anchor = np.exp(np.mean(np.log(away[used]) + distance.rate * np.log(s[used])))
+    line: Any = {"color": colour, "linewidth": 1, "linestyle": (0, (5, 3))}
+    axes.plot(s[used], anchor * s[used] ** -distance.rate, label=_rate_words(distance), **line)
+
+
+def _rate_words(distance: Distance) -> str:
+    low, high = distance.rate_interval
+    interval = f" [{low:.3f}, {high:.3f}] at {distance.confidence}" if np.isfinite(high) else ""
+    return f"rate {distance.rate:.3f}{interval}"

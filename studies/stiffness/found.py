@@ -1,0 +1,248 @@
+"""What a stiffness study found, rung by rung and in the limit; a table, a picture and a few lines of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import nan
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Scene, scene_to_dict
+from rigid.output import summary
+
+from ..running.case import Outcome
+from .coefficient import Coefficient, coefficient
+from .ladder import Ladder
+from .limits import CONFIDENCE, Limit
+
+if TYPE_CHECKING:
+    import pandas
+
+    from ..limit.prediction import Prediction
+    from ..plots.distance import Distance
+
+LIMITS = ("impulse_ratio", "friction_loss", "normal_impulse")
+"""Measures whose limit is sought."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rung:
+    """The flexible hoop at one stiffness."""
+
+    bending_stiffness: float
+    """E I/(m g R^2)."""
+    contact_stiffness: float
+    """Foundation, eps_n R^2/(m g)."""
+    stiffness: float
+    """That of the two which the ladder raises."""
+    outcome: Outcome
+    """What the solver found there, or why it failed."""
+
+    def measure(self, name: str, pulse: int = 0) -> float:
+        """A measure of a pulse, NaN where there is none."""
+        pulses = self.outcome.pulses
+        return pulses[pulse][name] if pulse < len(pulses) else nan
+
+    def error(self, name: str, pulse: int = 0) -> float:
+        """Numerical error of that measure, from its change when the tolerance was halved."""
+        errors = self.outcome.numerical_error
+        return errors[pulse][name] if pulse < len(errors) else nan
+
+    def to_dict(self) -> dict[str, Any]:
+        """The rung as JSON prints it: the first pulse's measures at the top, all pulses below."""
+        found = self.outcome
+        stiffness = {"bending_stiffness": self.bending_stiffness, "contact_stiffness": self.contact_stiffness}
+        if found.failure:
+            return {**stiffness, "failure": found.failure}
+        return {
+            **stiffness,
+            **found.pulses[0],
+            "phases": found.phases[0],
+            "numerical_error": found.numerical_error[0],
+            "resolved": found.resolved,
+            "rtol": found.rtol,
+            "seconds": found.seconds,
+            "pulses": [{**pulse, "phases": phases} for pulse, phases in zip(found.pulses, found.phases, strict=True)],
+        }
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class StiffnessStudy:
+    """What the study found."""
+
+    scene: Scene
+    """The scene, at its own stiffness."""
+    ladder: Ladder
+    """What was raised, over which range."""
+    solver: str
+    """Who ran the rungs."""
+    rigid: Outcome
+    """The rigid hoop of the scene: the paper's law."""
+    reference: Outcome
+    """The rigid hoop that the contact law is expected to tend to; another than ``rigid`` for some laws where
+    mu_s > mu."""
+    reference_mu_s: float
+    """That hoop's static coefficient."""
+    rungs: tuple[Rung, ...]
+    """The flexible hoop, softest first."""
+    limits: dict[str, Limit]
+    """Limit of each measure in ``LIMITS``, first pulse."""
+    prediction: Prediction | None = None
+    """The approach to the limit as the rigid motion alone foresees it; None where it is not that of these cases: unless
+    both stiffnesses are raised with the patch damped and run by the flexible solver, where the approach is told by more
+    than the foundation (the regularised law), and where the pulse has more in it than rolling and sliding."""
+    separate: float = 0.0
+    """Foundation from which on the prediction, and any series in powers of it, holds: each event is over before the
+    next one comes."""
+
+    @property
+    def failures(self) -> list[Rung]:
+        """The rungs that have no result."""
+        return [rung for rung in self.rungs if rung.outcome.failure]
+
+    @property
+    def rungs_through(self) -> list[Rung]:
+        """The rungs that have one."""
+        return [rung for rung in self.rungs if not rung.outcome.failure]
+
+    def coefficient(self, name: str) -> Coefficient | None:
+        """How fast a measure comes to its limit, observed and predicted; None where only the leading one of the powers
+        down to the creep's is predicted, and with too few rungs through."""
+        if self.prediction is None or not self.prediction.complete:
+            return None
+        rungs = [rung for rung in self.rungs_through if rung.contact_stiffness >= self.separate]
+        foundation, values, errors = (
+            np.array(column)
+            for column in (
+                [rung.contact_stiffness for rung in rungs],
+                [rung.measure(name) for rung in rungs],
+                [rung.error(name) for rung in rungs],
+            )
+        )
+        return coefficient(self.prediction.terms[name], foundation, values, errors, self.prediction.rates)
+
+    def distance(self, name: str) -> Distance:
+        """How far a measure of the rungs that came through is from the rigid value, for a picture."""
+        from ..plots.distance import Distance
+
+        limit, through = self.limits[name], self.rungs_through
+        unit = self.scene.energy_unit if name == "friction_loss" else 1.0
+        stiffness = np.array([rung.stiffness for rung in through])
+        predicted = None
+        softest, stiffest = max(through[0].contact_stiffness, self.separate), through[-1].contact_stiffness
+        if self.prediction is not None and self.prediction.complete and softest < stiffest:
+            foundation = np.geomspace(softest, stiffest, 60)
+            term = self.prediction.terms[name]
+            away = abs(term.at(foundation ** (-1 / 3)) - term.limit) / unit
+            predicted = foundation * stiffness[0] / through[0].contact_stiffness, away
+        return Distance(
+            stiffness,
+            np.array([rung.measure(name) - limit.rigid for rung in through]) / unit,
+            np.array([rung.error(name) for rung in through]) / unit,
+            limit.rate,
+            limit.rate_interval,
+            f"{CONFIDENCE:.0%}",
+            limit.rate_cases,
+            predicted,
+            self.ladder.label,
+        )
+
+    def plot(self, *names: str, axes: Any = None) -> NDArray[np.object_]:
+        """Distance to the rigid value over stiffness, a panel for each measure: impulse ratio and friction loss if none
+        is named.
+
+        Parameters
+        ----------
+        *names : str
+            Of ``limits``.
+        axes : matplotlib Axes or sequence of them, optional
+            Where to draw; by default a new figure.
+
+        Returns
+        -------
+        (n,) array of matplotlib Axes
+        """
+        from ..plots.distance import draw
+
+        return draw({name: self.distance(name) for name in names or LIMITS[:2]}, axes)
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each rung: its stiffness, the first pulse's measures, or why there are none."""
+        import pandas
+
+        return pandas.DataFrame(
+            {
+                "bending_stiffness": rung.bending_stiffness,
+                "contact_stiffness": rung.contact_stiffness,
+                **(rung.outcome.pulses[0] if rung.outcome.pulses else {}),
+                "failure": rung.outcome.failure,
+            }
+            for rung in self.rungs
+        )
+
+    def __repr__(self) -> str:
+        return summary.text(self._title(), self._lines())
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (f"{r.contact_stiffness:.3g}", f"{r.bending_stiffness:.3g}", *(f"{r.measure(name):.6g}" for name in LIMITS))
+            for r in self.rungs
+        ]
+        return summary.html(self._title(), self._lines(), ("foundation", "E I/(m g R^2)", *LIMITS), rows)
+
+    def _title(self) -> str:
+        return f"Stiffness study: {len(self.rungs)} rungs, {len(self.failures)} failed"
+
+    def _lines(self) -> list[summary.Line]:
+        return [
+            (name, f"{limit.value:.6g} ± {limit.uncertainty:.2g} in the limit, {limit.rigid:.6g} of the rigid hoop")
+            for name, limit in self.limits.items()
+        ]
+
+    def to_dict(self) -> dict[str, Any]:
+        """The study as JSON prints it."""
+        return {
+            "scene": scene_to_dict(self.scene),
+            "ladder": {
+                "along": self.ladder.along,
+                "low": self.ladder.low,
+                "high": self.ladder.high,
+                "count": self.ladder.count,
+            },
+            "solver": self.solver,
+            "rigid": {**self.rigid.pulses[0], "phases": self.rigid.phases[0]},
+            "reference": {
+                "mu_s": self.reference_mu_s,
+                **self.reference.pulses[0],
+                "phases": self.reference.phases[0],
+            },
+            "cases": [rung.to_dict() for rung in self.rungs],
+            "limit": {name: _limit_to_dict(limit) for name, limit in self.limits.items()},
+            "prediction": self._foreseen(),
+        }
+
+    def _foreseen(self) -> dict[str, Any] | None:
+        if self.prediction is None:
+            return None
+        told = {}
+        for name in LIMITS:
+            seen = self.coefficient(name)
+            told[name] = self.prediction.terms[name].to_dict() | ({} if seen is None else seen._asdict())
+        return {"complete": self.prediction.complete, "separate": self.separate, **told}
+
+
+def _limit_to_dict(limit: Limit) -> dict[str, Any]:
+    return {
+        "value": limit.value,
+        "uncertainty": limit.uncertainty,
+        "rate": limit.rate,
+        "rate_interval": list(limit.rate_interval),
+        "exponents": list(limit.exponents),
+        "exponents_known": limit.known,
+        "rigid": limit.rigid,
+        "error": limit.error,
+        "rigid_inside": limit.rigid_inside,
+        "last_distance": limit.distance,
+    }

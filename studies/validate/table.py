@@ -1,0 +1,65 @@
+"""All rows, and the table that a screen shows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from importlib import import_module
+from typing import Any
+
+from ..plots.sheet import Column, Sheet, number
+from .row import Row
+
+SOURCES = ("paper", "point_mass", "dispute", "ring", "contact", "limit", "published")
+
+
+def validate(progress: Callable[[float], object] | None = None) -> list[Row]:
+    """Everything published or provable beside what the solvers find, in the order of ``SOURCES``."""
+    found: list[Row] = []
+    for done, name in enumerate(SOURCES, 1):
+        found += import_module(f"{__package__}.{name}").rows()
+        if progress is not None:
+            progress(done / len(SOURCES))
+    return found
+
+
+def failed(rows: Sequence[Row]) -> list[Row]:
+    """The rows that do not hold."""
+    return [row for row in rows if row.verdict == "fail"]
+
+
+def to_dict(rows: Sequence[Row]) -> dict[str, Any]:
+    """As JSON prints it."""
+    return {"rows": [row.to_dict() for row in rows], "failed": len(failed(rows))}
+
+
+def sheet(rows: Sequence[Row]) -> Sheet:
+    """What is compared, the value, ours, their difference; the sources below, by their numbers."""
+    sources = list(dict.fromkeys(row.source.partition(", sec.")[0] for row in rows))
+    return Sheet(
+        "Truth from outside",
+        [Column("what", [row.what for row in rows], words=True)],
+        [
+            Column("value", [_shown(row.value) for row in rows]),
+            Column("ours", [_shown(row.ours) for row in rows]),
+            Column("difference", [number(row.difference, 2) for row in rows]),
+            Column("allowed", [number(row.within or None, 2) for row in rows]),
+            Column("verdict", [row.verdict for row in rows]),
+            Column("source", [f"[{sources.index(row.source.partition(', sec.')[0]) + 1}]" for row in rows]),
+        ],
+    )
+
+
+def notes(rows: Sequence[Row]) -> list[str]:
+    """The sources by number, what is known of the rows that do not simply hold, and how many do."""
+    sources = list(dict.fromkeys(row.source.partition(", sec.")[0] for row in rows))
+    told = [f"[{place}] {source}" for place, source in enumerate(sources, 1)]
+    told += [f"{row.what}: {row.verdict}; {row.why}." for row in rows if row.verdict != "pass" and row.why]
+    count = {
+        verdict: sum(row.verdict == verdict for row in rows) for verdict in ("pass", "differs", "no number", "fail")
+    }
+    said = ", ".join(f"{n} {verdict}" for verdict, n in count.items())
+    return [*told, f"{len(rows)} rows: {said}."]
+
+
+def _shown(value: float | str | None) -> str:
+    return value if isinstance(value, str) else number(value, 9)

@@ -1,0 +1,89 @@
+"""The flexible motion in a session or a notebook: what it takes, curves, tables, a few lines."""
+
+from __future__ import annotations
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+
+import rigid
+from flexible import load_motion, rigid_limit, simulate
+from rigid import MotionFileError, SceneError, load_scene, scene_to_dict
+
+mpl.use("Agg")
+SCENE = load_scene("paper-3.3-massless").replace(
+    run={"until": "pulse"}, contact={"stiffness": 1e8}, solve={"rtol": 1e-3}
+)
+
+
+@pytest.fixture(scope="module")
+def motion():
+    return simulate(scene_to_dict(SCENE), history=True)
+
+
+def test_a_dict_is_a_scene(motion):
+    again = simulate(SCENE)
+    assert again.scene == motion.scene == SCENE
+    assert again.pulses == motion.pulses
+    assert rigid_limit(SCENE).hoop == SCENE.hoop
+    with pytest.raises(SceneError, match="neither a file nor the name of a scene"):
+        simulate("paper-3.3")
+
+
+def test_curves_and_tables(motion):
+    from matplotlib import pyplot
+
+    top = motion.plot("normal_force")[0].lines[-1].get_ydata().max()
+    pulse = motion.pulses[0]
+    # drawn straight to two thousandths of its range
+    assert top == pytest.approx(pulse.peak_normal_force, rel=4e-3)
+    t = pulse.plot()[0].lines[-1].get_xdata()
+    assert (t[0], t[-1]) == (pulse.t_start, pulse.t_end)
+    steps = motion.history.to_dataframe()
+    assert len(steps) == len(motion.history.t)
+    assert (steps["ring_strain"] == motion.history.ring_strain).all()
+    assert set(motion.to_dataframe()["phase"]) >= {"roll", "spin"}
+    pyplot.close("all")
+
+
+def test_a_few_lines_say_what_it_is(motion):
+    lines = repr(motion).splitlines()
+    assert len(lines) <= 24
+    assert max(map(len, lines)) <= 100
+    assert "foundation 1e+08" in repr(motion)
+    assert "lost to friction" in motion._repr_html_()
+    assert len(repr(motion.history)) < 40
+    assert "sample" not in str(motion.to_dict())
+
+
+def test_a_motion_comes_back_from_its_file(tmp_path, motion):
+    """To the last bit, in units of its own too; of the ring's states there is nothing in the file."""
+    units = {"hoop": {"R": 0.4, "m": 0.2, "g": 9.81}, "run": {"turns": 1}}
+    for number, found in enumerate((motion, simulate(SCENE.replace(**units)))):
+        path = tmp_path / f"motion{number}"
+        found.save(path)
+        again = load_motion(path)
+        assert (again.scene, again.ended, again.steps) == (found.scene, found.ended, found.steps)
+        assert again.ledger == found.ledger
+        assert again.phases == found.phases
+        assert again.turns == found.turns
+        assert again.pulses == found.pulses
+        t = np.linspace(0, found.t_end, 300)
+        for name in ("phi", "x_C", "slip_velocity", "normal_force", "friction_force", "energy", "alpha"):
+            assert (getattr(again.at(t), name) == getattr(found.at(t), name)).all()
+        assert (again.history is None) == (found.history is None)
+        assert again.kept == ()
+        with pytest.raises(MotionFileError, match=r"flexible\.load_motion reads it"):
+            rigid.load_motion(path)
+    steps, read = motion.history.to_dataframe(), load_motion(tmp_path / "motion0").history.to_dataframe()
+    assert (steps == read).all().all()
+    whole = (tmp_path / "motion0").read_bytes()
+    (tmp_path / "motion0").write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(MotionFileError, match="is not a saved motion, or damaged"):
+        load_motion(tmp_path / "motion0")
+
+
+def test_a_rigid_motion_comes_back_too(tmp_path):
+    found = rigid.simulate("paper-3.1")
+    found.save(tmp_path / "rigid")
+    assert load_motion(tmp_path / "rigid") == found

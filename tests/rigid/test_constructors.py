@@ -1,0 +1,140 @@
+"""Scenes made in Python: what a constructor or ``replace`` takes, and one sentence for what it does not."""
+
+from __future__ import annotations
+
+import inspect
+import pickle
+import warnings
+from dataclasses import replace
+from math import pi, radians
+
+import numpy as np
+import pytest
+
+from rigid import (
+    Contact,
+    Friction,
+    Hoop,
+    Release,
+    Ring,
+    Run,
+    Scene,
+    SceneError,
+    Solve,
+    as_scene,
+    load_scene,
+    scene_from_dict,
+    scene_names,
+    scene_to_dict,
+    simulate,
+    simulate_batch,
+)
+
+FILE = {"hoop": {"k": 0.1}, "friction": {"mu_s": 0.35, "mu": 0.3}, "release": {"phi0_deg": 10}}
+
+
+def said(action, *values, **keys):
+    """The sentence with which something is refused."""
+    with pytest.raises(SceneError) as found:
+        action(*values, **keys)
+    return str(found.value)
+
+
+@pytest.mark.parametrize(
+    ("part", "keys", "changed"),
+    [
+        ("friction", {"mu_k": 0.2}, "mu_k"),
+        ("friction", {"mu_d": 0.2}, "mu_d"),
+        ("friction", {"mus": 0.2}, "mus"),
+        ("hoop", {"massratio": 0.2}, "massratio"),
+        ("release", {"phi_0_deg": 0.2}, "phi_0_deg"),
+        ("contact", {"dampin": 0.2}, "dampin"),
+        ("ring", {"nu": 0.2}, "nu"),
+        ("hoop", {"k": True}, "k"),
+        ("hoop", {"k": [0.1]}, "k"),
+        ("hoop", {"k": "thin"}, "k"),
+        ("hoop", {"k": 1.5}, "k"),
+        ("release", {"phi0_deg": "ten"}, "phi0_deg"),
+        ("ring", {"weld_half_angle_deg": 91}, "weld_half_angle_deg"),
+        ("solve", {"rtol": float("nan")}, "rtol"),
+        ("contact", {"law": "glue"}, "law"),
+    ],
+)
+def test_the_same_sentence_from_constructor_replace_and_file(part, keys, changed):
+    """Whichever way a mistake comes in; of keys that a file has not, the list of known ones may differ."""
+    classes = {"hoop": Hoop, "friction": Friction, "release": Release, "ring": Ring, "contact": Contact, "solve": Solve}
+    needed = dict(FILE.get(part, {}))
+    for key in keys:
+        needed.pop(key, None)
+    by_file = said(scene_from_dict, {**FILE, part: {**needed, **keys}})
+    assert by_file.startswith(f"{part}.{changed} ")
+    assert said(classes[part], **needed, **keys) == by_file
+    assert said(scene_from_dict(FILE).replace, **{part: keys}) == by_file
+
+
+@pytest.mark.parametrize(("key", "meant"), [("mu_k", "mu"), ("mu_d", "mu"), ("mu_static", "mu_s"), ("mu_S", "mu_s")])
+def test_the_coefficient_that_was_meant(key, meant):
+    assert said(Friction, mu_s=0.3, mu=0.2, **{key: 0.1}).endswith(f"did you mean {meant!r}?")
+
+
+def test_what_is_missing_or_too_much():
+    assert said(Hoop) == "hoop.k is missing: a scene needs it."
+    assert said(Release) == "release.phi0_deg is missing: a scene needs it."
+    assert said(Friction, 0.3) == "friction.mu is missing: a scene needs it."
+    assert said(Friction, 0.3, 0.2, 0.1).startswith("[friction] has 2 keys")
+    assert said(Scene, Hoop(0.1), Friction(0.3, 0.2)) == "release is missing: a scene needs it."
+    assert said(load_scene("paper-3.1").replace, frction={}).endswith("did you mean 'friction'?")
+    assert said(Scene, Hoop(0.1), Friction(0.3, 0.2), 0.1) == "release = 0.1 is not possible: it must be a Release."
+    assert "hop is not a part of a scene: did you mean 'hoop'?" in said(Scene, hop=Hoop(0.1))
+
+
+def test_degrees_beside_radians():
+    assert Release(phi0_deg=10) == Release(radians(10))
+    assert Release(phi0_deg=10).phi0_deg == pytest.approx(10, rel=1e-15)
+    assert Ring(weld_half_angle_deg=4).weld_half_angle == radians(4)
+    scene = load_scene("paper-3.1").replace(release={"phi0_deg": 20}, ring={"weld_half_angle_deg": 5})
+    assert (scene.release.phi0, scene.ring.weld_half_angle) == (radians(20), radians(5))
+    assert said(Release, 0.1, phi0_deg=10).startswith("release.phi0_deg = 10 is not possible")
+    assert "phi0_deg" in inspect.signature(Release).parameters
+    assert replace(Release(phi0_deg=10), omega0=1.0) == Release(radians(10), 1.0)
+
+
+@pytest.mark.parametrize("phi0", [10, 45.0, -12.5, 370])
+def test_degrees_given_for_radians_are_questioned(phi0):
+    with pytest.warns(UserWarning, match=rf"did you mean phi0_deg = {phi0}\?"):
+        Release(phi0)
+
+
+@pytest.mark.parametrize("phi0", [0.17, 3.0, 2 * pi, 4.5 * pi, -7 * pi / 3])
+def test_an_angle_is_not_questioned(phi0):
+    """Within a turn, or where a motion may have got to."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Release(phi0)
+        scene_from_dict({**FILE, "release": {"phi0_deg": 370}})
+
+
+def test_numbers_of_numpy_are_numbers():
+    hoop = Hoop(np.float64(0.5), r=np.array(1.25), mass_ratio=np.int64(1))
+    assert hoop == Hoop(0.5, 1.25, 1)
+    assert {type(value) for value in (hoop.k, hoop.r, hoop.mass_ratio)} <= {int, float}
+    assert Run(turns=np.int32(3)) == Run(turns=3)
+
+
+def test_every_scene_survives_pickling_and_its_dict():
+    for name in scene_names():
+        scene = load_scene(name)
+        assert pickle.loads(pickle.dumps(scene)) == scene == scene_from_dict(scene_to_dict(scene)) == scene.replace()
+
+
+def test_a_solver_takes_a_name_a_path_a_dict_or_a_scene(tmp_path):
+    file = tmp_path / "own.toml"
+    file.write_text("[hoop]\nk = 0.1\n[friction]\nmu_s = 0.35\nmu = 0.3\n[release]\nphi0_deg = 10\n", "utf-8")
+    motions = [simulate(source) for source in ("paper-3.1", file, str(file), FILE, load_scene("paper-3.1"))]
+    assert all(motion == motions[0] for motion in motions)
+    batch = simulate_batch(["paper-3.1", file, FILE])
+    assert (batch.t_end == batch.t_end[0]).all()
+    assert as_scene("paper-3.1") is not None
+    assert said(simulate, 3).endswith("it must be a Scene, a name, the path of a file, or a dict.")
+    assert "paper-3.1" in said(simulate, "paper3.1")
+    assert said(simulate, {"hoop": {"k": 0.1}}).endswith("is missing: a scene needs it.")

@@ -1,0 +1,156 @@
+"""A motion in a session or a notebook: curves, tables, a few lines."""
+
+from __future__ import annotations
+
+import copy
+import json
+import pickle
+import subprocess
+import sys
+from math import pi
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+
+from rigid import Friction, Hoop, Pulse, Release, Run, Scene, load_scene, simulate, simulate_batch
+
+mpl.use("Agg")
+ROOT = Path(__file__).parents[2]
+HEAVY = load_scene("paper-3.2-k0.25").replace(hoop={"R": 0.4, "m": 0.2, "g": 9.81})
+
+
+@pytest.fixture(scope="module")
+def motion():
+    return simulate("paper-3.1")
+
+
+@pytest.fixture(autouse=True)
+def closed():
+    yield
+    from matplotlib import pyplot
+
+    pyplot.close("all")
+
+
+def curve(axes):
+    return axes.lines[-1].get_xydata()
+
+
+def test_curves_are_the_states(motion):
+    """Every point drawn is a state; between them N is straight to two thousandths of its range."""
+    axes = motion.plot("normal_force", "energy")
+    assert len(axes) == 2
+    t, normal = curve(axes[0]).T
+    assert (t[0], t[-1]) == (0.0, motion.t_end)
+    assert (normal == motion.at(t).normal_force).all()
+    middle = (t[1:] + t[:-1]) / 2
+    jump = np.diff(t) < 1e-10  # both sides of one
+    off = np.abs(motion.at(middle).normal_force - (normal[1:] + normal[:-1]) / 2)[~jump]
+    assert off.max() <= 2e-3 * np.ptp(normal)
+    assert normal.max() == pytest.approx(motion.pulses[0].peak_normal_force, rel=2e-3)
+    assert "mg" in axes[0].get_ylabel()
+
+
+def test_over_the_angle_and_on_given_axes(motion):
+    from matplotlib import pyplot
+
+    _, axes = pyplot.subplots(3)
+    drawn = motion.plot(over="phi", axes=axes)
+    assert list(drawn) == list(axes)
+    phi = curve(drawn[0])[:, 0]
+    # a turn lies between two of the 129 times at least, where phi = phi_max - alpha (dt)^2/2
+    assert phi.max() == pytest.approx(motion.turns[0].phi, abs=(motion.t_end / 128) ** 2)
+    assert "varphi" in drawn[-1].get_xlabel()
+    slipping = [phase for phase in motion.phases if phase.kind != "roll"]
+    assert len(drawn[0].patches) == len(slipping)
+    with pytest.raises(ValueError, match="3 quantities need as many axes"):
+        motion.plot(axes=axes[:2])
+    with pytest.raises(ValueError, match="'speed' is not a quantity of a motion: known are t, phi"):
+        motion.plot("speed")
+
+
+def test_a_pulse_draws_itself(motion):
+    pulse = motion.pulses[0]
+    axes = pulse.plot("phi", "normal_force")
+    t, phi = curve(axes[0]).T
+    assert (t[0], t[-1]) == (pulse.t_start, pulse.t_end)
+    assert phi[0] < pi < phi[-1]
+    assert curve(axes[1])[:, 1].max() == pytest.approx(pulse.peak_normal_force, rel=2e-3)
+    assert "mg" not in simulate(HEAVY).pulses[0].plot("normal_force")[0].get_ylabel()
+    bare = Pulse(**{name: value for name, value in pulse.to_dict().items() if name != "impulse_ratio"})
+    assert bare == pulse
+    with pytest.raises(ValueError, match="belongs to no motion"):
+        bare.plot()
+
+
+def test_a_pulse_of_a_motion_that_comes_again():
+    """What comes round a thousand times is kept once: the last pulse is drawn where it is."""
+    smooth = simulate(Scene(Hoop(0.3), Friction(0, 0), Release(phi0_deg=10), Run(turns=200)))
+    last = smooth.pulses[-1]
+    t, normal = curve(last.plot("normal_force")[0]).T
+    assert (t[0], t[-1]) == (last.t_start, last.t_end)
+    # 1 at both edges of the pulse, where N = M g
+    assert normal[[0, -1]] == pytest.approx(1, abs=1e-6)
+
+
+def test_a_table_of_states(motion):
+    table = motion.to_dataframe()
+    states = motion.at(table["t"].to_numpy())
+    assert (table["friction_force"] == states.friction_force).all()
+    assert list(table["phase"].unique()) == ["roll", "spin", "skid"]
+    assert list(motion.to_dataframe([0.0, 1.0])["t"]) == [0.0, 1.0]
+    assert len(motion.to_dataframe(0.5)) == 1
+
+
+def test_a_table_of_a_batch():
+    """A row for each pulse; measures as the array has them, and as one scene alone has them."""
+    scenes = [load_scene("paper-3.1"), load_scene("paper-3.1").replace(hoop={"k": 0.97}), HEAVY]
+    batch = simulate_batch(scenes)
+    table = batch.to_dataframe()
+    assert table.index.names == ["scene", "pulse"]
+    assert [scene for scene, _ in table.index] == sorted(scene for scene, _ in table.index)
+    counts = np.minimum(batch.pulse_count, 2)
+    assert [len(table.loc[scene]) for scene in range(3)] == list(np.maximum(counts, 1))
+    alone = simulate(scenes[0]).pulses
+    assert table.loc[(0, 2), "impulse_ratio"] == pytest.approx(alone[1].impulse_ratio, rel=1e-12)
+    assert not table["cut"].any()
+    nothing = simulate_batch(scenes, t_end=1e-3).to_dataframe()
+    assert list(nothing.index) == [(0, 0), (1, 0), (2, 0)]
+    assert nothing["normal_impulse"].isna().all()
+    assert (nothing["ended"] == "the time to run is over").all()
+
+
+def test_a_few_lines_say_what_it_is(motion):
+    many = simulate(Scene(Hoop(0.1), Friction(0, 0), Release(phi0_deg=10), Run(turns=1000)))
+    batch = simulate_batch([load_scene("paper-3.1")] * 50)
+    for thing in (motion, many, batch):
+        lines = repr(thing).splitlines()
+        assert len(lines) <= 24
+        assert max(map(len, lines)) <= 100
+        html = thing._repr_html_()
+        assert html.count("<table>") == html.count("</table>") >= 1
+    assert "roll, spin, roll, skid" in repr(motion)
+    assert "0.150841" in repr(motion)
+    assert "1000: " in repr(many)
+    assert "50: the last turn" in repr(batch)
+    odd = copy.copy(motion)
+    object.__setattr__(odd, "ended", "a < b & c")
+    assert "a &lt; b &amp; c" in odd._repr_html_()
+
+
+def test_what_draws_is_not_printed_pickled_twice_or_compared(motion):
+    assert "sample" not in json.dumps(motion.to_dict())
+    again = pickle.loads(pickle.dumps(motion))
+    assert again == motion
+    assert again.pulses[0].sample is again.sample
+    assert "sample" not in repr(motion.pulses[0])
+
+
+def test_pictures_and_tables_are_loaded_where_they_are_used():
+    line = (
+        "import sys, rigid; m = rigid.simulate('paper-3.1'); repr(m), m._repr_html_(), m.times();"
+        "assert not set(sys.modules) & {'matplotlib', 'pandas', 'scipy', 'numba'}"
+    )
+    subprocess.run([sys.executable, "-c", line], cwd=ROOT, check=True)

@@ -1,0 +1,83 @@
+"""Studies in a session or a notebook."""
+
+from __future__ import annotations
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+
+import flexible
+import meshes
+import rigid
+import studies
+from rigid import load_scene
+from studies import Ladder, limit_study, run_sweep, stiffness_study, sweep_from_dict
+from studies.running.solvers import version
+
+mpl.use("Agg")
+
+
+@pytest.fixture(scope="module")
+def study():
+    """A hoop that tends to the rigid one at a rate that is known."""
+    return stiffness_study("paper-3.3-massless", Ladder("both", 1e7, 1e12, 6), solver="third_solver:softened")
+
+
+def test_a_study_draws_its_distance(study):
+    from matplotlib import pyplot
+
+    axes = study.plot()
+    assert len(axes) == 2
+    limit = study.limits["impulse_ratio"]
+    points = [line for line in axes[0].lines if line.get_label() in ("above the rigid value", "below it")]
+    drawn = {round(x): y for line in points for x, y in zip(*line.get_data(), strict=True)}
+    for rung in study.rungs:
+        away = abs(rung.measure("impulse_ratio") - limit.rigid)
+        assert drawn[round(rung.stiffness)] == pytest.approx(away, rel=1e-12)
+    assert len(study.plot("normal_impulse")) == 1
+    with pytest.raises(ValueError, match="2 measures need as many axes"):
+        study.plot(axes=pyplot.subplots(3)[1])
+    pyplot.close("all")
+
+
+def test_a_study_as_a_table_and_in_a_few_lines(study):
+    table = study.to_dataframe()
+    assert list(table["contact_stiffness"]) == pytest.approx(list(np.geomspace(1e7, 1e12, 6)))
+    assert list(table["impulse_ratio"]) == [rung.measure("impulse_ratio") for rung in study.rungs]
+    lines = repr(study).splitlines()
+    assert len(lines) <= 24
+    assert max(map(len, lines)) <= 100
+    assert "<td>1e+12</td>" in study._repr_html_()
+
+
+def test_the_limit_solved_in_a_few_lines():
+    found = limit_study("paper-3.3-massless", foundations=())
+    lines = repr(found).splitlines()
+    assert len(lines) <= 24
+    assert max(map(len, lines)) <= 100
+    term = found.prediction.terms["impulse_ratio"]
+    assert f"{term.limit:.6g} + {term.coefficient:.4g} x^1" in repr(found)
+    assert "foundation^(-1/3)" in found._repr_html_()
+
+
+def test_a_sweep_needs_no_pool():
+    data = {"sweep": {"scene": "paper-3.1", "solvers": ["rigid"]}, "hoop": {"k": [0.1, 0.25]}}
+    table = run_sweep(sweep_from_dict(data))
+    ratios = [
+        rigid.simulate(load_scene("paper-3.1").replace(hoop={"k": k})).pulses[0].impulse_ratio for k in (0.1, 0.25)
+    ]
+    frame = table.to_dataframe()
+    assert list(frame[frame["pulse"] == 1]["impulse_ratio"]) == ratios
+    assert len(repr(table)) < 60
+    assert "impulse_ratio" in table._repr_html_()
+
+
+@pytest.mark.parametrize("package", [rigid, meshes, flexible, studies])
+def test_every_package_tells_its_version_and_that_it_is_typed(package):
+    from importlib.resources import files
+
+    assert package.__version__ == version()
+    assert "__version__" in dir(package)
+    assert (files(package) / "py.typed").is_file()
+    with pytest.raises(AttributeError, match="has no attribute 'nothing'"):
+        package.nothing  # noqa: B018
