@@ -31,7 +31,7 @@ from .points.bristles import carry
 from .points.data import Before, Bristles, Contact, Damper, Load, Parameters, Resultants, Rim, Slip
 from .points.detection import gather
 from .points.normal import force_by_gaps, press
-from .points.rim import lift
+from .points.rim import gap_at, lift, sideways, upward, vertex_angle
 
 
 @jit
@@ -48,10 +48,28 @@ def _load(foundation: Any, damper: Damper) -> Load:
 
 
 @jit
-def _nothing(nodes: int, outside: bool) -> Contact:
+def _way_over_the_floor(pose: Any, u: Any, rim: Rim, before: Before) -> float:
+    """Way in the step of the rim's node that comes nearest to the floor, where none touches: with it a patch begins."""
+    old, u_old = before.pose, before.u
+    s, c, s_old, c_old = sin(pose[2]), cos(pose[2]), sin(old[2]), cos(old[2])
+    least, way = np.inf, pose[0] - old[0]
+    for i in range(u.shape[0]):
+        psi = pose[2] - pi + vertex_angle(rim.vertex, rim.first + i // 2)
+        if i % 2 == 1:
+            psi = (psi + pose[2] - pi + vertex_angle(rim.vertex, rim.first + i // 2 + 1)) / 2
+        gap = gap_at(pose[1], psi, upward(u[i, 0], u[i, 1], s, c))
+        if gap < least:
+            least = gap
+            moved = sideways(u[i, 0], u[i, 1], s, c) - sideways(u_old[i, 0], u_old[i, 1], s_old, c_old)
+            way = pose[0] - old[0] + moved + (pose[2] - old[2]) * lift(psi)
+    return way
+
+
+@jit
+def _nothing(nodes: int, outside: bool, way: float) -> Contact:
     """Off the floor."""
     size = 3 + 2 * nodes
-    zero = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf, 0.0)
+    zero = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, way, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf, 0.0)
     none = Bristles(np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0, np.int8))
     return Contact(np.zeros(3), np.zeros((nodes, 2)), np.zeros((size, size)), zero, none, outside)
 
@@ -166,15 +184,17 @@ def contact_forces(
     size = 3 + 2 * nodes
     points, outside = gather(pose, u, rim, law.spacing, before)
     if points.gap.shape[0] == 0:
-        return _nothing(nodes, outside)
+        return _nothing(nodes, outside, _way_over_the_floor(pose, u, rim, before))
 
     foundation = press(points.gap, points.last, law.eps_n, law.spacing)
     load = _load(foundation, damper)
     elastic, eta = load.elastic, load.eta
     dphi = phi - before.pose[2]
     lifts = lift(points.psi)
-    moved, way = 0.0, 0.0
-    if elastic > 0:
+    moved = 0.0
+    if elastic == 0:
+        way = _way_over_the_floor(pose, u, rim, before)
+    else:
         moved = (foundation.force * points.move).sum() / elastic
         way = moved + dphi * (foundation.force * lifts).sum() / elastic
     slip = Slip(way, damper.way_0, damper.velocity_0 + damper.rate * (way - damper.way_0), damper.rate, damper.drag)

@@ -83,7 +83,7 @@ def _step(model: Model, old: State, h: float, method: Method) -> Step | None:
         known.acc.append(last.acc)
         known.res.append(res)
         known.elastic_rate.append(float(res.elastic - elastic) / beta)
-        known.way.append(float(res.way if res.normal > 0 else known.pos[-1][0]))
+        known.way.append(float(res.way))
         known.slip_velocity.append((known.way[-1] - way) / beta)
         known.feet.append(res.feet)
     assert last is not None

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
-from flexible.output.body import lowest, whole
+from flexible.output.body import lowest, outline, whole
 from rigid import Friction, Hoop, Kind, Release, Run, Scene, scene_to_dict, simulate
 from studies.hop.energies import Roll
 from studies.hop.roll import RollingMotion, roll, spans, steps_of
@@ -73,6 +73,21 @@ def test_off_the_floor_the_mass_centre_falls_freely_and_the_angular_momentum_is_
         before, after = (2 * now.rotation / now.spin for now in (start, end))
         assert after == pytest.approx(before, abs=most)
     assert abs(end.spin - start.spin) > 3 * most, "it bends, so it does not turn evenly"
+
+
+def test_off_the_floor_the_slip_velocity_is_that_of_the_rim(soft):
+    """Of the rim's point nearest to the floor, its vibration included: with it the next patch begins."""
+    history, hoop, states = soft.steps.history, soft.steps.hoop, soft.steps.states
+    told, seen = [], []
+    for first, last in spans(history.normal_force == 0):
+        for i in range(first, last):
+            before, after = outline(hoop, states[i]), outline(hoop, states[i + 1])
+            node = int(np.argmin(before[:, 1]))
+            told.append((history.slip_velocity[i] + history.slip_velocity[i + 1]) / 2)
+            seen.append((after[node, 0] - before[node, 0]) / (history.t[i + 1] - history.t[i]))
+    assert len(told) > 20
+    # both are straight in time within a step only: per cents
+    assert np.abs(np.subtract(told, seen)).mean() < 0.05 * np.abs(seen).mean()
 
 
 def test_the_impulse_is_the_momentum_of_the_mass_centre(soft):
