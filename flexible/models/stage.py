@@ -16,7 +16,6 @@ from ..contact.forces import contact_forces
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
 from ..ring.frame import Frame, inertia
 
-
 MOST_POINTS = 5000  # to a patch, two hundred times as wide as under the weight: 1e7 weights are no solution
 
 

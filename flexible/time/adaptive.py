@@ -50,6 +50,9 @@ def _until_event(model: Model, state: State, trial: Step, ends: Ends, method: Me
         if located.trial is None:
             return None
         trial, event = located.trial, watch if located.at_event else None
+    if event == MODE_ENDS and trial.state.t - state.t < SHORTEST:
+        # rates in so short a step are round-off, and so are a damper's forces: the mode ends where it began
+        trial = Step(state, 0.0, (0.0, 0.0), 0.0, 0.0, 0.0, 0.0)
     return Accepted(trial, event, attempts)
 
 
@@ -123,9 +126,6 @@ def march(
             continue
         trial, event = step.trial, step.event
         attempts += step.attempts
-        if event == MODE_ENDS and trial.state.t - state.t < SHORTEST:
-            # rates in so short a step are round-off, and so are a damper's forces: the mode ends where it began
-            trial = Step(state, 0.0, (0.0, 0.0), 0.0, 0.0, 0.0, 0.0)
         books.normal_impulse += trial.impulses[0]
         books.friction_impulse += trial.impulses[1]
         stored = trial.state.res.bristle_energy - state.res.bristle_energy

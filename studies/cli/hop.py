@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     "--rtol",
     type=click.FloatRange(1e-8, 0.5),
     metavar="T",
-    help="Tolerance of the rolls, 3e-3 by default; thresholds are held against a third of it.",
+    help="Tolerance of the rolls, 3e-4 by default; thresholds are held against a third of it.",
 )
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(

@@ -22,7 +22,7 @@ STIFFNESS = "ring.bending_stiffness"
 DEFAULT = (0.5, 1e4, 24)
 """Range of the bending stiffness, and number of cases over it."""
 
-RTOL = 3e-3
+RTOL = 3e-4
 """Tolerance of the rolls; thresholds are held against a third of it."""
 
 FINER = 3.0

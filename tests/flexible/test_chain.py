@@ -186,9 +186,10 @@ def test_a_damped_soft_pulse_is_gone_through():
 def test_a_soft_pulse_against_all_nodes(monkeypatch):
     """The first pulse at E I = 10, where the rim turns by 0.03, on the same mesh: a percent in all that is measured.
 
-    At rtol = 1e-3 each of them is off by up to half a percent by itself.
+    At rtol = 3e-4 each of them is off by up to half a percent by itself; at 1e-3 a step is long beside the ring's fast
+    vibrations, and the largest force is another one for each.
     """
-    scene = HOOP.replace(ring={"bending_stiffness": 10.0}, hoop={"mass_ratio": 0.05})
+    scene = HOOP.replace(ring={"bending_stiffness": 10.0}, hoop={"mass_ratio": 0.05}, solve={"rtol": 3e-4})
     found = []
     for kind in (ChainHoop, ExactHoop):
         monkeypatch.setattr("flexible.solve.hoop_of", lambda inner, kind=kind: kind(inner, through=2))

@@ -250,7 +250,7 @@ def test_the_flexible_solver_has_the_same_history(end_of_spin):
             contact={"stiffness": foundation},
             ring={"bending_stiffness": 1e12},
             run=Run(until="pulse"),
-            solve={"rtol": 1e-5},
+            solve={"rtol": 1e-6},
         )
         eps = epsilon(scene)
         kept = flexible(scene, history=True).history

@@ -37,7 +37,9 @@ def limits_hold(study) -> None:
             assert limit.rate == pytest.approx(1 / 3, abs=0.06)
     if study.prediction.complete:  # without a fit, and with nothing of the cases in it
         observed, predicted, uncertainty = study.coefficient("impulse_ratio")
-        assert abs(observed - predicted) <= uncertainty < 0.5 * abs(predicted)
+        # an interval is of 95 %: one hoop in twenty may be beyond it, and none by much
+        assert abs(observed - predicted) <= 1.5 * uncertainty
+        assert uncertainty < 0.5 * abs(predicted)
         if scene.hoop.mass_ratio == 0:  # otherwise the ring's own vibration is the larger part of what is left
             assert abs(observed - predicted) < 0.05 * abs(predicted)
             assert uncertainty < 0.2 * abs(predicted)  # one that is off by as much would be seen
