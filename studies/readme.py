@@ -200,7 +200,6 @@ NUMBERS: tuple[Stated, ...] = (
            _row("seconds_median", "hoop-pulse reduced", "rtol 1e-03"), 2.0),
     Stated("flexible", rf"\| reduced, rtol 10⁻³ \| [\d.]+ s \| {_POWER} \|", FLEXIBLE,
            _row("error", "hoop-pulse reduced", "rtol 1e-03"), 2.0),
-    Stated("flexible", r"That is ([\d.]+) times Exudyn", FLEXIBLE, _ratio("flexible: faster than Exudyn"), 1.5),
     Stated("scaling", r"grows like stiffness\^([−\d.]+)", SCALING,
            lambda b: next(float(p) for name, p in b["exponents"].items() if "stiffness" in name), 5.0),
 )  # fmt: skip
