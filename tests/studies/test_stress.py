@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import tomllib
+from math import inf
 
 import pytest
 
 from rigid import scene_from_dict
 from studies.stress import checks, draws, run
+from studies.stress.flexible import flexible_margins
 from studies.stress.run import Finding, Report
 from studies.stress.work import Work
 
@@ -88,6 +90,15 @@ def test_a_crash_and_a_run_without_end_are_told():
     assert report.reasons("flexible")["cut at the work bound"] == [1, 2]
     assert report.reasons("flexible")["stopped at t = #: no step"] == [3]
     assert "2 not: cut at the work bound (1, 2)" in report.text()
+
+
+@pytest.mark.slow
+def test_four_in_five_flexible_scenes_come_to_their_end():
+    """Those of the quick test, each once, with its bound on steps; every check holds, of those that stop early too."""
+    scenes = draws.flexible_scenes(run.QUICK.flexible, 0)
+    found = [flexible_margins(scene, False, Work(run.QUICK.steps, inf)) for scene in scenes]
+    assert all(margin <= 1 for checked in found for margin in checked.margins.values())
+    assert sum(checked.completed for checked in found) >= run.ENOUGH * len(found)
 
 
 @pytest.mark.long
