@@ -11,41 +11,27 @@ import click
 from rigid import load_scene
 from rigid.elastic import LAWS
 
-from ..running.files import folder, to_json, write_text
+from ..running.files import to_json, write_text
+from .shared.options import Commands, as_json, out_folder, results_folder, scene_argument, scheduler, workers
 
 if TYPE_CHECKING:
     from ..stiffness.found import StiffnessStudy
 
-as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
-workers = click.option(
-    "--workers",
-    type=click.IntRange(1, 1024),
-    metavar="N",
-    help="Processes side by side; by default one for each core.",
-)
 CODE = (
     "The module is imported (PYTHONPATH says from where) and its function called in every worker, "
     "with all that you may do: name only code that you trust."
 )
-scheduler = click.option(
-    "--scheduler", metavar="ADDRESS", help="Run on the Dask cluster of this scheduler, tcp://host:8786."
-)
 
 
-@click.group()
+@click.group(cls=Commands)
 def study() -> None:
     """Both solvers over many scenes: the limit of stiffness, sweeps over anything."""
 
 
 @study.command()
-@click.argument("scene")
+@scene_argument
 @as_json
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Write table, figures, report.html and the ring's fields here; finished cases are kept and found again.",
-)
+@out_folder("Write table, figures, report.html and the ring's fields here; finished cases are kept and found again.")
 @click.option(
     "--along",
     type=click.Choice(["both", "contact", "bending"]),
@@ -108,7 +94,7 @@ def stiffness(
     described = described.replace(contact={key: value for key, value in contact.items() if value is not None})
     ladder = Ladder.around(described, along, low, high, count)
     solver(solver_name)
-    target = folder(out) if out is not None else None
+    target = results_folder(out)
     with bar(f"{ladder.count} cases") as progress, pool(workers, scheduler) as place:
         found = stiffness_study(
             described,
@@ -126,13 +112,13 @@ def stiffness(
     if as_json:
         click.echo(to_json(found.to_dict()))
     else:
-        from .tables import show, study_tables
+        from .shared.tables import show, study_tables
 
         show(*study_tables(found))
         if target is not None:
             click.echo(f"Figures, table and report are in {target}; open {target / 'report.html'}.")
     if target is not None and solver_name == "flexible":  # last, so that nothing is lost if it fails
-        from .output import write_first_pulse
+        from .shared.output import write_first_pulse
 
         with bar("fields of the first pulse") as progress:
             write_first_pulse(found.scene, target, progress)
@@ -157,12 +143,7 @@ def _write_study(found: StiffnessStudy, target: Path, line: str, progress: Calla
 @study.command()
 @click.argument("file", type=click.Path(path_type=Path))
 @as_json
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Folder of the results, by default FILE without .toml; cases finished there are not run again.",
-)
+@out_folder("Folder of the results, by default FILE without .toml; cases finished there are not run again.")
 @click.option(
     "--max-cases",
     type=click.IntRange(min=1),
@@ -197,7 +178,7 @@ def sweep(
 
     How many cases there are is said first, and what they will take once the first are done.
     """
-    from ..running.progress import bar
+    from ..running.progress import announce, bar
     from ..running.solvers import solver
     from ..running.workers import pool
     from ..sweep import MAX_CASES, load_sweep, run_sweep
@@ -205,16 +186,18 @@ def sweep(
     asked = load_sweep(file, solver_names, max_cases or MAX_CASES)
     for name in asked.solvers:
         solver(name)
-    target = folder(out if out is not None else file.with_suffix("") if file.suffix else Path(f"{file}-results"))
+    beside = file.with_suffix("") if file.suffix else Path(f"{file}-results")
+    target = results_folder(out if out is not None else beside)
+    assert target is not None
     if not as_json:
-        _say(f"{asked.announcement()}, into {target}.")
+        announce(f"{asked.announcement()}, into {target}.")
     with bar(f"{asked.cases} cases") as progress, pool(workers, scheduler) as place:
-        table = run_sweep(asked, place, target, progress, _say)
+        table = run_sweep(asked, place, target, progress, announce)
     write_text(target / "table.csv", table.to_csv())
     if as_json:
         click.echo(to_json({"rows": table.records(), "failures": table.failures}))
     else:
-        from .tables import show, sweep_tables
+        from .shared.tables import show, sweep_tables
 
         show(*sweep_tables(table))
         click.echo(f"The table is in {target / 'table.csv'}.")

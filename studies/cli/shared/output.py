@@ -8,8 +8,8 @@ from typing import Any
 
 from rigid import Motion, Run, Scene
 
-from ..running import history
-from ..running.files import StudyError, to_json, trouble, write_text
+from ...running import history
+from ...running.files import StudyError, to_json, trouble, write_text
 
 
 def write_motion(motion: Motion, out: Path) -> None:
@@ -19,7 +19,7 @@ def write_motion(motion: Motion, out: Path) -> None:
     write_text(out / "history.csv", history.to_csv(history.whole(motion)))
     if not motion.pulses:
         return
-    from ..plots import pulse as figures
+    from ...plots import pulse as figures
 
     first = next((pulse for pulse in motion.pulses if not pulse.cut), motion.pulses[0])
     title = "A pulse cut by the run" if first.cut else "The first pulse"
@@ -93,7 +93,7 @@ def write_fields(motion: Motion, out: Path, progress: Callable[[float], None], *
 
 def write_first_pulse(scene: Scene, out: Path, progress: Callable[[float], None]) -> None:
     """Run the scene's first pulse, at the scene's own stiffness, and write its fields."""
-    from ..running.solvers import solver
+    from ...running.solvers import solver
 
     motion = solver("flexible")(scene.replace(run=Run(until="pulse")), history=True)
     write_fields(motion, out, progress)
@@ -116,6 +116,8 @@ def write_mesh(scene: Scene, path: Path) -> str:
         save_mesh(ring, path)
     except MeshError as error:
         raise StudyError(str(error)) from None
+    except OSError as error:
+        raise StudyError(trouble(error, path)) from None
     quality = ring.quality()
     return (
         f"{path}: {quality.elements} nine-node quads, {quality.nodes} nodes; area off by {quality.area_error:.1e}, "

@@ -12,9 +12,9 @@ from rich.console import Console
 
 from rigid import Motion, Scene, scene_from_dict
 
-from ..plots.sheet import Column, Sheet, number
-from ..running.measures import MEASURES, Unit, measures, phase_sequence
-from ..stiffness.summary import (
+from ...plots.sheet import Column, Sheet, number
+from ...running.measures import MEASURES, Unit, measures, phase_sequence
+from ...stiffness.summary import (
     LIMIT_HEADING,
     case_cells,
     case_heading,
@@ -31,8 +31,8 @@ from .account import HEADING, account, remarks
 if TYPE_CHECKING:
     from flexible import FlexibleMotion
 
-    from ..stiffness.found import StiffnessStudy
-    from ..sweep import Table as SweepTable
+    from ...stiffness.found import StiffnessStudy
+    from ...sweep import Table as SweepTable
 
 _REASONS = 10
 """Failed cases whose reasons are printed; the table has all."""
