@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,7 +10,7 @@ import click
 from rigid import load_scene
 from rigid.elastic import LAWS
 
-from ..running.files import to_json, write_text
+from ..running.files import StudyError, to_json, write_text
 from .shared.options import Commands, as_json, out_folder, results_folder, scene_argument, scheduler, workers
 
 if TYPE_CHECKING:
@@ -106,9 +105,7 @@ def stiffness(
             out=target,
             progress=progress,
         )
-    if target is not None:
-        with bar("figures and report") as progress:
-            _write_study(found, target, ctx.obj, progress)
+    lost = None if target is None else _write_study(found, target, ctx.obj, solver_name == "flexible")
     if as_json:
         click.echo(to_json(found.to_dict()))
     else:
@@ -116,28 +113,41 @@ def stiffness(
 
         show(*study_tables(found))
         if target is not None:
-            click.echo(f"Figures, table and report are in {target}; open {target / 'report.html'}.")
-    if target is not None and solver_name == "flexible":  # last, so that nothing is lost if it fails
-        from .shared.output import write_first_pulse
-
-        with bar("fields of the first pulse") as progress:
-            write_first_pulse(found.scene, target, progress)
+            click.echo(f"Figures, tables and report are in {target}; open {target / 'report.html'}.")
+    if lost is not None:
+        raise lost
     if found.failures:
         ctx.exit(1)
 
 
-def _write_study(found: StiffnessStudy, target: Path, line: str, progress: Callable[[float], None]) -> None:
-    from ..plots.style import save
+def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool) -> StudyError | None:
+    """All that a study leaves, the page last: what it names is there. What kept the fields from being written."""
+    from ..plots.style import save_both
+    from ..running.progress import bar
     from ..stiffness.figures import of_study
     from ..stiffness.report import stiffness_report
+    from .shared.output import write_first_pulse, write_frame
 
-    write_text(target / "study.json", to_json(found.to_dict()))
-    drawn = of_study(found)
-    images = {}
-    for number, (name, figure) in enumerate(drawn.items()):
-        images[name] = save(figure, target / f"{name}.png")
-        progress((number + 1) / (len(drawn) + 1))
-    stiffness_report(found, images, line, target / "report.html")
+    page = target / "report.html"
+    page.unlink(missing_ok=True)
+    numbers = [write_text(target / "study.json", to_json(found.to_dict()))]
+    numbers.insert(0, write_frame(found.to_dataframe(), target / "study.csv"))
+    with bar("figures") as progress:
+        drawn = of_study(found)
+        images = {}
+        for number, (name, figure) in enumerate(drawn.items(), 1):
+            images[name] = save_both(figure, target / name)
+            progress(number / len(drawn))
+    lost, beside = None, []
+    if fields:
+        try:
+            with bar("fields of the first pulse") as progress:
+                write_first_pulse(found.scene, target, progress)
+            beside.append(f"fields.pvd: the ring at the scene's own stiffness; hoop view {target}, ParaView, pyvista")
+        except StudyError as error:
+            lost = error
+    stiffness_report(found, images, line, page, numbers, beside)
+    return lost
 
 
 @study.command()

@@ -45,15 +45,26 @@ def through(motion: Motion, pulse: Pulse) -> Columns:
     if own is None:
         columns = at(motion, motion.times(pulse.t_start, pulse.t_end))
     else:
-        kept = (own["t"] >= pulse.t_start) & (own["t"] <= pulse.t_end)
-        columns = {name: values[kept] for name, values in own.items()}
+        columns = {name: _between(own["t"], values, pulse.t_start, pulse.t_end) for name, values in own.items()}
     for name in TOTALS:
         if name in columns and columns[name].size:
             columns[name] = columns[name] - columns[name][0]
+    given = accumulated(columns["t"], columns["normal_force"])
+    share = given / given[-1] if given.size and given[-1] > 0 else np.zeros_like(given)
     for force, impulse in (("normal_force", "normal_impulse"), ("friction_force", "friction_impulse")):
         if impulse not in columns:
-            columns[impulse] = accumulated(columns["t"], columns[force])
+            total = accumulated(columns["t"], columns[force])
+            # trapezoids end some 1e-5 beside the solver's own integral: spread like the normal impulse
+            missed = getattr(pulse, impulse) - total[-1] if total.size else 0.0
+            columns[impulse] = total + missed * share
     return columns
+
+
+def _between(t: Array, values: Array, start: float, end: float) -> Array:
+    """Values at the times from start to end, and at both of these, which need not be steps."""
+    low, high = max(start, t[0]), min(end, t[-1])
+    inside = values[(t > low) & (t < high)]
+    return np.concatenate([np.interp([low], t, values), inside, np.interp([high], t, values)])
 
 
 def whole(motion: Motion) -> Columns:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rigid import Motion, Run, Scene
 
 from ...running import history
 from ...running.files import StudyError, to_json, trouble, write_text
+
+if TYPE_CHECKING:
+    import pandas
 
 
 def write_motion(motion: Motion, out: Path) -> None:
@@ -27,6 +30,11 @@ def write_motion(motion: Motion, out: Path) -> None:
     figures.save(figures.pulse([("", through, figures.RIGID)], title), out / "pulse.png")
     if (ledger := figures.energy(through, "Where the energy is during the first pulse")) is not None:
         figures.save(ledger, out / "energy.png")
+
+
+def write_frame(table: pandas.DataFrame, path: Path) -> Path:
+    """A data frame as CSV, numbers to the last bit."""
+    return write_text(path, table.to_csv(index=False, lineterminator="\n"))
 
 
 def field_wishes(frames: int | None = None, times: str | None = None, only: str | None = None) -> dict[str, Any]:

@@ -113,7 +113,7 @@ def pulse_sheet(columns: list[tuple[str, dict[str, float]]], scene: Scene) -> Sh
 def study_tables(study: StiffnessStudy) -> list[Any]:
     """The ladder rung by rung, the limits, and the answer in words."""
     heading = case_heading(study)
-    rows = [case_cells(rung) for rung in study.rungs] + [rigid_cells(study)]
+    rows = [case_cells(study, rung) for rung in study.rungs] + [rigid_cells(study)]
     # a rung that failed has a stiffness and nothing more
     filled = [row + ["-"] * (len(heading) - len(row)) for row in rows]
     cells = list(zip(*filled, strict=True))
