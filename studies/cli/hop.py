@@ -164,15 +164,21 @@ def _write(found: HopStudy, target: Path, line: str) -> None:
     from ..hop.figures import chosen, of_hop
     from ..hop.film import film
     from ..hop.report import hop_report
-    from ..plots.style import save
+    from ..plots.style import save_both
     from ..running.progress import bar
+    from .shared.output import write_frame
 
-    write_text(target / "hop.json", to_json(found.to_dict()))
+    page = target / "report.html"
+    page.unlink(missing_ok=True)
+    numbers = [
+        write_frame(found.to_dataframe(), target / "hop.csv"),
+        write_text(target / "hop.json", to_json(found.to_dict())),
+    ]
     with bar("figures, film and report") as progress:
         drawn = chosen(found)
         progress(0.3)
-        images = {name: save(figure, target / f"{name}.png") for name, figure in of_hop(found, drawn).items()}
+        images = {name: save_both(figure, target / name) for name, figure in of_hop(found, drawn).items()}
         progress(0.5)
         if drawn is not None:
             images["hop"] = film(drawn, target / "hop.gif")
-        hop_report(found, images, line, target / "report.html")
+        hop_report(found, images, line, page, numbers)

@@ -81,12 +81,18 @@ def limit(
     if target is not None:
         from ..limit.figures import damping_figure, of_limit
         from ..limit.report import limit_report
-        from ..plots.style import save
+        from ..plots.style import save_both
+        from .shared.output import write_frame
 
-        write_text(target / "limit.json", to_json(told))
+        page = target / "report.html"
+        page.unlink(missing_ok=True)
+        numbers = [
+            write_frame(found.to_dataframe(), target / "limit.csv"),
+            write_text(target / "limit.json", to_json(told)),
+        ]
         drawn = of_limit(found) | ({"damping": damping_figure(spots)} if mapped else {})
-        images = {name: save(figure, target / f"{name}.png") for name, figure in drawn.items()}
-        limit_report(found, tuple(more), images, line, target / "report.html")
+        images = {name: save_both(figure, target / name) for name, figure in drawn.items()}
+        limit_report(found, tuple(more), images, line, page, numbers)
     if as_json:
         click.echo(to_json(told))
         return

@@ -43,7 +43,7 @@ def draw(distances: Mapping[str, Distance], axes: Any = None) -> NDArray[np.obje
     if axes is None:
         from matplotlib import pyplot
 
-        size = (4.8 * len(distances), 4.4)
+        size = (4.8 * len(distances), 5.0)
         axes = pyplot.subplots(1, len(distances), squeeze=False, figsize=size, layout="constrained")[1]
     panels = np.atleast_1d(axes).ravel()
     if len(panels) != len(distances):
@@ -70,7 +70,7 @@ def panel(axes: Axes, distance: Distance, words: str, colour: str) -> None:
     if distance.predicted is not None:
         axes.plot(*distance.predicted, color=RIGID, linewidth=1, label="predicted, leading powers, no fit")
     axes.set(xscale="log", yscale="log", xlabel=distance.label, title=words)
-    axes.legend(loc="best", fontsize=8)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=2, fontsize=8)
 
 
 def _rate_line(axes: Axes, distance: Distance, colour: str) -> None:

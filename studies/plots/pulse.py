@@ -10,8 +10,8 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..running.difference import FORCES
 from ..running.history import Columns
+from .difference import FORCES
 from .style import OKABE_ITO, RIGID, STYLE, UNDER, blank, save
 
 if TYPE_CHECKING:

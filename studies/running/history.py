@@ -49,14 +49,13 @@ def through(motion: Motion, pulse: Pulse) -> Columns:
     for name in TOTALS:
         if name in columns and columns[name].size:
             columns[name] = columns[name] - columns[name][0]
-    given = accumulated(columns["t"], columns["normal_force"])
-    share = given / given[-1] if given.size and given[-1] > 0 else np.zeros_like(given)
     for force, impulse in (("normal_force", "normal_impulse"), ("friction_force", "friction_impulse")):
-        if impulse not in columns:
-            total = accumulated(columns["t"], columns[force])
-            # trapezoids end some 1e-5 beside the solver's own integral: spread like the normal impulse
-            missed = getattr(pulse, impulse) - total[-1] if total.size else 0.0
-            columns[impulse] = total + missed * share
+        if not columns["t"].size:
+            columns[impulse] = columns["t"].copy()
+        elif impulse not in columns:
+            columns[impulse] = accumulated(columns["t"], columns[force])
+        else:  # what is off is the first point alone, which lies within a step
+            columns[impulse][1:] += getattr(pulse, impulse) - columns[impulse][-1]
     return columns
 
 

@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 
 from rigid import simulate
 
+from ..plots.difference import at_the_same_angle, at_the_same_normal_impulse
 from ..plots.pulse import Curve, energy, impulses, pulse
 from ..plots.style import RIGID, STYLE, blank, colours, power_of_ten
-from ..running.difference import at_the_same_angle, at_the_same_normal_impulse
 from ..running.history import dimensionless
 from .found import Rung, StiffnessStudy
 
@@ -57,6 +57,6 @@ def chosen(rungs: Sequence[Rung], most: int = 5) -> list[Rung]:
 def distances(study: StiffnessStudy) -> Figure:
     """Distance to the rigid value against stiffness, with the fitted rate and each case's numerical error."""
     with matplotlib.rc_context(STYLE):
-        figure = blank(9.6, 4.4)
+        figure = blank(10.4, 5.2)
         study.plot(axes=figure.subplots(1, 2))
         return figure

@@ -62,9 +62,9 @@ FOUND = """\
 {% endfor %}<tr class="rigid">{% for cell in rigid %}<td>{{ cell }}</td>{% endfor %}</tr>
 </tbody></table></div>
 <p>± is the numerical error of a case, known from a second run at a quarter of the tolerance, that of the loss no less
-than what the steps themselves took of the energy; the tolerance was tightened until that error was a tenth of the distance
-to the rigid value, or of the predicted one where that is more, as far as the solver's own noise and a bound on its work
-let it.{{ unresolved }}</p>
+than what the steps themselves took of the energy; the tolerance was tightened until that error was a tenth of the
+distance to the rigid value, or of the predicted one where that is more, as far as the solver's own noise and a bound on
+its work let it.{{ unresolved }}</p>
 
 <h2>All measures of the first pulse, side by side</h2>
 {{ table(side_heading, side) }}

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from rigid import Motion, Pulse
 
-from .history import Columns, accumulated
+from ..running.history import Columns, accumulated
 
 Array = NDArray[np.float64]
 
