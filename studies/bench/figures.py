@@ -26,7 +26,7 @@ _FLOOR = 1e-17  # where an error of nothing at all is drawn
 
 
 def work_precision(rows: Sequence[Row], title: str) -> Figure:
-    """Error against seconds, medians with the spread of the repeats, and each solver's envelope; what is ours is black."""
+    """Error against seconds, medians with the spread of the repeats, and each solver's envelope; ours is black."""
     shown = [row for row in rows if row.seconds and isfinite(row.error)]
     scenes = list(dict.fromkeys(row.scene for row in shown))
     solvers = list(dict.fromkeys(row.solver for row in shown))

@@ -13,6 +13,7 @@ from rigid import Scene, scene_to_dict
 from rigid.output import summary
 
 from ..running.case import SHARE, Outcome
+from ..running.measures import MEASURES
 from .coefficient import Coefficient, coefficient
 from .ladder import Ladder
 from .limits import CONFIDENCE, Limit, fitted_series
@@ -145,7 +146,7 @@ class StiffnessStudy:
         from ..plots.distance import Distance
 
         limit, through = self.limits[name], self.rungs_through
-        unit = self.scene.energy_unit if name == "friction_loss" else 1.0
+        unit = MEASURES[name].unit.of(self.scene)
         stiffness = np.array([rung.stiffness for rung in through])
         values, errors = (np.array([of(rung, name) for rung in through]) for of in (Rung.measure, Rung.error))
         series = fitted_series(limit, stiffness, values, errors, self.separate)

@@ -20,7 +20,9 @@ FOUNDATION = 1e7 * R**2
 END_OF_A = 6.72  # in the inner radius
 
 SCENES = {
-    "scene B, pulse": "k = 0.1, m_h/m = 0.1, E I/(m g R²) = 65, foundation 10⁷, brush,\nundeformed from φ = 2.9, through the pulse",
+    "scene B, pulse": (
+        "k = 0.1, m_h/m = 0.1, E I/(m g R²) = 65, foundation 10⁷,\nbrush, undeformed from φ = 2.9, through the pulse"
+    ),
     "scene A, full roll": "the same hoop from rest at 10°, to φ = 4",
     "massless pulse": "k = 0.1, m_h/m = 0, E I/(m g R²) = 10⁵,\nfoundation 10¹⁰, from rest at 10°",
 }
@@ -108,7 +110,7 @@ def run_hoop(scene: Scene, hoop: Any) -> Measured:
     state = hand_over(hoop, simulate(scene), 0.0)
     end = scene.run.t_end
     assert end is not None
-    _, records, _, trouble = march(hoop, state, Ends(t=end), scene.solve.rtol)
+    _, records, _, trouble, _ = march(hoop, state, Ends(t=end), scene.solve.rtol)
     if trouble:
         raise RuntimeError(trouble)
     last = records[-1]

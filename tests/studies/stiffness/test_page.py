@@ -15,11 +15,11 @@ import pandas
 import pytest
 
 from rigid import load_scene, scene_from_dict, simulate
-from studies import StudyError, stiffness_study
+from studies import StudyError, limit_of, stiffness_study
 from studies.cli import hoop as cli
 from studies.plots.difference import FORCES, at_the_same_angle, at_the_same_normal_impulse
 from studies.running import history
-from studies.stiffness.limits import CONFIDENCE, fitted_series, limit_of
+from studies.stiffness.limits import CONFIDENCE, fitted_series
 from studies.stiffness.summary import case_cells, verdict
 
 THIRD = "third_solver:softened"
