@@ -132,6 +132,7 @@ class Builder:
         self.kept: list[Kept] | None = None
         self.marches: list[March] = []
         self.earlier: FlexibleMotion | None = None
+        self.stop: Callable[[], bool] | None = None
         self.completed = True
         self.t = 0.0
         self.x_C = 0.0
@@ -229,7 +230,10 @@ class Builder:
             self.range.records += earlier.turned
         else:
             most = LIMITS.most if self.most_steps is None else max(self.most_steps - self.steps, 1)
-            limits, method = Limits(most=most, before=self.steps), METHODS[self.scene.solve.integrator]
+            limits, method = (
+                Limits(most=most, before=self.steps, stop=self.stop or LIMITS.stop),
+                METHODS[self.scene.solve.integrator],
+            )
             start: State | Course = state
             if earlier is not None:
                 start = earlier.marched.course

@@ -63,6 +63,7 @@ def simulate(
     progress: Progress | None = None,
     most_steps: int | None = None,
     resume: FlexibleMotion | None = None,
+    stop: Callable[[], bool] | None = None,
 ) -> FlexibleMotion:
     """Move the flexible hoop through a scene.
 
@@ -79,6 +80,8 @@ def simulate(
     resume : FlexibleMotion, optional
         An earlier motion of the same scene, however it ended, from which to go on, as far as ``scene.run`` says: it
         becomes what it would have been without a stop, to the last bit.
+    stop : callable, optional
+        Asked before every step; where it says so the motion ends, incomplete.
 
     Returns
     -------
@@ -103,6 +106,7 @@ def simulate(
     builder.range = Range(hoop)
     builder.kept = [] if history else None
     builder.most_steps = most_steps
+    builder.stop = stop
     builder.earlier = None if resume is None else _resumable(resume, scene, history)
     run = _through_pulses if scene.solve.resolve == "pulses" else _throughout
     ended = run(inner, hoop, builder, _Progress(progress))

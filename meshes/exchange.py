@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import numpy as np
 
 from .ring import MeshError, RingMesh
+from .whole import write_whole
 
 
 def save_mesh(ring: RingMesh, path: str | Path) -> None:
@@ -37,18 +37,14 @@ def save_mesh(ring: RingMesh, path: str | Path) -> None:
         numbers += [number] * len(lines[-1])
     cells = [("quad9", ring.quad9), ("line3", np.concatenate(lines))]
     tags = [np.zeros(len(ring.quad9), np.int32), np.array(numbers, np.int32)]
-    # the temporary name keeps the suffix, which says the format
-    part = path.with_name(f".{os.getpid()}-{path.name}")
     gmsh = path.suffix == ".msh"
     data = {"gmsh:physical": tags, "gmsh:geometrical": tags} if gmsh else {"boundary": tags}
     try:
-        meshio.Mesh(points, cells, cell_data=data).write(part, **({"file_format": "gmsh22"} if gmsh else {}))
-        part.replace(path)
+        mesh = meshio.Mesh(points, cells, cell_data=data)
+        write_whole(path, lambda part: mesh.write(part, **({"file_format": "gmsh22"} if gmsh else {})))
     except (meshio.WriteError, meshio.ReadError, KeyError, NotImplementedError):
         suffix = path.suffix or "no suffix"
         raise MeshError(f"{path} cannot be written: {suffix} is no format for nine-node quads.") from None
     except ModuleNotFoundError as error:
         needed = f"{path.suffix} needs {error.name}, which is not installed"
         raise MeshError(f"{path} cannot be written: {needed}.") from None
-    finally:
-        part.unlink(missing_ok=True)

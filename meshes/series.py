@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import zipfile
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -30,6 +29,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .fields import Frame, SeriesError
 from .vtu import Encoder, read_vtu
+from .whole import write_whole
 
 Array = NDArray[np.float64]
 _PVD = "fields.pvd"
@@ -122,10 +122,10 @@ class SeriesWriter:
         for name, value in kept.items():
             if value.dtype.kind not in "biufU":
                 raise SeriesError(f"history {name} holds {value.dtype}: numbers or strings are needed.")
-        temporary = self.folder / "history.npz.part"
-        with temporary.open("wb") as file:
-            np.savez_compressed(file, **kept)  # type: ignore[arg-type]
-        os.replace(temporary, self.folder / "history.npz")
+        write_whole(
+            self.folder / "history.npz",
+            lambda part: np.savez_compressed(part, **kept),  # type: ignore[arg-type]
+        )
 
     def close(self) -> None:
         """Name the last frames in the PVD."""
@@ -235,6 +235,4 @@ def read(path: str | Path) -> Series:
 
 
 def _replace(path: Path, content: bytes) -> None:
-    temporary = path.with_name(path.name + ".part")
-    temporary.write_bytes(content)
-    os.replace(temporary, path)
+    write_whole(path, lambda part: part.write_bytes(content))

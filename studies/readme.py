@@ -55,6 +55,7 @@ class Picture:
 
 
 PICTURES = (
+    Picture("hoop.svg", ("python -m studies.plots.sketch",), "hoop.svg"),
     Picture("pulse.png", (STUDY,), "study/pulse.png"),
     Picture("impulses.png", (STUDY,), "study/impulses.png"),
     Picture("distance.png", (STUDY,), "study/distance.png"),

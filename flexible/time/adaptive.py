@@ -65,6 +65,7 @@ class Limits(NamedTuple):
     longest: float = 0.05
     most: int = 50_000  # steps, those tried in vain too
     before: int = 0  # steps tried in marches before this one
+    stop: Callable[[], bool] = lambda: False  # asked before every step
 
 
 LIMITS = Limits()
@@ -85,7 +86,6 @@ def march(
     ``start`` may be the course of an earlier march. ``progress`` is told every state that was reached; ``keep`` is
     given the state behind every new record.
     """
-    taken_up = isinstance(start, Course)
     course = start if isinstance(start, Course) else Course(_free(model, start), limits.first, 0, 0, 0, Books(), [], 0)
     state, h, books, records = course.state, course.step, course.totals(), course.behind()
     attempts, turns, stalls = course.attempts, course.turns, course.stalls
@@ -102,12 +102,12 @@ def march(
     def over(ended: str = "") -> Marched:
         return Marched(state, records, attempts, ended, course)
 
-    if not taken_up:
+    if not records:
         note(state)
     if _over(state, ends, turns):
         return over()
     power = 1 / method.estimates
-    while attempts < limits.most:
+    while attempts < limits.most and not limits.stop():
         if h < SHORTEST:
             return over(_stuck(state, "no step however short could be solved"))
         cut = cut or h > ends.t - state.t
@@ -154,7 +154,8 @@ def march(
         else:
             h = grown
     course = course if cut else stands()
-    return over(f"stopped at t = {state.t:.6g} after {limits.before + attempts} steps")
+    why = f"after {limits.before + attempts} steps" if attempts >= limits.most else "as asked"
+    return over(f"stopped at t = {state.t:.6g} {why}")
 
 
 def _in_its_next_mode(model: Model, state: State) -> State:

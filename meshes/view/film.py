@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import io
 import itertools
-import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..draw import style
 from ..draw.display import ViewError
+from ..whole import write_whole
 
 Image = NDArray[np.uint8]
 Writer = Callable[[Path, Iterator[Image], int, NDArray[np.float64]], None]
@@ -118,15 +118,12 @@ FORMATS = {
 
 
 def _whole(path: Path, save: Callable[[Path], object]) -> None:
-    """Save under a temporary name and rename, so that a file is whole or not there."""
-    part = path.with_name(path.name + ".part")
+    """Save a file whole or not at all, with trouble in a sentence."""
     try:
-        save(part)
-        os.replace(part, path)
+        write_whole(path, save)
     except OSError as error:
-        raise ViewError(f"{path} cannot be written: {error.strerror or error}.") from None
-    finally:
-        part.unlink(missing_ok=True)
+        said = error.strerror or " ".join(str(error).split()[:60])  # ffmpeg's own words may fill a screen
+        raise ViewError(f"{path} cannot be written: {said}.") from None
 
 
 _HTML = """<!doctype html>

@@ -50,6 +50,9 @@ def write(path: str | os.PathLike[str], scene: Mapping[str, Any], stored: Stored
         with part.open("wb") as file:
             np.savez_compressed(file, allow_pickle=False, **{"header": np.array(json.dumps(header)), **stored.arrays})
         part.replace(target)
+    except OSError as error:
+        error.filename, error.filename2 = str(target), None  # not the temporary one
+        raise
     finally:
         part.unlink(missing_ok=True)
 

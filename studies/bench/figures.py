@@ -1,9 +1,12 @@
-"""Work-precision diagrams: run time against error, both logarithmic, one panel for each scene."""
+"""Work-precision diagrams: run time against error, both logarithmic, one panel for each scene.
+
+A point is a setting; the line of a solver is its envelope, the least error to be had for the time.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isfinite
+from math import isfinite, log10
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +14,11 @@ import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.ticker import NullFormatter
+from matplotlib.ticker import LogFormatterSciNotation, NullFormatter
 
 from ..plots.pulse import OKABE_ITO, STYLE, save
 from .race import Result, Row
+from .truth.reference import SCENES
 
 _MARKERS = "osv^DPX*<>h"
 _COLOURS = [colour for name, colour in OKABE_ITO.items() if name != "contact_spring"]
@@ -22,7 +26,7 @@ _FLOOR = 1e-17  # where an error of nothing at all is drawn
 
 
 def work_precision(rows: Sequence[Row], title: str) -> Figure:
-    """Error against seconds, medians with the spread of the repeats; what is ours is black."""
+    """Error against seconds, medians with the spread of the repeats, and each solver's envelope; ours is black."""
     shown = [row for row in rows if row.seconds and isfinite(row.error)]
     scenes = list(dict.fromkeys(row.scene for row in shown))
     solvers = list(dict.fromkeys(row.solver for row in shown))
@@ -40,13 +44,16 @@ def work_precision(rows: Sequence[Row], title: str) -> Figure:
                 y = np.array([row.median for row in mine])
                 spread = [y - [row.least for row in mine], np.array([max(row.seconds) for row in mine]) - y]
                 colour = _COLOURS[others.index(name) % len(_COLOURS)] if name in others else str(0.25 * (number % 3))
-                line = "none" if name == "hoop-pulse" else "-"
                 axes.errorbar(
-                    x, y, yerr=spread, marker=_MARKERS[number % len(_MARKERS)], linestyle=line, color=colour,
+                    x, y, yerr=spread, marker=_MARKERS[number % len(_MARKERS)], linestyle="none", color=colour,
                     label=name, capsize=2, markersize=5,
                 )  # fmt: skip
-            axes.set(xscale="log", yscale="log", xlabel="error", title=scene)
-            axes.xaxis.set_minor_formatter(NullFormatter())
+                best = envelope(x, y.tolist())
+                axes.plot(*zip(*best, strict=True), color=colour, linewidth=1)
+            axes.set(xscale="log", yscale="log", xlabel="error")
+            axes.set_title(f"{scene}\n{SCENES[scene]}" if scene in SCENES else scene, fontsize=10)
+            _ticks(axes.xaxis)
+        _ticks(panels[0].yaxis)
         panels[0].set_ylabel("seconds")
         handles: dict[str, Any] = {}
         for axes in panels:
@@ -55,6 +62,22 @@ def work_precision(rows: Sequence[Row], title: str) -> Figure:
         figure.legend(list(handles.values()), list(handles), loc="outside right upper")
         figure.suptitle(title)
         return figure
+
+
+def envelope(errors: Sequence[float], seconds: Sequence[float]) -> list[tuple[float, float]]:
+    """(error, seconds) of the settings that no other one beats in both, fastest first."""
+    best: list[tuple[float, float]] = []
+    for time, error in sorted(zip(seconds, errors, strict=True)):
+        if not best or error < best[-1][0]:
+            best.append((error, time))
+    return best
+
+
+def _ticks(axis: Any) -> None:
+    """Two numbers at least on a logarithmic axis: over less than two decades those between the powers of ten too."""
+    low, high = axis.get_view_interval()
+    within = log10(high / low) < 2
+    axis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(2, 1)) if within else NullFormatter())
 
 
 def cost(rows: Sequence[Row], exponents: dict[str, float]) -> Figure:
@@ -74,8 +97,8 @@ def cost(rows: Sequence[Row], exponents: dict[str, float]) -> Figure:
             axes.errorbar(x, y, yerr=spread, marker="o", color="black", capsize=2)
             axes.set(xscale="log", yscale="log", xlabel=scene, ylabel="seconds")
             axes.set_ylim(y.min() / 3, y.max() * 3)
-            axes.xaxis.set_minor_formatter(NullFormatter())
-            axes.yaxis.set_minor_formatter(NullFormatter())
+            _ticks(axes.xaxis)
+            _ticks(axes.yaxis)
             axes.set_title(f"exponent {exponents[scene]:.2f}", fontsize=10)
         for axes in panels[len(grown) :]:
             axes.set_axis_off()

@@ -8,7 +8,6 @@
 from __future__ import annotations
 
 import os
-import resource
 import statistics
 import time
 from collections.abc import Callable, Sequence
@@ -167,6 +166,10 @@ def _clock(entry: Contestant) -> Callable[[], float]:
 
 def peak_memory(entry: Contestant) -> float:
     """Largest resident size in MB of a forked process that does the run once; NaN where there is no fork."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return NAN
     if not hasattr(os, "fork"):
         return NAN
     reader, writer = os.pipe()

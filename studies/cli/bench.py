@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ..running.files import folder, to_json, write_text
+from ..running.files import to_json, write_text
+from .shared.options import as_json, out_folder, results_folder
 
 if TYPE_CHECKING:
     from ..bench.race import Result
@@ -16,8 +17,8 @@ if TYPE_CHECKING:
 
 @click.command()
 @click.argument("what", type=click.Choice(["rigid", "flexible", "scaling"]))
-@click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
-@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Write table and figures into this folder.")
+@as_json
+@out_folder("Write table and figures into this folder.")
 @click.option("--peers", "peers_too", is_flag=True, help="Also the other solvers that are installed (Exudyn).")
 @click.option("--check", is_flag=True, help="Exit with status 1 if a stated ratio does not hold.")
 @click.option("--quick", is_flag=True, help="Fewer settings, fewer repeats.")
@@ -28,7 +29,7 @@ def bench(
     """Run time against error, peak memory, and the ratios that are stated."""
     from ..running.progress import bar
 
-    target = folder(out) if out is not None else None
+    target = results_folder(out)
     run = importlib.import_module(f"studies.bench.{what}").bench
     with bar(f"bench {what}") as progress:
         result: Result = run(quick, peers_too, progress)
@@ -41,7 +42,7 @@ def bench(
         click.echo(to_json(result.to_dict()))
     else:
         from ..bench.tables import bench_tables
-        from .tables import show
+        from .shared.tables import show
 
         show(*bench_tables(result))
         if target is not None:
@@ -53,8 +54,8 @@ def bench(
 
 
 @click.command()
-@click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
-@click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help="Write the map of margins here.")
+@as_json
+@out_folder("Write the map of margins here.")
 @click.option("--seed", type=click.IntRange(0, 2**31), default=0, metavar="N", help="Another sequence of scenes.")
 @click.option("--scenes", type=click.IntRange(1, 1_000_000), metavar="N", help="How many scenes; 3000 by default.")
 @click.option("--quick", is_flag=True, help="At most a minute.")
@@ -64,7 +65,7 @@ def stress(ctx: click.Context, as_json: bool, out: Path | None, seed: int, scene
     from ..running.progress import bar
     from ..stress.run import run_stress
 
-    target = folder(out) if out is not None else None
+    target = results_folder(out)
     with bar("stress") as progress:
         report = run_stress(scenes, seed, quick, progress)
     if target is not None:
@@ -81,7 +82,7 @@ def stress(ctx: click.Context, as_json: bool, out: Path | None, seed: int, scene
 
 
 @click.command()
-@click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
+@as_json
 @click.pass_context
 def validate(ctx: click.Context, as_json: bool) -> None:
     """Everything published or provable, beside what the solvers find; status 1 if a row fails."""
@@ -93,7 +94,7 @@ def validate(ctx: click.Context, as_json: bool) -> None:
     if as_json:
         click.echo(to_json(table.to_dict(rows)))
     else:
-        from .tables import show
+        from .shared.tables import show
 
         show(table.sheet(rows))
         click.echo("\n".join(table.notes(rows)))

@@ -16,12 +16,15 @@ from typing import Any
 
 import click
 
-from rigid import Motion, Scene, SceneError, load_scene
+from rigid import SceneError, load_scene
 
-from ..running.files import StudyError, folder, to_json, trouble
+from ..running.files import StudyError, trouble
 from .bench import bench, stress, validate
+from .completion import completion
 from .hop import hop
 from .limit import limit
+from .shared.options import Commands, Names, SceneName, as_json, field_names, out_folder, results_folder, scene_argument
+from .shared.single import one_flexible, one_rigid
 from .study import study
 from .view import view
 
@@ -43,17 +46,10 @@ SCENE is the name of a shipped scene or a TOML file; `hoop scenes NAME` prints o
 """
 
 
-class InOrder(click.Group):
-    """Commands are listed in the order a newcomer meets them."""
-
-    def list_commands(self, ctx: click.Context) -> list[str]:
-        return list(self.commands)
-
-
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 110}
 
 
-@click.group(cls=InOrder, invoke_without_command=True, help=NEWCOMER, context_settings=CONTEXT)
+@click.group(cls=Commands, invoke_without_command=True, help=NEWCOMER, context_settings=CONTEXT)
 @click.option("--version", "show_version", is_flag=True, help="Show the version and exit.")
 @click.pass_context
 def hoop(ctx: click.Context, show_version: bool) -> None:
@@ -65,25 +61,19 @@ def hoop(ctx: click.Context, show_version: bool) -> None:
         click.echo(ctx.get_help())
 
 
-as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
-out_folder = click.option(
-    "--out", type=click.Path(path_type=Path), metavar="DIR", help="Write results into this folder."
-)
-
-
 @hoop.command()
-@click.argument("scene")
+@scene_argument
 @as_json
-@out_folder
+@out_folder()
 def rigid(scene: str, as_json: bool, out: Path | None) -> int:
     """Motion of the rigid hoop: phases, turns, pulses."""
-    return _one_motion(load_scene(scene), "rigid", as_json, out)
+    return one_rigid(load_scene(scene), as_json, out)
 
 
 @hoop.command()
-@click.argument("scene")
+@scene_argument
 @as_json
-@out_folder
+@out_folder()
 @click.option(
     "--fields", is_flag=True, help="With --out: also the ring's fields, a PVD series for ParaView, pyvista, hoop view."
 )
@@ -91,7 +81,19 @@ def rigid(scene: str, as_json: bool, out: Path | None) -> int:
     "--frames", type=click.IntRange(2, 100_000), metavar="N", help="Frames through the first pulse, 200 by default."
 )
 @click.option("--times", metavar="T,T,...", help="Frames at these times instead.")
-@click.option("--only", metavar="NAME,NAME,...", help="Only these fields, von_mises,displacement for instance.")
+@click.option(
+    "--only",
+    type=Names(field_names),
+    metavar="NAME,NAME,...",
+    help="Only these fields, von_mises,displacement for instance.",
+)
+@click.option(
+    "--continue",
+    "earlier",
+    type=click.Path(path_type=Path, exists=True, file_okay=False),
+    metavar="DIR",
+    help="Go on from the run in this folder, as far as SCENE says now; results go there too without --out.",
+)
 def flexible(
     scene: str,
     as_json: bool,
@@ -100,48 +102,24 @@ def flexible(
     frames: int | None,
     times: str | None,
     only: str | None,
+    earlier: Path | None,
 ) -> int:
-    """Motion of the flexible hoop, measured like the rigid one, and where the energy went."""
-    from .output import field_wishes
+    """Motion of the flexible hoop, measured like the rigid one, and where the energy went.
 
-    if fields and out is None:
+    Interrupted (Ctrl-C) it keeps in --out what it has, and --continue goes on from there.
+    """
+    from .shared.output import field_wishes
+
+    if fields and out is None and earlier is None:
         raise StudyError("--fields needs --out DIR: the fields are files.")
     if not fields and (frames or times or only):
         raise StudyError("--frames, --times and --only need --fields, which writes the frames.")
     wishes = field_wishes(frames, times, only) if fields else None
-    return _one_motion(load_scene(scene), "flexible", as_json, out, wishes)
-
-
-def _one_motion(scene: Scene, name: str, as_json: bool, out: Path | None, wishes: dict[str, Any] | None = None) -> int:
-    """Run, write, print; 1 for a motion that stops before what was asked."""
-    from ..running.progress import bar
-    from ..running.solvers import solver
-
-    target = folder(out) if out is not None else None
-    with bar(f"{name} hoop") as progress:
-        motion = solver(name)(scene, history=target is not None, progress=progress)
-    if target is not None:
-        from .output import write_fields, write_motion
-
-        write_motion(motion, target)
-        if wishes is not None:
-            with bar("fields") as progress:
-                write_fields(motion, target, progress, **wishes)
-    _print_motion(motion, as_json)
-    return 0 if motion.completed else _say(f"{motion.ended}.", 1)
-
-
-def _print_motion(motion: Motion, as_json: bool) -> None:
-    if as_json:
-        click.echo(to_json(motion.to_dict()))
-    else:
-        from .tables import motion_tables, show
-
-        show(*motion_tables(motion))
+    return one_flexible(scene, load_scene(scene), as_json, out, earlier, wishes)
 
 
 @hoop.command()
-@click.argument("name", required=False)
+@click.argument("name", type=SceneName(), required=False)
 def scenes(name: str | None) -> None:
     """List the shipped scenes, or print one as TOML to start your own from."""
     from rigid import scene_names
@@ -156,11 +134,11 @@ def scenes(name: str | None) -> None:
 
 
 @hoop.command()
-@click.argument("scene")
+@scene_argument
 @click.argument("file", type=click.Path(path_type=Path))
 def mesh(scene: str, file: Path) -> None:
     """Write the ring's mesh; the suffix of FILE says in which format (.msh, .vtu, ...)."""
-    from .output import write_mesh
+    from .shared.output import write_mesh
 
     click.echo(write_mesh(load_scene(scene), file))
 
@@ -184,7 +162,7 @@ hoop.add_command(view)
 
 
 @hoop.command()
-@out_folder
+@out_folder()
 @click.option(
     "--format",
     "chosen",
@@ -199,20 +177,21 @@ def paper(out: Path | None, chosen: str) -> None:
     DIR is out-paper unless --out says otherwise. The same table is in table.csv and table.md.
     """
     from ..paper import reproduce, screen
-    from ..running.progress import bar
-    from .tables import show
+    from ..running.progress import announce, bar
+    from .shared.tables import show
 
-    target = folder(out if out is not None else Path("out-paper"))
+    target = results_folder(out if out is not None else Path("out-paper"))
     formats = ("png", "svg") if chosen == "both" else (chosen,)
     with bar("paper") as told:
         verdicts = reproduce(target, formats, progress=lambda done, total, _: told(done / total))
     show(*screen(verdicts))
-    click.echo(f"The paper's figures and numbers are in {target}.", err=True)
+    announce(f"The paper's figures and numbers are in {target}.")
 
 
 hoop.add_command(bench)
 hoop.add_command(stress)
 hoop.add_command(validate)
+hoop.add_command(completion)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

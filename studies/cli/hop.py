@@ -11,24 +11,20 @@ import click
 from rigid import Scene, SceneError, load_scene
 from rigid.elastic import LAWS
 
-from ..running.files import folder, to_json, write_text
-from .study import as_json, scheduler, workers
+from ..running.files import to_json, write_text
+from .shared.options import SceneKey, SceneName, as_json, out_folder, results_folder, scheduler, workers
 
 if TYPE_CHECKING:
     from ..hop.study import Asked, HopStudy
 
 
 @click.command()
-@click.argument("scene", default="paper-3.3-heavier")
+@click.argument("scene", type=SceneName(), default="paper-3.3-heavier")
 @as_json
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Write hop.json, figures, a film and report.html here; finished rolls are kept and found again.",
-)
+@out_folder("Write hop.json, figures, a film and report.html here; finished rolls are kept and found again.")
 @click.option(
     "--over",
+    type=SceneKey(),
     multiple=True,
     metavar="KEY=LOW:HIGH:COUNT",
     help="Range of ring.bending_stiffness (0.5:1e4:24 by default), and of one key more (hoop.k, hoop.mass_ratio, "
@@ -71,15 +67,15 @@ def hop(
     is listed with where it begins, how high it goes and where its energy came from.
     """
     from ..hop.study import RTOL, hop_study
-    from ..running.progress import bar
+    from ..running.progress import announce, bar
     from ..running.workers import pool
 
     described = load_scene(scene)
     if law is not None:
         described = described.replace(contact={"law": law})
     asked = asked_of(described, over, rtol=rtol or RTOL, bisections=bisections, level=level)
-    target = folder(out) if out is not None else None
-    say: Callable[[str], None] = (lambda sentence: None) if as_json else _say
+    target = results_folder(out)
+    say: Callable[[str], None] = (lambda sentence: None) if as_json else announce
     say(f"{asked.count} rolls, and up to {3 * (bisections + 2)} more for each threshold line.")
     with bar(f"{asked.count} rolls") as progress, pool(workers, scheduler) as place:
         if scheduler is None:
@@ -91,7 +87,7 @@ def hop(
         click.echo(to_json(found.to_dict()))
     else:
         from ..hop.summary import hop_sheets
-        from .tables import show
+        from .shared.tables import show
 
         show(*hop_sheets(found))
         if target is not None:
@@ -168,19 +164,21 @@ def _write(found: HopStudy, target: Path, line: str) -> None:
     from ..hop.figures import chosen, of_hop
     from ..hop.film import film
     from ..hop.report import hop_report
-    from ..plots.style import save
+    from ..plots.style import save_both
     from ..running.progress import bar
+    from .shared.output import write_frame
 
-    write_text(target / "hop.json", to_json(found.to_dict()))
+    page = target / "report.html"
+    page.unlink(missing_ok=True)
+    numbers = [
+        write_frame(found.to_dataframe(), target / "hop.csv"),
+        write_text(target / "hop.json", to_json(found.to_dict())),
+    ]
     with bar("figures, film and report") as progress:
         drawn = chosen(found)
         progress(0.3)
-        images = {name: save(figure, target / f"{name}.png") for name, figure in of_hop(found, drawn).items()}
+        images = {name: save_both(figure, target / name) for name, figure in of_hop(found, drawn).items()}
         progress(0.5)
         if drawn is not None:
             images["hop"] = film(drawn, target / "hop.gif")
-        hop_report(found, images, line, target / "report.html")
-
-
-def _say(sentence: str) -> None:
-    click.echo(f"hoop: {sentence}", err=True)
+        hop_report(found, images, line, page, numbers)

@@ -9,16 +9,14 @@ import click
 from rigid import load_scene
 from rigid.elastic import LAWS
 
-from ..running.files import folder, to_json, write_text
-from .study import as_json, scheduler, workers
+from ..running.files import to_json, write_text
+from .shared.options import as_json, out_folder, results_folder, scene_argument, scheduler, workers
 
 
 @click.command()
-@click.argument("scene")
+@scene_argument
 @as_json
-@click.option(
-    "--out", type=click.Path(path_type=Path), metavar="DIR", help="Write limit.json, figures and report.html here."
-)
+@out_folder("Write limit.json, figures and report.html here.")
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--damping",
@@ -67,7 +65,7 @@ def limit(
     described = load_scene(scene)
     if law is not None:
         described = described.replace(contact={"law": law})
-    target = folder(out) if out is not None else None
+    target = results_folder(out)
     with bar("inner problems") as progress, pool(workers, scheduler) as place:
         found = limit_study(described, damping=damping, flexible=foundations, pool=place, out=target, progress=progress)
         spots = damping_map(found.scene) if mapped else []
@@ -83,16 +81,22 @@ def limit(
     if target is not None:
         from ..limit.figures import damping_figure, of_limit
         from ..limit.report import limit_report
-        from ..plots.style import save
+        from ..plots.style import save_both
+        from .shared.output import write_frame
 
-        write_text(target / "limit.json", to_json(told))
+        page = target / "report.html"
+        page.unlink(missing_ok=True)
+        numbers = [
+            write_frame(found.to_dataframe(), target / "limit.csv"),
+            write_text(target / "limit.json", to_json(told)),
+        ]
         drawn = of_limit(found) | ({"damping": damping_figure(spots)} if mapped else {})
-        images = {name: save(figure, target / f"{name}.png") for name, figure in drawn.items()}
-        limit_report(found, tuple(more), images, line, target / "report.html")
+        images = {name: save_both(figure, target / name) for name, figure in drawn.items()}
+        limit_report(found, tuple(more), images, line, page, numbers)
     if as_json:
         click.echo(to_json(told))
         return
-    from .tables import show
+    from .shared.tables import show
 
     show(*limit_sheets(found), *more)
     if target is not None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,41 +10,27 @@ import click
 from rigid import load_scene
 from rigid.elastic import LAWS
 
-from ..running.files import folder, to_json, write_text
+from ..running.files import StudyError, to_json, write_text
+from .shared.options import Commands, as_json, out_folder, results_folder, scene_argument, scheduler, workers
 
 if TYPE_CHECKING:
     from ..stiffness.found import StiffnessStudy
 
-as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
-workers = click.option(
-    "--workers",
-    type=click.IntRange(1, 1024),
-    metavar="N",
-    help="Processes side by side; by default one for each core.",
-)
 CODE = (
     "The module is imported (PYTHONPATH says from where) and its function called in every worker, "
     "with all that you may do: name only code that you trust."
 )
-scheduler = click.option(
-    "--scheduler", metavar="ADDRESS", help="Run on the Dask cluster of this scheduler, tcp://host:8786."
-)
 
 
-@click.group()
+@click.group(cls=Commands)
 def study() -> None:
     """Both solvers over many scenes: the limit of stiffness, sweeps over anything."""
 
 
 @study.command()
-@click.argument("scene")
+@scene_argument
 @as_json
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Write table, figures, report.html and the ring's fields here; finished cases are kept and found again.",
-)
+@out_folder("Write table, figures, report.html and the ring's fields here; finished cases are kept and found again.")
 @click.option(
     "--along",
     type=click.Choice(["both", "contact", "bending"]),
@@ -108,7 +93,7 @@ def stiffness(
     described = described.replace(contact={key: value for key, value in contact.items() if value is not None})
     ladder = Ladder.around(described, along, low, high, count)
     solver(solver_name)
-    target = folder(out) if out is not None else None
+    target = results_folder(out)
     with bar(f"{ladder.count} cases") as progress, pool(workers, scheduler) as place:
         found = stiffness_study(
             described,
@@ -120,49 +105,55 @@ def stiffness(
             out=target,
             progress=progress,
         )
-    if target is not None:
-        with bar("figures and report") as progress:
-            _write_study(found, target, ctx.obj, progress)
+    lost = None if target is None else _write_study(found, target, ctx.obj, solver_name == "flexible")
     if as_json:
         click.echo(to_json(found.to_dict()))
     else:
-        from .tables import show, study_tables
+        from .shared.tables import show, study_tables
 
         show(*study_tables(found))
         if target is not None:
-            click.echo(f"Figures, table and report are in {target}; open {target / 'report.html'}.")
-    if target is not None and solver_name == "flexible":  # last, so that nothing is lost if it fails
-        from .output import write_first_pulse
-
-        with bar("fields of the first pulse") as progress:
-            write_first_pulse(found.scene, target, progress)
+            click.echo(f"Figures, tables and report are in {target}; open {target / 'report.html'}.")
+    if lost is not None:
+        raise lost
     if found.failures:
         ctx.exit(1)
 
 
-def _write_study(found: StiffnessStudy, target: Path, line: str, progress: Callable[[float], None]) -> None:
-    from ..plots.style import save
+def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool) -> StudyError | None:
+    """All that a study leaves, the page last: what it names is there. What kept the fields from being written."""
+    from ..plots.style import save_both
+    from ..running.progress import bar
     from ..stiffness.figures import of_study
     from ..stiffness.report import stiffness_report
+    from .shared.output import write_first_pulse, write_frame
 
-    write_text(target / "study.json", to_json(found.to_dict()))
-    drawn = of_study(found)
-    images = {}
-    for number, (name, figure) in enumerate(drawn.items()):
-        images[name] = save(figure, target / f"{name}.png")
-        progress((number + 1) / (len(drawn) + 1))
-    stiffness_report(found, images, line, target / "report.html")
+    page = target / "report.html"
+    page.unlink(missing_ok=True)
+    numbers = [write_text(target / "study.json", to_json(found.to_dict()))]
+    numbers.insert(0, write_frame(found.to_dataframe(), target / "study.csv"))
+    with bar("figures") as progress:
+        drawn = of_study(found)
+        images = {}
+        for number, (name, figure) in enumerate(drawn.items(), 1):
+            images[name] = save_both(figure, target / name)
+            progress(number / len(drawn))
+    lost, beside = None, []
+    if fields:
+        try:
+            with bar("fields of the first pulse") as progress:
+                write_first_pulse(found.scene, target, progress)
+            beside.append(f"fields.pvd: the ring at the scene's own stiffness; hoop view {target}, ParaView, pyvista")
+        except StudyError as error:
+            lost = error
+    stiffness_report(found, images, line, page, numbers, beside)
+    return lost
 
 
 @study.command()
 @click.argument("file", type=click.Path(path_type=Path))
 @as_json
-@click.option(
-    "--out",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Folder of the results, by default FILE without .toml; cases finished there are not run again.",
-)
+@out_folder("Folder of the results, by default FILE without .toml; cases finished there are not run again.")
 @click.option(
     "--max-cases",
     type=click.IntRange(min=1),
@@ -197,7 +188,7 @@ def sweep(
 
     How many cases there are is said first, and what they will take once the first are done.
     """
-    from ..running.progress import bar
+    from ..running.progress import announce, bar
     from ..running.solvers import solver
     from ..running.workers import pool
     from ..sweep import MAX_CASES, load_sweep, run_sweep
@@ -205,16 +196,18 @@ def sweep(
     asked = load_sweep(file, solver_names, max_cases or MAX_CASES)
     for name in asked.solvers:
         solver(name)
-    target = folder(out if out is not None else file.with_suffix("") if file.suffix else Path(f"{file}-results"))
+    beside = file.with_suffix("") if file.suffix else Path(f"{file}-results")
+    target = results_folder(out if out is not None else beside)
+    assert target is not None
     if not as_json:
-        _say(f"{asked.announcement()}, into {target}.")
+        announce(f"{asked.announcement()}, into {target}.")
     with bar(f"{asked.cases} cases") as progress, pool(workers, scheduler) as place:
-        table = run_sweep(asked, place, target, progress, _say)
+        table = run_sweep(asked, place, target, progress, announce)
     write_text(target / "table.csv", table.to_csv())
     if as_json:
         click.echo(to_json({"rows": table.records(), "failures": table.failures}))
     else:
-        from .tables import show, sweep_tables
+        from .shared.tables import show, sweep_tables
 
         show(*sweep_tables(table))
         click.echo(f"The table is in {target / 'table.csv'}.")

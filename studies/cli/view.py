@@ -12,6 +12,7 @@ import click
 from rigid import Motion, load_scene
 
 from ..running.files import StudyError
+from .shared.options import Names, SceneName, field_names
 
 if TYPE_CHECKING:
     from meshes import Series
@@ -20,13 +21,13 @@ FILE = click.Path(path_type=Path, dir_okay=False)
 
 
 @click.command()
-@click.argument("path")
+@click.argument("path", type=SceneName())
 @click.option("--png", type=FILE, metavar="FILE", help="Draw one instant, at --time or else at the peak of N.")
 @click.option("--time", type=float, metavar="T", help="The instant of --png.")
 @click.option("--gif", type=FILE, metavar="FILE", help="Animate the run.")
 @click.option("--mp4", type=FILE, metavar="FILE", help="Animate the run.")
 @click.option("--html", type=FILE, metavar="FILE", help="Animate the run in a page with a slider.")
-@click.option("--field", metavar="NAME", help="What is coloured, von_mises for instance.")
+@click.option("--field", type=Names(field_names), metavar="NAME", help="What is coloured, von_mises for instance.")
 @click.option("--factor", type=float, metavar="X", help="How much the deformation is exaggerated.")
 @click.option("--zoom", type=float, metavar="X", help="Enlarge what is about the contact, X from 1.")
 @click.option("--start", type=float, metavar="T", help="Begin the animation at this time.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import degrees, sin
 
 import matplotlib
@@ -12,6 +13,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
+from numpy.typing import NDArray
 
 from flexible.models.state import State
 from flexible.output.body import lowest, outline, whole
@@ -72,23 +74,29 @@ def chosen(study: HopStudy) -> Chosen | None:
 
 
 def hop_map(study: HopStudy) -> Figure:
-    """Where each hop begins and how high it goes, over the bending stiffness; one panel to a line."""
+    """Where each hop begins and how high it goes, over the bending stiffness; one panel to a line, six at most."""
     with matplotlib.rc_context(STYLE):
-        shown = study.lines if len(study.lines) <= 6 else study.lines[:: -(-len(study.lines) // 6)]
-        figure = blank(4.2 * min(len(shown), 3) + 1.2, 3.6 * -(-len(shown) // 3))
-        grid = figure.subplots(-(-len(shown) // 3), min(len(shown), 3), squeeze=False, sharex=True, sharey=True)
-        dots = None
-        for axes, line in zip(grid.ravel(), shown, strict=False):
-            dots = _line(axes, study, line) or dots
-        for axes in grid.ravel()[len(shown) :]:
+        count = min(len(study.lines), 6)
+        across, down = min(count, 3), -(-count // 3)
+        figure = blank(4.2 * across + 1.2, 3.6 * down)
+        grid = figure.subplots(down, across, squeeze=False, sharex=True, sharey=True)
+        for axes in grid.ravel()[count:]:
             axes.set_visible(False)
-        for axes in grid[:, 0]:
-            axes.set_ylabel("φ at lift-off [°]")
-        for axes in grid[-1]:
-            axes.set_xlabel(SYMBOL)
-        if dots is not None:
-            figure.colorbar(dots, ax=grid, label="height over R")
+        step = -(-len(study.lines) // 6)
+        _hops(study, study.lines[::step], grid)
         return figure
+
+
+def _hops(study: HopStudy, lines: Sequence[Line], grid: NDArray[np.object_]) -> None:
+    dots = None
+    for axes, line in zip(grid.ravel(), lines, strict=False):
+        dots = _line(axes, study, line) or dots
+    for axes in grid[:, 0]:
+        axes.set_ylabel("φ at lift-off [°]")
+    for axes in grid[-1]:
+        axes.set_xlabel(SYMBOL)
+    if dots is not None:
+        grid[0, 0].figure.colorbar(dots, ax=grid, label="height over R")
 
 
 def _line(axes: Axes, study: HopStudy, line: Line) -> PathCollection | None:

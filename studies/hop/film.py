@@ -28,8 +28,8 @@ def film(found: Chosen, path: Path, frames: int = FRAMES) -> Path:
     gaps = np.array([lowest(steps.hoop, steps.states[i]) for i in index])
     shown = np.searchsorted(t, np.linspace(t[0], t[-1], frames)).clip(0, len(t) - 1)
     top = max(1.4 * float(gaps.max()), 1e-3)
-    with matplotlib.rc_context(STYLE):
-        figure = Figure(figsize=(8.0, 4.4))
+    with matplotlib.rc_context(STYLE | {"font.size": 11}):
+        figure = Figure(figsize=(7.2, 4.2))
         FigureCanvasAgg(figure)
         whole = figure.add_axes((0.06, 0.09, 0.4, 0.82))
         wall, force = figure.add_axes((0.56, 0.66, 0.42, 0.25)), figure.add_axes((0.56, 0.12, 0.42, 0.38))
@@ -52,4 +52,4 @@ def film(found: Chosen, path: Path, frames: int = FRAMES) -> Path:
             whole.set_title(f"t = {t[i]:+.3f}", family="monospace")
 
         moving = FuncAnimation(figure, draw, frames=frames)
-        return write_whole(path, lambda part: moving.save(str(part), writer=PillowWriter(fps=PER_SECOND), dpi=80))
+        return write_whole(path, lambda part: moving.save(str(part), writer=PillowWriter(fps=PER_SECOND), dpi=110))

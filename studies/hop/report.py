@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ..plots.page import write_page
@@ -46,14 +46,17 @@ FOUND = """\
 """
 
 
-def hop_report(study: HopStudy, images: Mapping[str, Path], command: str, path: Path) -> Path:
-    """Write the page of a hop study, whole or not at all."""
+def hop_report(
+    study: HopStudy, images: Mapping[str, Path], command: str, path: Path, numbers: Sequence[Path] = ()
+) -> Path:
+    """Write the page of a hop study, whole or not at all, and last; it holds the files of ``numbers`` too."""
     told = {
         "title": "Does an elastic hoop hop?",
         "verdict": answer(study),
         "lines": verdict(study),
         "sentences": [*scaling_sentence(study), rule_sentence(study), *unfinished_sentences(study)],
         "sheets": [_rows(threshold_sheet(study)), _rows(case_sheet(study))],
+        "numbers": numbers,
         "images": {name: (CAPTIONS.get(name, name), file) for name, file in images.items()},
     }
     return write_page(FOUND, path, study.scene, command, told)

@@ -6,9 +6,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from math import sqrt
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rigid import Kind, Scene, scene_from_dict, scene_to_dict, simulate
+from rigid.output import summary
 
 from ..running.case import Case, Outcome
 from ..running.runs import run_cases
@@ -16,6 +17,9 @@ from ..running.workers import Here, Pool
 from .roll import SOLVER, from_rest
 from .rule import DECADE
 from .threshold import WHERE, Bracket, Window, bracket, hops_in, windows
+
+if TYPE_CHECKING:
+    import pandas
 
 STIFFNESS = "ring.bending_stiffness"
 
@@ -84,6 +88,7 @@ class HopCase:
         }
 
 
+_COLUMNS = ("bending_stiffness", "k", "mass_ratio", "foundation", "mu_s", "mu", "damping", "chatter", "completed")
 _TOLD = ("t", "phi", "duration", "height", "prominence")
 
 
@@ -125,7 +130,7 @@ class Line:
         return None if None in said else said == (True, False)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, repr=False)
 class HopStudy:
     """What the study found."""
 
@@ -144,6 +149,36 @@ class HopStudy:
     def unfinished(self) -> list[HopCase]:
         """Those that stopped before their end."""
         return [case for case in self.cases if not case.motion["completed"]]
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each hop, and one without a hop for each roll that has none."""
+        import pandas
+
+        rows: list[dict[str, Any]] = []
+        for case in self.cases:
+            told = case.to_dict()
+            kept = {key: told[key] for key in _COLUMNS}
+            rows += [kept | {key: hop[key] for key in (*_TOLD, "energy")} for hop in told["hops"]] or [kept]
+        return pandas.DataFrame(rows)
+
+    def __repr__(self) -> str:
+        return summary.text(self._title(), self._lines())
+
+    def _repr_html_(self) -> str:
+        return summary.html(self._title(), self._lines())
+
+    def _title(self) -> str:
+        over = STIFFNESS if self.second is None else f"{STIFFNESS} and {self.second}"
+        return f"Hop study over {over}: {len(self.cases)} rolls, {len(self.unfinished)} stopped early"
+
+    def _lines(self) -> list[summary.Line]:
+        lines = []
+        for line in self.lines:
+            name = "all" if self.second is None else f"{line.value:g}"
+            for where in line.windows:
+                found = line.threshold(where)
+                lines.append((f"{name}, {where}", f"hops at {found.low:.4g}, none from {found.high:.4g} on"))
+        return lines
 
     def to_dict(self) -> dict[str, Any]:
         """As JSON prints it."""

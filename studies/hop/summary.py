@@ -42,7 +42,10 @@ def answer(study: HopStudy) -> str:
         if least:
             said.append(f"{words} below {' to '.join(least)}")
     over = f", by {study.second}" if study.second is not None else ""
-    return f"Yes: released at rest, an elastic hoop {', it '.join(said)}; all of {SYMBOL}{over}."
+    return (
+        f"Yes: released at rest, an elastic hoop {', it '.join(said)}; all of the bending stiffness {SYMBOL}{over}, "
+        "φ being how far the disk has come from the top."
+    )
 
 
 def verdict(study: HopStudy) -> list[str]:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from flexible.contact.laws.listing import LAWS
 from rigid import Scene
 
 from ..inner.body import rolling_forces, sliding_force
@@ -115,3 +116,38 @@ def _start(way: Passage, eps: float) -> tuple[np.ndarray, int, object]:
     state[SLIP] = slip
     set_stretch(kept, half, curve, brush)
     return state, mode, kept
+
+
+def at_foundation(scene: Scene, foundation: float) -> Scene:
+    """The scene at another foundation; its ring, and what its law ties to the foundation, go with it."""
+    factor = foundation / scene.contact.stiffness
+    tied = LAWS[scene.contact.law].stiffened(scene.contact, factor)
+    ring = {"bending_stiffness": scene.ring.bending_stiffness * factor}
+    return scene.replace(contact={"stiffness": foundation, **tied}, ring=ring)
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """A pulse observed at a finite stiffness."""
+
+    solver: str
+    """Who saw it: "rigid ring" or "flexible"."""
+    foundation: float
+    """eps_n R^2/(m g)."""
+    values: dict[str, float]
+    """Measures."""
+    errors: dict[str, float]
+    """Their numerical errors, where the solver knows them."""
+    failure: str = ""
+    """Why there are none."""
+
+
+def seen_by_rigid_ring(scene: Scene, foundation: float) -> Sight:
+    """A scene's pulse at a foundation, of a rigid ring."""
+    seen = go_through(at_foundation(scene, foundation))
+    values = {
+        "impulse_ratio": seen.impulse_ratio,
+        "friction_impulse": seen.friction_impulse,
+        "normal_impulse": seen.normal_impulse,
+    }
+    return Sight("rigid ring", foundation, values, {})

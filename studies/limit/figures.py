@@ -10,11 +10,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..plots.style import OKABE_ITO, RIGID, STYLE, blank, colours, power_of_ten
-from ..running.measures import MEASURES
 from .damping import Spot
 from .study import LimitStudy
-
-_MARKS = {"rigid ring": ("o", "white"), "flexible": ("s", None)}
 
 
 def of_limit(study: LimitStudy) -> dict[str, Figure]:
@@ -54,27 +51,9 @@ def layers(study: LimitStudy) -> Figure:
 
 def approach(study: LimitStudy) -> Figure:
     """Distance to the limit against the foundation: the prediction as a line, without a fitted number."""
-    names = ("impulse_ratio", "normal_impulse", "friction_impulse")
     with matplotlib.rc_context(STYLE):
         figure = blank(11, 4)
-        seen = [sight.foundation for sight in study.sights] or [1e8, 1e13]
-        s = np.geomspace(min(*seen, 1e9) if seen else 1e8, max(*seen, 1e13), 60)
-        for axes, name in zip(figure.subplots(1, 3), names, strict=True):
-            term = study.prediction.terms[name]
-            line = np.array([float(term.at(study.small(x))) - term.limit for x in s])
-            axes.plot(s, np.abs(line), color=RIGID, label="predicted")
-            for solver, (mark, fill) in _MARKS.items():
-                points = [
-                    (sight.foundation, abs(study.distance(name, sight)[0]))
-                    for sight in study.sights
-                    if sight.solver == solver and name in sight.values
-                ]
-                if points:
-                    blue = OKABE_ITO["kinetic"]
-                    axes.plot(*np.array(points).T, mark, color=blue, markerfacecolor=fill or blue, label=solver)
-            axes.set(xscale="log", yscale="log", xlabel="foundation εR²/(mg)", title=MEASURES[name].symbol)
-            axes.legend()
-        figure.axes[0].set_ylabel("distance to the limit")
+        study.plot(axes=figure.subplots(1, 3))
         return figure
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ..plots.page import write_page
@@ -36,9 +36,17 @@ FOUND = """\
 
 
 def limit_report(
-    study: LimitStudy, more: tuple[Sheet, ...], images: Mapping[str, Path], command: str, path: Path
+    study: LimitStudy,
+    more: tuple[Sheet, ...],
+    images: Mapping[str, Path],
+    command: str,
+    path: Path,
+    numbers: Sequence[Path] = (),
 ) -> Path:
-    """Write the page of a study of the limit; ``more`` sheets come below its own. Whole or not at all."""
+    """Write the page of a study of the limit; ``more`` sheets come below its own, ``numbers`` are files that it holds.
+
+    Whole or not at all, and last: what it names is there.
+    """
     hoop = study.scene.hoop
     told = {
         "title": f"The limit of infinite stiffness: k = {hoop.k:g}, r = {hoop.r:g}, m_h/m = {hoop.mass_ratio:g}",
@@ -47,6 +55,7 @@ def limit_report(
         "damping": " ".join(damping_sentences(study)),
         "sheets": [_rows(sheet) for sheet in (*limit_sheets(study), *more) if isinstance(sheet, Sheet)],
         "failed": [f"Foundation {s.foundation:.3g} failed: {s.failure}" for s in study.sights if s.failure],
+        "numbers": numbers,
         "images": {name: (CAPTIONS.get(name, name), file) for name, file in images.items()},
     }
     return write_page(FOUND, path, study.scene, command, told)

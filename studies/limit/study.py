@@ -9,7 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from flexible.contact.laws.listing import LAWS
 from rigid import Run, Scene, SceneLike, as_scene, scene_to_dict, simulate
@@ -24,10 +27,14 @@ from ..inner.scales import damping_of
 from ..inner.separate import separate_from
 from ..running.case import Case
 from ..running.files import StudyError
+from ..running.measures import MEASURES
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
-from .compliant import go_through
+from .compliant import Sight, at_foundation, go_through, seen_by_rigid_ring
 from .prediction import Prediction, predict
+
+if TYPE_CHECKING:
+    import pandas
 
 OBSERVED = ("impulse_ratio", "friction_impulse", "normal_impulse", "friction_loss")
 """Measures that are predicted and observed."""
@@ -68,22 +75,6 @@ class EventFound:
             "creep": self.creep,
             "period": self.layer.period,
         }
-
-
-@dataclass(frozen=True, slots=True)
-class Sight:
-    """A pulse observed at a finite stiffness."""
-
-    solver: str
-    """Who saw it: "rigid ring" or "flexible"."""
-    foundation: float
-    """eps_n R^2/(m g)."""
-    values: dict[str, float]
-    """Measures."""
-    errors: dict[str, float]
-    """Their numerical errors, where the solver knows them."""
-    failure: str = ""
-    """Why there are none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,11 +122,47 @@ class LimitStudy:
         parameter = "foundation^(-1/3)" if self.prediction.parameter == "eps" else "the slip velocity scale"
         return [*lines, ("x", parameter), ("events", ", ".join(found.event.kind for found in self.events))]
 
+    def plot(self, *names: str, axes: Any = None) -> NDArray[np.object_]:
+        """Distance to the limit over the foundation, predicted and observed, a panel for each of ``names``.
+
+        These are of ``OBSERVED``, by default the impulses and their ratio; on ``axes`` or in a new figure.
+        """
+        from ..plots.approach import Approach, draw
+
+        foundations = [sight.foundation for sight in self.sights] or [1e8]
+        along = np.geomspace(min(*foundations, 1e9), max(*foundations, 1e13), 60)
+        drawn = {}
+        for name in names or OBSERVED[:3]:
+            term = self.prediction.terms[name]
+            away = np.array([float(term.at(self.small(s))) - term.limit for s in along])
+            seen = {}
+            for solver in ("rigid ring", "flexible"):
+                mine = [sight for sight in self.sights if sight.solver == solver and name in sight.values]
+                pairs = np.array([(sight.foundation, self.distance(name, sight)[0]) for sight in mine]).reshape(-1, 2)
+                seen[solver] = pairs[:, 0], pairs[:, 1]
+            drawn[MEASURES[name].symbol] = Approach((along, away), seen)
+        return draw(drawn, "foundation εR²/(mg)", axes)
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each measure of each run: value, numerical error, distance to the limit, and what was predicted."""
+        import pandas
+
+        rows = []
+        for sight in self.sights:
+            for name in OBSERVED:
+                row: dict[str, Any] = {"solver": sight.solver, "foundation": sight.foundation, "measure": name}
+                if name in sight.values:
+                    found, foreseen = self.distance(name, sight)
+                    row |= {"value": sight.values[name], "numerical_error": sight.errors.get(name)}
+                    row |= {"limit": self.prediction.terms[name].limit, "distance": found, "predicted": foreseen}
+                rows.append(row | {"failure": sight.failure})
+        return pandas.DataFrame(rows)
+
     def small(self, foundation: float) -> float:
         """The prediction's small parameter at a foundation."""
         if self.prediction.parameter == "eps":
             return foundation ** (-1 / 3)
-        return float(_at(self.scene, foundation).contact.slip_velocity_scale)
+        return float(at_foundation(self.scene, foundation).contact.slip_velocity_scale)
 
     def distance(self, name: str, sight: Sight) -> tuple[float, float]:
         """(observed, predicted) distance of a measure from its limit."""
@@ -221,7 +248,7 @@ def limit_study(
                 None if theta is None else damping_of(scene, theta), slow,
             )
         )  # fmt: skip
-    sights = [_ring(scene, foundation) for foundation in foundations]
+    sights = [seen_by_rigid_ring(scene, foundation) for foundation in foundations]
     sights += _flexible(scene, prediction, flexible, pool or Here(), out, progress)
     separate = separate_from(way, [event.layer for event in found])
     return LimitStudy(scene, tuple(found), prediction, separate, tuple(sights), _others(scene))
@@ -236,7 +263,7 @@ def _others(scene: Scene) -> tuple[Other, ...]:
             found.append(Other(f"{name}, any damping", (pulses[0].impulse_ratio,) * 2, _foreseen(scene, name)))
     ideal = next(name for name, law in LAWS.items() if law.code == PATCH)
     undamped = scene.replace(contact={"law": ideal, "damping": 0.0})
-    seen = [go_through(_at(undamped, foundation)).impulse_ratio for foundation in FOUNDATIONS]
+    seen = [go_through(at_foundation(undamped, foundation)).impulse_ratio for foundation in FOUNDATIONS]
     return (*found, Other(f"{ideal}, no damping", (min(seen), max(seen))))
 
 
@@ -245,24 +272,6 @@ def _foreseen(scene: Scene, law: str) -> Prediction | None:
         return predict(scene.replace(contact={"law": law}))
     except StudyError:  # its pulse has more in it than this scene's
         return None
-
-
-def _at(scene: Scene, foundation: float) -> Scene:
-    """The scene at another foundation; its ring, and what its law ties to the foundation, go with it."""
-    factor = foundation / scene.contact.stiffness
-    tied = LAWS[scene.contact.law].stiffened(scene.contact, factor)
-    ring = {"bending_stiffness": scene.ring.bending_stiffness * factor}
-    return scene.replace(contact={"stiffness": foundation, **tied}, ring=ring)
-
-
-def _ring(scene: Scene, foundation: float) -> Sight:
-    seen = go_through(_at(scene, foundation))
-    values = {
-        "impulse_ratio": seen.impulse_ratio,
-        "friction_impulse": seen.friction_impulse,
-        "normal_impulse": seen.normal_impulse,
-    }
-    return Sight("rigid ring", foundation, values, {})
 
 
 def _flexible(
@@ -276,7 +285,7 @@ def _flexible(
     if not foundations:
         return []
     against = tuple((name, prediction.terms[name].limit, 0.0) for name in ("impulse_ratio", "friction_loss"))
-    cases = [Case("flexible", _at(scene, foundation), against) for foundation in foundations]
+    cases = [Case("flexible", at_foundation(scene, foundation), against) for foundation in foundations]
     sights = []
     for foundation, outcome in zip(foundations, run_cases(cases, pool, out, progress), strict=True):
         if outcome.failure:

@@ -118,10 +118,12 @@ def verdict(study: LimitStudy) -> str:
     paper = study.others[0].impulse_ratio[0] if study.others else float("nan")
     same = abs(term.limit - paper) < 1e-12
     law = study.scene.contact.law
+    becomes = "becomes the paper's rigid hoop" if same else "does not become the paper's rigid hoop"
     words = (
-        f"The {law} law tends to J_F/J_N = {term.limit:.6f}, "
-        + ("the paper's pulse" if same else f"another pulse than the paper's {paper:.6f}")
-        + f", like {term.coefficient:+.4g} {_symbol(study)}^{term.exponent:.3g}"
+        f"Made ever stiffer, the hoop on a floor with the {law} law {becomes}: J_F/J_N (friction impulse over normal "
+        f"impulse, of the first pulse) tends to {term.limit:.6f}"
+        + ("" if same else f" and not to {paper:.6f}")
+        + f", and is off by {term.coefficient:+.4g} {_symbol(study)}^{term.exponent:.3g} before"
     )
     small = (
         "ε the foundation ε_n R²/(m g) to the power −1/3"

@@ -33,6 +33,7 @@ class Distance(NamedTuple):
     rate_interval: tuple[float, float]
     confidence: str
     rate_cases: tuple[int, ...]  # that the rate was fitted to
+    series: tuple[Array, Array] | None  # stiffness, signed distance of what was fitted where the powers are known
     predicted: tuple[Array, Array] | None  # stiffness, distance
     label: str  # of the abscissa
 
@@ -42,7 +43,7 @@ def draw(distances: Mapping[str, Distance], axes: Any = None) -> NDArray[np.obje
     if axes is None:
         from matplotlib import pyplot
 
-        size = (4.8 * len(distances), 4.4)
+        size = (4.8 * len(distances), 5.0)
         axes = pyplot.subplots(1, len(distances), squeeze=False, figsize=size, layout="constrained")[1]
     panels = np.atleast_1d(axes).ravel()
     if len(panels) != len(distances):
@@ -60,11 +61,16 @@ def panel(axes: Axes, distance: Distance, words: str, colour: str) -> None:
         if side.any():
             axes.plot(s[side], abs(off[side]), "o", color=colour, markerfacecolor=fill, zorder=4, label=said)
     axes.plot(s, np.where(error > 0, error, np.nan), "v", color="0.6", markersize=4, label="numerical error")
-    _rate_line(axes, distance, colour)
+    if distance.series is None:
+        _rate_line(axes, distance, colour)
+    else:
+        stiffness, fitted = distance.series
+        label = f"fitted series; rate {_rate_words(distance)}"
+        axes.plot(stiffness, abs(fitted), color=colour, linewidth=1, linestyle=(0, (5, 3)), label=label)
     if distance.predicted is not None:
-        axes.plot(*distance.predicted, color=RIGID, linewidth=1, label="predicted, no fit")
+        axes.plot(*distance.predicted, color=RIGID, linewidth=1, label="predicted, leading powers, no fit")
     axes.set(xscale="log", yscale="log", xlabel=distance.label, title=words)
-    axes.legend(loc="best", fontsize=8)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=2, fontsize=8)
 
 
 def _rate_line(axes: Axes, distance: Distance, colour: str) -> None:
@@ -75,10 +81,10 @@ def _rate_line(axes: Axes, distance: Distance, colour: str) -> None:
         return
     anchor = np.exp(np.mean(np.log(away[used]) + distance.rate * np.log(s[used])))
     line: Any = {"color": colour, "linewidth": 1, "linestyle": (0, (5, 3))}
-    axes.plot(s[used], anchor * s[used] ** -distance.rate, label=_rate_words(distance), **line)
+    axes.plot(s[used], anchor * s[used] ** -distance.rate, label=f"fitted rate {_rate_words(distance)}", **line)
 
 
 def _rate_words(distance: Distance) -> str:
     low, high = distance.rate_interval
     interval = f" [{low:.3f}, {high:.3f}] at {distance.confidence}" if np.isfinite(high) else ""
-    return f"rate {distance.rate:.3f}{interval}"
+    return f"{distance.rate:.3f}{interval}"

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..running.history import Columns
+from .difference import FORCES
 from .style import OKABE_ITO, RIGID, STYLE, UNDER, blank, save
 
 if TYPE_CHECKING:
@@ -32,25 +33,26 @@ _WORDS = {
 }
 
 
-def pulse(curves: Sequence[Curve], title: str = "") -> Figure:
+def pulse(curves: Sequence[Curve], title: str = "", apart: Sequence[Columns] = ()) -> Figure:
     """N, F and slip velocity over time through a pulse; beside it the same around the largest jump of F.
 
     Time counts from the instant at which the disk is lowest, which all curves share. The last curve is the
-    reference, from which the jump is taken.
+    reference, from which the jump is taken; ``apart`` is how far each of the others is from it, and has panels of its
+    own, as the curves themselves lie upon one another.
     """
-    names = ("normal_force", "friction_force", "slip_velocity")
     labels = ("normal force $N/(mg)$", "friction force $F/(mg)$", r"slip velocity $v/\sqrt{gR}$")
     with matplotlib.rc_context(STYLE):
-        figure = blank(11.0, 8.0)
-        grid = figure.subplots(3, 2, sharex="col", width_ratios=[3, 2])
+        figure = blank(14.0 if apart else 11.0, 8.0)
+        panels = figure.subplots(3, 3 if apart else 2, sharex="col", width_ratios=[3, 2, 3] if apart else [3, 2])
+        grid = panels[:, :2]
         low, high = _around_the_jump(curves[-1][1])
         for label, columns, colour in curves:
             t = _since_lowest(columns)
             style: Any = {"color": colour, "label": label, **(UNDER if colour == RIGID else {"alpha": 0.9})}
-            for row, name in zip(grid, names, strict=True):
+            for row, name in zip(grid, FORCES, strict=True):
                 for axes in row:
                     axes.plot(t, columns[name], **style)
-        for (whole, close), name, label in zip(grid, names, labels, strict=True):
+        for (whole, close), name, label in zip(grid, FORCES, labels, strict=True):
             zero = name == "normal_force"
             _robust_limits(whole, [columns[name] for _, columns, _ in curves], floor=zero)
             times = [(_since_lowest(columns), columns[name]) for _, columns, _ in curves]
@@ -62,7 +64,14 @@ def pulse(curves: Sequence[Curve], title: str = "") -> Figure:
             if not zero:
                 for axes in (whole, close):
                     axes.axhline(0, color="0.6", linewidth=0.8)
-        for axes in grid[2]:
+        for column, difference in zip(curves, apart, strict=False):
+            for axes, name in zip(panels[:, 2], FORCES, strict=True):
+                axes.plot(_since_lowest(column[1]), np.abs(difference[name]), color=column[2], linewidth=1)
+        if apart:
+            for axes in panels[:, 2]:
+                _of_differences(axes)
+            panels[0, 2].set_title("difference from the rigid hoop, same angle, absolute", fontsize=10)
+        for axes in panels[2]:
             axes.set_xlabel(r"time since the disk was lowest $t/\sqrt{R/g}$")
         grid[0, 1].set_title("the grey part, enlarged", fontsize=10)
         figure.suptitle(title)
@@ -70,6 +79,15 @@ def pulse(curves: Sequence[Curve], title: str = "") -> Figure:
             handles = grid[0, 0].get_legend_handles_labels()
             figure.legend(*handles, loc="outside lower center", ncols=len(curves), title="foundation")
         return figure
+
+
+def _of_differences(axes: Axes) -> None:
+    """The axis of differences: six decades, no more, are what one wants to see."""
+    if not any(np.any(np.asarray(line.get_ydata(), dtype=float) > 0) for line in axes.get_lines()):
+        return
+    axes.set_yscale("log")
+    low, high = axes.get_ylim()
+    axes.set_ylim(max(low, 1e-6 * high), high)
 
 
 def _since_lowest(columns: Columns) -> Any:
@@ -109,14 +127,16 @@ def _robust_limits(axes: Axes, values: list[np.ndarray], floor: bool = False) ->
         axes.set_ylim(0.0 if floor and low >= -pad else low - pad, high + pad)
 
 
-def impulses(curves: Sequence[Curve], mu: float) -> Figure:
+def impulses(curves: Sequence[Curve], mu: float, apart: Sequence[np.ndarray] = ()) -> Figure:
     """The pulse in impulse space: accumulated friction impulse against accumulated normal impulse.
+
+    ``apart`` is how far the friction impulse of each but the last curve is from that at the same normal impulse.
 
     A slope of mu is skidding's opposite, spinning; -mu is skidding; anything flatter is rolling.
     """
     with matplotlib.rc_context(STYLE):
-        figure = blank(11.0, 5.0)
-        axes, close = figure.subplots(1, 2, width_ratios=[3, 2])
+        figure = blank(14.0 if apart else 11.0, 5.0)
+        axes, close, *more = figure.subplots(1, 3 if apart else 2, width_ratios=[3, 2, 2.5] if apart else [3, 2])
         reach = max(float(columns["normal_impulse"][-1]) for _, columns, _ in curves if columns["t"].size)
         line = np.array([0.0, reach])
         axes.fill_between(line, -mu * line, mu * line, color="0.95", zorder=0)
@@ -145,6 +165,13 @@ def impulses(curves: Sequence[Curve], mu: float) -> Figure:
                     zorder=6,
                 )
         _enlarged_end(close, axes, curves, reach)
+        for beside in more:
+            for (_, columns, colour), difference in zip(curves, apart, strict=False):
+                beside.plot(columns["normal_impulse"], np.abs(difference), color=colour)
+            _of_differences(beside)
+            beside.set_xlim(0.75 * reach, 1.02 * reach)
+            beside.set_xlabel(r"normal impulse $J_N/(m\sqrt{gR})$")
+            beside.set_title("difference of $J_F$ from the rigid hoop, absolute", fontsize=10)
         axes.set_xlim(0, 1.02 * reach)
         axes.set_xlabel(r"normal impulse $J_N/(m\sqrt{gR})$")
         axes.set_ylabel(r"friction impulse $J_F/(m\sqrt{gR})$")

@@ -54,8 +54,17 @@ def blank(width: float, height: float) -> Figure:
 
 
 def save(figure: Figure, path: Path) -> Path:
-    """Write a figure as PNG, whole or not at all."""
+    """Write a figure, as PNG or SVG by its suffix, whole or not at all; the same figure is the same file."""
+    if path.suffix == ".svg":
+        with matplotlib.rc_context({"svg.hashsalt": path.stem}):
+            return write_whole(path, lambda part: figure.savefig(part, format="svg", metadata={"Date": None}))
     return write_whole(path, lambda part: figure.savefig(part, format="png", dpi=150))
+
+
+def save_both(figure: Figure, path: Path) -> Path:
+    """Write a figure as PNG and, for a page, as SVG beside it, whose path is returned."""
+    save(figure, path.with_suffix(".png"))
+    return save(figure, path.with_suffix(".svg"))
 
 
 def colours(count: int) -> list[tuple[float, float, float, float]]:

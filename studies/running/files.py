@@ -122,7 +122,7 @@ def write_whole(path: str | Path, write: Callable[[Path], Any]) -> Path:
         part.chmod(0o666 & ~_umask())
         os.replace(part, path)
     except OSError as error:
-        raise StudyError(trouble(error, path)) from None
+        raise StudyError(trouble(error, path).replace(name, str(path))) from None
     finally:
         part.unlink(missing_ok=True)
     return path

@@ -35,15 +35,25 @@ def through(motion: Motion, pulse: Pulse) -> Columns:
     if own is None:
         columns = at(motion, motion.times(pulse.t_start, pulse.t_end))
     else:
-        kept = (own["t"] >= pulse.t_start) & (own["t"] <= pulse.t_end)
-        columns = {name: values[kept] for name, values in own.items()}
+        columns = {name: _between(own["t"], values, pulse.t_start, pulse.t_end) for name, values in own.items()}
     for name in TOTALS:
         if name in columns and columns[name].size:
             columns[name] = columns[name] - columns[name][0]
     for force, impulse in (("normal_force", "normal_impulse"), ("friction_force", "friction_impulse")):
-        if impulse not in columns:
+        if not columns["t"].size:
+            columns[impulse] = columns["t"].copy()
+        elif impulse not in columns:
             columns[impulse] = accumulated(columns["t"], columns[force])
+        else:  # what is off is the first point alone, which lies within a step
+            columns[impulse][1:] += getattr(pulse, impulse) - columns[impulse][-1]
     return columns
+
+
+def _between(t: Array, values: Array, start: float, end: float) -> Array:
+    """Values at the times from start to end, and at both of these, which need not be steps."""
+    low, high = max(start, t[0]), min(end, t[-1])
+    inside = values[(t > low) & (t < high)]
+    return np.concatenate([np.interp([low], t, values), inside, np.interp([high], t, values)])
 
 
 def whole(motion: Motion) -> Columns:

@@ -2,8 +2,33 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
+
+_quiet: ContextVar[bool] = ContextVar("quiet", default=False)
+
+
+@contextmanager
+def quietly() -> Iterator[None]:
+    """Meanwhile no bars and no announcements, of compiling neither: stderr is left to what went wrong."""
+    logger = logging.getLogger("hoop-pulse")
+    level, token = logger.level, _quiet.set(True)
+    logger.setLevel(logging.ERROR)
+    try:
+        yield
+    finally:
+        logger.setLevel(level)
+        _quiet.reset(token)
+
+
+def announce(sentence: str) -> None:
+    """Say on stderr what a script need not read."""
+    import click
+
+    if not _quiet.get():
+        click.echo(f"hoop: {sentence}", err=True)
 
 
 @contextmanager
@@ -21,6 +46,7 @@ def bar(title: str) -> Iterator[Callable[[float], None]]:
         TextColumn("left"),
         TimeRemainingColumn(),
     )
-    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as progress:
+    hidden = _quiet.get() or not console.is_terminal
+    with Progress(*columns, console=console, transient=True, disable=hidden) as progress:
         task = progress.add_task(title, total=1.0)
         yield lambda fraction: progress.update(task, completed=min(max(fraction, 0.0), 1.0))

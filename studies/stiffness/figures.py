@@ -8,6 +8,9 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from rigid import simulate
+
+from ..plots.difference import at_the_same_angle, at_the_same_normal_impulse
 from ..plots.pulse import Curve, energy, impulses, pulse
 from ..plots.style import RIGID, STYLE, blank, colours, power_of_ten
 from ..running.history import dimensionless
@@ -23,10 +26,16 @@ def of_study(study: StiffnessStudy) -> dict[str, Figure]:
         for rung, columns, colour in zip(rungs, through, colours(len(rungs)), strict=True)
     ]
     curves.append(("rigid", dimensionless(study.reference.histories[0], study.scene), RIGID))
+    motion = simulate(study.reference.scene)
+    whole = next(pulse for pulse in motion.pulses if not pulse.cut)
+    own = [rung.outcome.histories[0] for rung in rungs]
+    forces = [dimensionless(at_the_same_angle(columns, motion, whole), study.scene) for columns in own]
+    unit = study.scene.impulse_unit
+    friction = [at_the_same_normal_impulse(columns, motion, whole) / unit for columns in own]
     mu = study.scene.friction.mu
     drawn = {
-        "pulse": pulse(curves, "Through the first pulse"),
-        "impulses": impulses(curves, mu),
+        "pulse": pulse(curves, "Through the first pulse", forces),
+        "impulses": impulses(curves, mu, friction),
         "distance": distances(study),
     }
     if rungs:
@@ -48,6 +57,6 @@ def chosen(rungs: Sequence[Rung], most: int = 5) -> list[Rung]:
 def distances(study: StiffnessStudy) -> Figure:
     """Distance to the rigid value against stiffness, with the fitted rate and each case's numerical error."""
     with matplotlib.rc_context(STYLE):
-        figure = blank(9.6, 4.4)
+        figure = blank(10.4, 5.2)
         study.plot(axes=figure.subplots(1, 2))
         return figure

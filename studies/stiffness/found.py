@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from rigid import Scene, scene_to_dict
 from rigid.output import summary
 
-from ..running.case import Outcome
+from ..running.case import SHARE, Outcome
 from ..running.measures import MEASURES
 from .coefficient import Coefficient, coefficient
 from .ladder import Ladder
-from .limits import CONFIDENCE, Limit
+from .limits import CONFIDENCE, Limit, fitted_series
 
 if TYPE_CHECKING:
     import pandas
@@ -108,6 +108,23 @@ class StiffnessStudy:
         """The rungs that have one."""
         return [rung for rung in self.rungs if not rung.outcome.failure]
 
+    def expected(self, name: str, contact_stiffness: float) -> float:
+        """Distance to the rigid value that is predicted at a foundation; 0 where none is."""
+        if self.prediction is None or not self.prediction.complete or contact_stiffness < self.separate:
+            return 0.0
+        term = self.prediction.terms[name]
+        return abs(float(term.at(contact_stiffness ** (-1 / 3))) - term.limit)
+
+    def loose(self, rung: Rung) -> tuple[str, ...]:
+        """Measures of a rung whose numerical error is more than its share of the distance to the rigid value."""
+        if rung.outcome.resolved or rung.outcome.failure:
+            return ()
+        distances = {
+            name: max(abs(rung.measure(name) - self.limits[name].rigid), self.expected(name, rung.contact_stiffness))
+            for name in LIMITS[:2]
+        }
+        return tuple(name for name, away in distances.items() if rung.error(name) > SHARE * away) or LIMITS[:2]
+
     def coefficient(self, name: str) -> Coefficient | None:
         """How fast a measure comes to its limit, observed and predicted; None where only the leading one of the powers
         down to the creep's is predicted, and with too few rungs through."""
@@ -131,6 +148,8 @@ class StiffnessStudy:
         limit, through = self.limits[name], self.rungs_through
         unit = MEASURES[name].unit.of(self.scene)
         stiffness = np.array([rung.stiffness for rung in through])
+        values, errors = (np.array([of(rung, name) for rung in through]) for of in (Rung.measure, Rung.error))
+        series = fitted_series(limit, stiffness, values, errors, self.separate)
         predicted = None
         softest, stiffest = max(through[0].contact_stiffness, self.separate), through[-1].contact_stiffness
         if self.prediction is not None and self.prediction.complete and softest < stiffest:
@@ -140,12 +159,13 @@ class StiffnessStudy:
             predicted = foundation * stiffness[0] / through[0].contact_stiffness, away
         return Distance(
             stiffness,
-            np.array([rung.measure(name) - limit.rigid for rung in through]) / unit,
-            np.array([rung.error(name) for rung in through]) / unit,
+            (values - limit.rigid) / unit,
+            errors / unit,
             limit.rate,
             limit.rate_interval,
             f"{CONFIDENCE:.0%}",
             limit.rate_cases,
+            None if series is None else (series[0], (series[1] - limit.rigid) / unit),
             predicted,
             self.ladder.label,
         )

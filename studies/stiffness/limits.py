@@ -276,6 +276,22 @@ def limit_of(
     )
 
 
+def fitted_series(
+    limit: Limit, s: ArrayLike, y: ArrayLike, error: ArrayLike, holds: float = 0.0, points: int = 120
+) -> tuple[Array, Array] | None:
+    """Stiffness and measure of the series that a limit was extrapolated with, over the cases that it was fitted to.
+
+    Parameters as of :func:`limit_of`; None where no exponents were known.
+    """
+    stiff = np.asarray(s, float) >= holds
+    if not limit.known:
+        return None
+    x, v, e = (np.asarray(values, float)[stiff] for values in (s, y, error))
+    along = np.geomspace(x[0], x[-1], points)
+    fitted = [extrapolated(x, v, e, limit.exponents, CONFIDENCE, to=there).value for there in along]
+    return along, np.array(fitted)
+
+
 def _span(values: Array, error: ArrayLike | None) -> float:
     known = values[np.isfinite(values)]
     if not known.size:

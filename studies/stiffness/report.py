@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +13,7 @@ from .summary import (
     case_heading,
     damping_sentence,
     extrapolation_sentence,
+    ladder_sentence,
     law_sentence,
     limit_rows,
     prediction_sentence,
@@ -28,16 +29,17 @@ if TYPE_CHECKING:
 CAPTIONS = {
     "pulse": """\
 Normal force, friction force and slip velocity of the contact through the first pulse, from soft (dark) to
-stiff (light), over the rigid hoop (black, wide). Time counts from the instant at which the disk is lowest.""",
+stiff (light), over the rigid hoop (black, wide). Time counts from the instant at which the disk is lowest. On the right
+what is left between each and the rigid hoop where the disk is at the same angle, on a logarithmic axis.""",
     "impulses": """\
 The same pulse in impulse space. A curve that runs along a dashed line slides; one that leaves it sticks; one
 that turns toward the other line has reversed its slip. The slope from the origin to the end is the impulse
-ratio.""",
+ratio. On the right how far each friction impulse is from the rigid hoop's at the same normal impulse.""",
     "distance": """\
 How far the flexible hoop's measures are from the rigid ones. Triangles are the numerical error, known
-from a second run at half the tolerance; the dashed line has the fitted rate and
-spans the cases it was fitted to; the black one is predicted from the rigid motion, without any of them, and
-begins where it holds.""",
+from a second run at a quarter of the tolerance; the dashed line is what was fitted to the cases that it spans: the
+series whose powers are known, which dips where the distance changes its sign, or a single power; the black one is the
+leading powers as predicted from the rigid motion, without any of the cases, and begins where they hold.""",
     "energy": """\
 Where the energy is and where it goes; below, the small terms on a logarithmic axis.""",
 }
@@ -52,23 +54,31 @@ FOUND = """\
 {{ pictures(figures) }}
 
 <h2>Case by case</h2>
+<p>{{ ladder }}</p>
 <div class="wide"><table><thead><tr>{% for cell in heading %}<th>{{ cell }}</th>{% endfor
 %}</tr></thead><tbody>
 {% for row in cases %}<tr>{% for cell in row.cells %}<td>{{ cell }}</td>{% endfor %}
 {% if row.failure %}<td class="bad" colspan="{{ heading|length - 2 }}">{{ row.failure }}</td>{% endif %}</tr>
 {% endfor %}<tr class="rigid">{% for cell in rigid %}<td>{{ cell }}</td>{% endfor %}</tr>
 </tbody></table></div>
-<p>± is the numerical error of a case, known from a second run at half the tolerance, that of the loss no less than
-what the steps themselves took of the energy; the tolerance was tightened until that error was a tenth of the distance
-to the rigid value, or of the predicted one where that is more, as far as the solver's own noise and a bound on its work
-let it.{{ unresolved }}</p>
+<p>± is the numerical error of a case, known from a second run at a quarter of the tolerance, that of the loss no less
+than what the steps themselves took of the energy; the tolerance was tightened until that error was a tenth of the
+distance to the rigid value, or of the predicted one where that is more, as far as the solver's own noise and a bound on
+its work let it.{{ unresolved }}</p>
 
 <h2>All measures of the first pulse, side by side</h2>
 {{ table(side_heading, side) }}
 """
 
 
-def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command: str, path: Path) -> Path:
+def stiffness_report(
+    study: StiffnessStudy,
+    images: Mapping[str, Path],
+    command: str,
+    path: Path,
+    numbers: Sequence[Path] = (),
+    beside: Sequence[str] = (),
+) -> Path:
     """Write the page of a stiffness study.
 
     Parameters
@@ -76,11 +86,15 @@ def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command:
     study : StiffnessStudy
         What is told.
     images : dict of str to Path
-        Figures by name, PNG files that are copied into the page.
+        Figures by name, files that are copied into the page.
     command : str
         The command that made it.
     path : Path
-        The page; written whole or not at all.
+        The page; written whole or not at all, and last: what it names is there.
+    numbers : sequence of Path
+        Files of the same numbers, which the page holds too.
+    beside : sequence of str
+        A line on each other file that lies beside it.
     """
     scene = study.scene
     hoop = f"k = {scene.hoop.k:g}, r = {scene.hoop.r:g}, m_h/m = {scene.hoop.mass_ratio:g}"
@@ -96,10 +110,13 @@ def stiffness_report(study: StiffnessStudy, images: Mapping[str, Path], command:
         "images": {name: (CAPTIONS.get(name, name), file) for name, file in images.items()},
         "heading": case_heading(study),
         "limit_heading": LIMIT_HEADING,
-        "cases": [{"cells": case_cells(rung), "failure": rung.outcome.failure} for rung in study.rungs],
+        "cases": [{"cells": case_cells(study, rung), "failure": rung.outcome.failure} for rung in study.rungs],
         "rigid": rigid_cells(study),
         "unresolved": f" Not reached at {len(slow)} of the cases, marked *." if slow else "",
         "side_heading": side_heading(study),
         "side": side_rows(study),
+        "ladder": ladder_sentence(study),
+        "numbers": numbers,
+        "beside": beside,
     }
     return write_page(FOUND, path, scene, command, told)

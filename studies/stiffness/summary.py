@@ -10,6 +10,7 @@ from ..running.measures import MEASURES
 
 if TYPE_CHECKING:
     from .found import Rung, StiffnessStudy
+    from .limits import Limit
 
 
 REST = ("normal_impulse", "peak_normal_force", "time_off_floor")
@@ -22,18 +23,17 @@ def case_heading(study: StiffnessStudy) -> list[str]:
     return ["foundation\nεR²/(mg)", "bending\nEI/(mgR²)", ratio, "±", loss, "±", *rest, "run\n[s]"]
 
 
-def case_cells(rung: Rung) -> list[str]:
-    """The row of a rung: its stiffness, the tied measures with their error, and what else one looks at
-    first."""
+def case_cells(study: StiffnessStudy, rung: Rung) -> list[str]:
+    """The row of a rung: its stiffness, the tied measures with their error, starred where that is more than its share
+    of the distance, and what else one looks at first."""
     stiffness = [number(rung.contact_stiffness, 3), number(rung.bending_stiffness, 3)]
     if rung.outcome.failure:
         return stiffness
-    cells = []
+    cells, loose = [], study.loose(rung)
     for name in ("impulse_ratio", "friction_loss"):
-        cells += [f"{rung.measure(name):.5f}", number(rung.error(name), 2)]
+        cells += [f"{rung.measure(name):.5f}", number(rung.error(name), 2) + ("*" if name in loose else "")]
     rest = [number(rung.measure(name), 5) for name in REST]
-    star = "" if rung.outcome.resolved else " *"
-    return [*stiffness, *cells, *rest, f"{rung.outcome.seconds:.2f}{star}"]
+    return [*stiffness, *cells, *rest, f"{rung.outcome.seconds:.2f}"]
 
 
 def rigid_cells(study: StiffnessStudy) -> list[str]:
@@ -111,27 +111,64 @@ def side_rows(study: StiffnessStudy) -> list[list[str]]:
     return rows
 
 
+_MEANING = {
+    "impulse_ratio": "J_F/J_N (friction impulse over normal impulse, of the first pulse)",
+    "friction_loss": "the friction loss (energy that sliding takes in it)",
+}
+
+_RAISED = {"both": "ring and floor are", "contact": "the floor is", "bending": "the ring is"}
+
+
 def verdict(study: StiffnessStudy) -> str:
-    """The answer in one or two sentences."""
-    said = []
-    for name, limit in study.limits.items():
-        if name == "normal_impulse":
-            continue
-        if limit.rigid_inside is None:
-            said.append(
-                f"{MEASURES[name].symbol} is {study.rungs_through[-1].measure(name):.5f} at the stiffest rung and "
-                f"{limit.rigid:.5f} for the rigid hoop: too few rungs for an interval."
-            )
-            continue
-        inside = "inside" if limit.rigid_inside else "outside"
+    """The answer in words, and in the numbers that it stands on."""
+    tied = {name: study.limits[name] for name in _MEANING}
+    inside = [limit.rigid_inside for limit in tied.values()]
+    hoop = "the rigid one" if study.reference_mu_s == study.scene.friction.mu_s else "a rigid one"
+    question = f"as {_RAISED[study.ladder.along]} made stiffer, the flexible hoop"
+    if False in inside:
+        answer = f"No: {question} does not become {hoop} within the uncertainty of its limit"
+    elif None in inside:
+        answer = f"Open: whether, {question} becomes {hoop}, too few rungs say"
+    else:
+        answer = f"Yes: {question} becomes {hoop}"
+    told = [_told(study, name, limit) for name, limit in tied.items()]
+    said = [f"{answer}: {'; '.join(told)}."]
+    other = study.limits["normal_impulse"]
+    if other.rigid_inside is False:
         said.append(
-            f"{MEASURES[name].symbol} tends to {limit.value:.5f} ± {number(limit.uncertainty, 2)}; "
-            f"the rigid hoop has {limit.rigid:.5f}, {inside} that interval, "
-            f"{number(abs(limit.error), 2)} from its middle."
+            f"J_N (normal impulse) tends to {other.value:.6f} ± {number(other.uncertainty, 2)}, and the rigid hoop has "
+            f"{other.rigid:.6f}, outside that interval by {number(abs(other.error) - other.uncertainty, 2)}."
         )
     if study.failures:
         said.append(f"{len(study.failures)} of {len(study.rungs)} cases failed.")
     return " ".join(said)
+
+
+def _told(study: StiffnessStudy, name: str, limit: Limit) -> str:
+    unit = MEASURES[name].unit.label(study.scene)
+    unit = f" {unit}" if unit else ""
+    if limit.rigid_inside is None:
+        last = study.rungs_through[-1].measure(name)
+        return (
+            f"{_MEANING[name]} is {last:.5f}{unit} at the stiffest rung and {limit.rigid:.5f} for the rigid hoop, "
+            "too few rungs for an interval"
+        )
+    where = "inside" if limit.rigid_inside else "outside"
+    return (
+        f"{_MEANING[name]} tends to {limit.value:.6f} ± {number(limit.uncertainty, 2)}{unit}, and the rigid hoop has "
+        f"{limit.rigid:.6f}, {where} that interval"
+    )
+
+
+def ladder_sentence(study: StiffnessStudy) -> str:
+    """What was raised, from where to where."""
+    ladder = study.ladder
+    along = {"both": "Both stiffnesses are raised in the scene's ratio", "contact": "The floor alone is stiffened",
+             "bending": "The ring alone is stiffened"}[ladder.along]  # fmt: skip
+    return (
+        f"{along}: {ladder.count} cases, the {ladder.label} from {number(ladder.low, 3)} to {number(ladder.high, 3)}; "
+        "all else is as the scene below says."
+    )
 
 
 def extrapolation_sentence(study: StiffnessStudy) -> str:

@@ -16,10 +16,12 @@ from ..plots.pulse import STYLE, save
 from .run import FLEXIBLE, HOSTILE, RIGID, Finding, Report
 
 _FLOOR = 1e-8  # margins below this are drawn as this
+_MASSLESS = 3e-5  # where a hoop without a mass is drawn, below the least that is drawn at random
+_BEYOND = matplotlib.colormaps["viridis_r"].with_extremes(over="#D55E00")  # a margin above its bound
 Axis = tuple[str, Callable[[Scene], float]]
 _RIGID: tuple[Axis, Axis] = (
     ("radius of the disk $k$", lambda scene: scene.hoop.k),
-    ("$m_h/m$", lambda scene: max(scene.hoop.mass_ratio, 3e-5)),
+    ("$m_h/m$", lambda scene: max(scene.hoop.mass_ratio, _MASSLESS)),
 )
 _FLEXIBLE: tuple[Axis, Axis] = (
     ("foundation $\\epsilon_n R^2/(mg)$", lambda scene: scene.contact.stiffness),
@@ -37,7 +39,7 @@ def _panel(figure: Figure, axes: matplotlib.axes.Axes, findings: Sequence[Findin
     margin = np.clip([max(f.margins.values()) for f in whole], _FLOOR, 1e2)
     order = np.argsort(margin)
     dots = axes.scatter(
-        np.array(x)[order], np.array(y)[order], c=np.log10(margin[order]), cmap="viridis_r", s=9, vmin=-8, vmax=0
+        np.array(x)[order], np.array(y)[order], c=np.log10(margin[order]), cmap=_BEYOND, s=9, vmin=-8, vmax=0
     )
     cut = [f for f in findings if f.cut]
     if cut:
@@ -48,9 +50,19 @@ def _panel(figure: Figure, axes: matplotlib.axes.Axes, findings: Sequence[Findin
         x, y = ([quantity(f.scene) for f in bad] for _, quantity in plane)
         axes.scatter(x, y, marker="o", facecolors="none", edgecolors="#D55E00", s=60, label="failed")
     axes.set(xscale="log", yscale="log", xlabel=plane[0][0], ylabel=plane[1][0])
+    if plane is _RIGID:
+        _mark_zero(axes)
     if cut or bad:
         axes.legend(loc="upper left", fontsize=8)
-    figure.colorbar(dots, ax=axes, label="largest margin of any check, log10 (0 is the bound)")
+    figure.colorbar(dots, ax=axes, label="largest margin of any check, log10: 0 is the bound", extend="max")
+
+
+def _mark_zero(axes: matplotlib.axes.Axes) -> None:
+    """Where the logarithmic axis of the mass ratio says 0, and a line between that and the rest of it."""
+    ticks = [10.0**power for power in range(-4, 3)]
+    labels = [f"$10^{{{power}}}$" for power in range(-4, 3)]
+    axes.set_yticks([_MASSLESS, *ticks], ["0", *labels])
+    axes.axhline(5.5e-5, color="0.6", linewidth=0.8, linestyle=(0, (2, 2)))
 
 
 def margins(report: Report) -> Figure:

@@ -4,7 +4,7 @@ import pytest
 
 import flexible
 from rigid import load_scene
-from studies.cli.account import account, remarks
+from studies.cli.shared.account import account, remarks
 
 SCENE = load_scene("paper-3.3-massless").replace(run={"until": "pulse"}, solve={"rtol": 1e-3})
 

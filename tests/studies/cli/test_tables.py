@@ -8,7 +8,7 @@ import pytest
 
 from rigid import Run, load_scene, simulate
 from studies import MEASURES, Ladder, run_sweep, stiffness_study, sweep_from_dict
-from studies.cli.tables import motion_tables, show, study_tables, sweep_tables
+from studies.cli.shared.tables import motion_tables, show, study_tables, sweep_tables
 from studies.plots.sheet import Column, Sheet
 from studies.running.workers import Here
 

@@ -73,6 +73,7 @@ def test_a_figure_is_not_blank(folder, name):
 def test_the_page_needs_nothing_but_itself(folder):
     page = (folder / "report.html").read_text()
     assert not re.findall(r"""(?:src|href)\s*=\s*["'](?!data:)""", page)
+    assert page.count("data:image/svg+xml;base64,") >= 3
     assert "http" not in re.sub(r"data:[^\"]*", "", page)
     for word in ("hoop study stiffness", "numpy", "[hoop]", "J_F/J_N", "numerical error"):
         assert word in page

@@ -12,9 +12,9 @@ from rich.console import Console
 
 from rigid import Motion, Scene, scene_from_dict
 
-from ..plots.sheet import Column, Sheet, number
-from ..running.measures import MEASURES, Unit, measures, phase_sequence
-from ..stiffness.summary import (
+from ...plots.sheet import Column, Sheet, number
+from ...running.measures import MEASURES, Unit, measures, phase_sequence
+from ...stiffness.summary import (
     LIMIT_HEADING,
     case_cells,
     case_heading,
@@ -31,8 +31,8 @@ from .account import HEADING, account, remarks
 if TYPE_CHECKING:
     from flexible import FlexibleMotion
 
-    from ..stiffness.found import StiffnessStudy
-    from ..sweep import Table as SweepTable
+    from ...stiffness.found import StiffnessStudy
+    from ...sweep import Table as SweepTable
 
 _REASONS = 10
 """Failed cases whose reasons are printed; the table has all."""
@@ -113,7 +113,7 @@ def pulse_sheet(columns: list[tuple[str, dict[str, float]]], scene: Scene) -> Sh
 def study_tables(study: StiffnessStudy) -> list[Any]:
     """The ladder rung by rung, the limits, and the answer in words."""
     heading = case_heading(study)
-    rows = [case_cells(rung) for rung in study.rungs] + [rigid_cells(study)]
+    rows = [case_cells(study, rung) for rung in study.rungs] + [rigid_cells(study)]
     # a rung that failed has a stiffness and nothing more
     filled = [row + ["-"] * (len(heading) - len(row)) for row in rows]
     cells = list(zip(*filled, strict=True))

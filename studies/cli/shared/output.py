@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rigid import Motion, Run, Scene
 
-from ..running import history
-from ..running.files import StudyError, to_json, trouble, write_text
+from ...running import history
+from ...running.files import StudyError, to_json, trouble, write_text
+
+if TYPE_CHECKING:
+    import pandas
 
 
 def write_motion(motion: Motion, out: Path) -> None:
@@ -19,7 +22,7 @@ def write_motion(motion: Motion, out: Path) -> None:
     write_text(out / "history.csv", history.to_csv(history.whole(motion)))
     if not motion.pulses:
         return
-    from ..plots import pulse as figures
+    from ...plots import pulse as figures
 
     first = next((pulse for pulse in motion.pulses if not pulse.cut), motion.pulses[0])
     title = "A pulse cut by the run" if first.cut else "The first pulse"
@@ -27,6 +30,11 @@ def write_motion(motion: Motion, out: Path) -> None:
     figures.save(figures.pulse([("", through, figures.RIGID)], title), out / "pulse.png")
     if (ledger := figures.energy(through, "Where the energy is during the first pulse")) is not None:
         figures.save(ledger, out / "energy.png")
+
+
+def write_frame(table: pandas.DataFrame, path: Path) -> Path:
+    """A data frame as CSV, numbers to the last bit."""
+    return write_text(path, table.to_csv(index=False, lineterminator="\n"))
 
 
 def field_wishes(frames: int | None = None, times: str | None = None, only: str | None = None) -> dict[str, Any]:
@@ -93,7 +101,7 @@ def write_fields(motion: Motion, out: Path, progress: Callable[[float], None], *
 
 def write_first_pulse(scene: Scene, out: Path, progress: Callable[[float], None]) -> None:
     """Run the scene's first pulse, at the scene's own stiffness, and write its fields."""
-    from ..running.solvers import solver
+    from ...running.solvers import solver
 
     motion = solver("flexible")(scene.replace(run=Run(until="pulse")), history=True)
     write_fields(motion, out, progress)
@@ -116,6 +124,8 @@ def write_mesh(scene: Scene, path: Path) -> str:
         save_mesh(ring, path)
     except MeshError as error:
         raise StudyError(str(error)) from None
+    except OSError as error:
+        raise StudyError(trouble(error, path)) from None
     quality = ring.quality()
     return (
         f"{path}: {quality.elements} nine-node quads, {quality.nodes} nodes; area off by {quality.area_error:.1e}, "

@@ -1,0 +1,183 @@
+"""Options that several commands have, what a shell completes of them, and the folder that a command writes into."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import fields
+from functools import partial
+from pathlib import Path
+from typing import Any, TypeVar, get_type_hints, overload
+
+import click
+from click.shell_completion import CompletionItem
+
+from ...running.files import StudyError, folder, write_text
+from ...running.progress import quietly
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+MADE_BY = "command.txt"
+"""What a folder of results says of itself: the command line that wrote it."""
+
+OVERWRITE = "studies.cli.overwrite"
+
+
+class SceneName(click.ParamType):
+    """The name of a shipped scene, or a file; with ``places`` also a folder of results."""
+
+    name = "scene"
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """Shipped scenes and the TOML files beside; files and folders where neither begins so."""
+        from rigid import scene_names
+
+        here = [path.name for path in sorted(Path().glob("*.toml"))]
+        names = [name for name in (*scene_names(), *here) if name.startswith(incomplete)]
+        return [CompletionItem(name) for name in names] or [CompletionItem(incomplete, type="file")]
+
+
+class SceneKey(click.ParamType):
+    """KEY=..., of which the shell completes the key."""
+
+    name = "key"
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """Keys of a scene that take numbers."""
+        return [CompletionItem(f"{key}=") for key in number_keys() if key.startswith(incomplete)]
+
+
+class Names(click.ParamType):
+    """NAME,NAME,...: any text, of which the shell completes the last name."""
+
+    name = "names"
+
+    def __init__(self, names: Callable[[], list[str]]) -> None:
+        self._names = names
+
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
+        """The names that begin like what stands behind the last comma."""
+        before, comma, begun = incomplete.rpartition(",")
+        return [CompletionItem(f"{before}{comma}{name}") for name in self._names() if name.startswith(begun)]
+
+
+def number_keys() -> list[str]:
+    """``part.key`` of everything in a scene that is a number."""
+    from rigid import Scene
+
+    keys = []
+    for part, kind in get_type_hints(Scene).items():
+        hints = get_type_hints(kind)
+        keys += [f"{part}.{field.name}" for field in fields(kind) if hints[field.name] in (int, float, float | None)]
+    return keys
+
+
+def field_names() -> list[str]:
+    """Fields that a flexible run writes."""
+    from flexible.output.fields import FIELDS
+
+    return list(FIELDS)
+
+
+scene_argument = click.argument("scene", type=SceneName())
+
+as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")
+
+workers = click.option(
+    "--workers",
+    type=click.IntRange(1, 1024),
+    metavar="N",
+    help="Processes side by side; by default one for each core.",
+)
+
+scheduler = click.option(
+    "--scheduler", metavar="ADDRESS", help="Run on the Dask cluster of this scheduler, tcp://host:8786."
+)
+
+
+def _remember(ctx: click.Context, _: click.Parameter, value: bool) -> None:
+    ctx.meta[OVERWRITE] = value
+
+
+def out_folder(help: str = "Write results into this folder.") -> Callable[[F], F]:
+    """``--out DIR``, and ``--overwrite`` for a folder that holds another command's results."""
+
+    def decorate(function: F) -> F:
+        out = click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help=help)
+        overwrite = click.option(
+            "--overwrite",
+            is_flag=True,
+            expose_value=False,
+            callback=_remember,
+            help="Write into DIR even if it holds the results of another command.",
+        )
+        return out(overwrite(function))
+
+    return decorate
+
+
+@overload
+def results_folder(path: Path) -> Path: ...
+@overload
+def results_folder(path: None) -> None: ...
+@overload
+def results_folder(path: Path | None) -> Path | None: ...
+def results_folder(path: Path | None) -> Path | None:
+    """The folder of ``--out``, made if need be and marked with the command that writes into it.
+
+    The same command may write into it again, and finds there what it had finished.
+
+    Raises
+    ------
+    StudyError
+        It holds the results of another command, or nothing can be written into it.
+    """
+    if path is None:
+        return None
+    ctx = click.get_current_context()
+    mark = path / MADE_BY
+    try:
+        held = mark.read_text(encoding="utf-8").strip()
+    except (OSError, UnicodeDecodeError):
+        held = ""
+    mine = ctx.command_path
+    other = held.startswith("hoop ") and not f"{held} ".startswith(f"{mine} ")
+    if other and not ctx.meta.get(OVERWRITE):
+        raise StudyError(f"{path} holds the results of `{held}`: name another folder, or add --overwrite.")
+    target = folder(path)
+    write_text(mark, f"{ctx.obj or mine}\n")
+    ctx.call_on_close(partial(_unmark_if_empty, target))
+    return target
+
+
+def _unmark_if_empty(target: Path) -> None:
+    """A command that failed before its first file leaves no folder that looks taken."""
+    with suppress(OSError):
+        if [path.name for path in target.iterdir()] == [MADE_BY]:
+            (target / MADE_BY).unlink()
+
+
+def _hush(ctx: click.Context, _: click.Parameter, value: bool) -> None:
+    if value:
+        ctx.with_resource(quietly())
+
+
+class Commands(click.Group):
+    """Commands in the order a newcomer meets them, each with ``--quiet``."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """As they were added."""
+        return list(self.commands)
+
+    def add_command(self, cmd: click.Command, name: str | None = None) -> None:
+        """Add a command; one that computes gets the option that silences it."""
+        if not isinstance(cmd, click.Group) and not any(param.name == "quiet" for param in cmd.params):
+            option = click.Option(
+                ["--quiet"],
+                is_flag=True,
+                expose_value=False,
+                callback=_hush,
+                help="On stderr only what went wrong: no progress, no announcements.",
+            )
+            cmd.params.append(option)
+        super().add_command(cmd, name)

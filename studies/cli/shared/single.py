@@ -1,0 +1,116 @@
+"""One motion for the command line: run, interrupted where the user asks, written, printed."""
+
+from __future__ import annotations
+
+import shlex
+import signal
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from rigid import Motion, Scene
+
+from ...running.files import StudyError, to_json
+from ...running.progress import bar
+from ...running.solvers import solver
+from .options import results_folder
+
+if TYPE_CHECKING:
+    from flexible import FlexibleMotion
+
+SAVED = "motion.npz"
+
+
+def one_rigid(scene: Scene, as_json: bool, out: Path | None) -> int:
+    """Run, write, print; the exit status is 1 for a motion that stops before what was asked."""
+    target = results_folder(out)
+    motion = solver("rigid")(scene, history=target is not None)
+    return _told(motion, target, as_json, None)
+
+
+def one_flexible(
+    name: str, scene: Scene, as_json: bool, out: Path | None, earlier: Path | None, wishes: dict[str, Any] | None
+) -> int:
+    """The same of the flexible hoop; interrupted, with a folder, it leaves there what it has and can be gone on from.
+
+    Parameters
+    ----------
+    name : str
+        Of the scene, as it was typed.
+    earlier : Path, optional
+        Folder of an earlier run to go on from; also where to write, if ``out`` says nothing else.
+    wishes : dict, optional
+        What fields are wanted.
+    """
+    from flexible import simulate
+
+    resume = None if earlier is None else _earlier(earlier)
+    target = results_folder(out if out is not None else earlier)
+    with bar("flexible hoop") as progress, _interrupts(target is not None) as stop:
+        try:
+            motion = simulate(scene, history=target is not None, progress=progress, resume=resume, stop=stop)
+        except ValueError as error:
+            if resume is None:
+                raise
+            raise StudyError(f"--continue {earlier} is not possible: {error}") from None
+    status = _told(motion, target, as_json, wishes)
+    if target is not None and stop():
+        click.echo(f"hoop: hoop flexible {shlex.quote(name)} --continue {shlex.quote(str(target))} goes on.", err=True)
+        return 130
+    return status
+
+
+def _earlier(folder: Path) -> FlexibleMotion:
+    from flexible import FlexibleMotion, load_motion
+    from rigid import MotionFileError
+
+    try:
+        found = load_motion(folder / SAVED)
+    except MotionFileError as error:
+        raise StudyError(f"--continue {folder} is not possible: {error}") from None
+    if not isinstance(found, FlexibleMotion):
+        raise StudyError(f"--continue {folder} is not possible: it holds a motion of the rigid hoop.")
+    return found
+
+
+@contextmanager
+def _interrupts(caught: bool) -> Iterator[Callable[[], bool]]:
+    """Ctrl-C asks the motion to stop, once; a second one is as usual. Whether it was asked is what comes out."""
+    asked = threading.Event()
+    if not caught or threading.current_thread() is not threading.main_thread():
+        yield asked.is_set
+        return
+
+    def note(number: int, frame: object) -> None:
+        asked.set()
+        signal.signal(signal.SIGINT, before)
+
+    before = signal.signal(signal.SIGINT, note)
+    try:
+        yield asked.is_set
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def _told(motion: Motion, target: Path | None, as_json: bool, wishes: dict[str, Any] | None) -> int:
+    if target is not None:
+        from .output import write_fields, write_motion
+
+        write_motion(motion, target)
+        if wishes is not None:
+            with bar("fields") as progress:
+                write_fields(motion, target, progress, **wishes)
+    if as_json:
+        click.echo(to_json(motion.to_dict()))
+    else:
+        from .tables import motion_tables, show
+
+        show(*motion_tables(motion))
+    if motion.completed:
+        return 0
+    click.echo(f"hoop: {motion.ended}.", err=True)
+    return 1

@@ -1,0 +1,45 @@
+"""A predicted approach to a limit, and what was observed of it, on logarithmic axes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .style import OKABE_ITO, RIGID
+
+Array = NDArray[np.float64]
+
+MARKS = (("o", "white"), ("s", OKABE_ITO["kinetic"]))
+
+
+class Approach(NamedTuple):
+    """How a measure comes to its limit."""
+
+    predicted: tuple[Array, Array]  # stiffness, distance
+    seen: Mapping[str, tuple[Array, Array]]  # the same of each solver that looked
+
+
+def draw(approaches: Mapping[str, Approach], label: str, axes: Any = None) -> NDArray[np.object_]:
+    """A panel for each measure by its symbol, on ``axes`` or in a new figure; ``label`` is of the abscissa."""
+    if axes is None:
+        from matplotlib import pyplot
+
+        size = (3.7 * len(approaches), 4.0)
+        axes = pyplot.subplots(1, len(approaches), squeeze=False, figsize=size, layout="constrained")[1]
+    panels = np.atleast_1d(axes).ravel()
+    if len(panels) != len(approaches):
+        raise ValueError(f"{len(approaches)} measures need as many axes, not {len(panels)}.")
+    for axis, (symbol, approach) in zip(panels, approaches.items(), strict=True):
+        stiffness, away = approach.predicted
+        axis.plot(stiffness, np.abs(away), color=RIGID, label="predicted")
+        for (solver, (stiffness, away)), (mark, fill) in zip(approach.seen.items(), MARKS, strict=False):
+            if stiffness.size:
+                look: Any = {"color": OKABE_ITO["kinetic"], "markerfacecolor": fill}
+                axis.plot(stiffness, np.abs(away), mark, label=solver, **look)
+        axis.set(xscale="log", yscale="log", xlabel=label, title=symbol)
+        axis.legend()
+    panels[0].set_ylabel("distance to the limit")
+    return panels

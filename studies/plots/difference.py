@@ -1,0 +1,71 @@
+"""How far curves through a pulse are from a motion, where both are at the same place."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Motion, Pulse
+
+from ..running.history import Columns, accumulated
+
+Array = NDArray[np.float64]
+
+FORCES = ("normal_force", "friction_force", "slip_velocity")
+"""What is compared where the disk is at the same angle."""
+
+_FINER = 32  # its square is by how much finer
+_NEWTON = 4  # from a guess that is good to a sampling interval each step squares what is left
+
+
+def at_the_same_angle(columns: Columns, motion: Motion, pulse: Pulse) -> Columns:
+    """Forces and slip velocity minus those of ``motion`` where its disk is at the same angle.
+
+    Not at the same time: two clocks that are apart by little would make the steep flanks of a pulse differ by much.
+
+    Parameters
+    ----------
+    columns : dict of (n,) arrays
+        Through a pulse, in the units of ``motion``, with ``phi``.
+    motion, pulse
+        What is compared with, and the pulse of it that is.
+
+    Returns
+    -------
+    dict of (n,) arrays
+        NaN at angles that the pulse does not have and at both ends, and all of it where phi turns back within the
+        pulse.
+    """
+    t = motion.times(pulse.t_start, pulse.t_end)
+    phi = motion.at(t).phi
+    way = np.sign(phi[-1] - phi[0])
+    if not np.all(way * np.diff(phi) >= 0) or way == 0:
+        return {name: np.full(columns["phi"].size, np.nan) for name in FORCES}
+    asked = columns["phi"]
+    when = np.interp(way * asked, way * phi, t)
+    for _ in range(_NEWTON):
+        states = motion.at(when)
+        when = np.clip(when - (states.phi - asked) / np.where(states.omega == 0, np.inf, states.omega), t[0], t[-1])
+    states = motion.at(when)
+    outside = (way * asked < way * phi[0]) | (way * asked > way * phi[-1])
+    outside[[0, -1]] = True  # a pulse begins and ends between two steps of a solver: these are interpolated
+    return {name: np.where(outside, np.nan, columns[name] - getattr(states, name)) for name in FORCES}
+
+
+def at_the_same_normal_impulse(columns: Columns, motion: Motion, pulse: Pulse) -> Array:
+    """Friction impulse minus that of ``motion`` where as much normal impulse has been given.
+
+    Parameters as of :func:`at_the_same_angle`; both impulses count from the pulse's start.
+
+    Returns
+    -------
+    (n,) array
+        NaN where the normal impulse is more than all of the pulse's.
+    """
+    t = motion.times(pulse.t_start, pulse.t_end)
+    # straight between its times to 2e-3 is not straight enough for trapezoids here: a thousandth of that is
+    fine = np.append((t[:-1, None] + np.diff(t)[:, None] * np.arange(_FINER) / _FINER).ravel(), t[-1])
+    states = motion.at(fine)
+    along, across = (accumulated(fine, force) for force in (states.normal_force, states.friction_force))
+    x, y = columns["normal_impulse"], columns["friction_impulse"]
+    return np.where(x <= along[-1], y - np.interp(x, along, across), np.nan)

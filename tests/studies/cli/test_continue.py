@@ -1,0 +1,88 @@
+"""A flexible run that was interrupted leaves what it has, and goes on from there as if nothing had been."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+import pytest
+from command_line import is_one_sentence
+
+from studies.cli.shared import single
+
+MOTION = """\
+[hoop]
+k = 0.1
+r = 1.02
+[friction]
+mu_s = 0.35
+mu = 0.3
+[release]
+phi0_deg = 10
+[run]
+{run}
+[contact]
+stiffness = 1e7
+damping = 1
+[solve]
+rtol = 1e-2
+"""
+
+
+@contextmanager
+def interrupting(title: str) -> Iterator[Callable[[float], None]]:
+    """A bar at which somebody types Ctrl-C a fifth of the way, once."""
+    typed = []
+
+    def told(fraction: float) -> None:
+        if fraction > 0.2 and not typed:
+            typed.append(fraction)
+            signal.raise_signal(signal.SIGINT)
+
+    yield told
+
+
+def test_ctrl_c_keeps_what_there_is_and_continue_goes_on(hoop, tmp_path, monkeypatch):
+    scene, out = tmp_path / "my scene.toml", tmp_path / "out"
+    scene.write_text(MOTION.format(run="turns = 2"), encoding="utf-8")
+    status, whole, _ = hoop("flexible", scene, "--json", "--out", tmp_path / "whole")
+    assert status == 0
+    with monkeypatch.context() as patched:
+        patched.setattr(single, "bar", interrupting)
+        status, part, err = hoop("flexible", scene, "--json", "--out", out)
+    assert status == 130
+    assert not json.loads(part)["completed"]
+    assert f"--continue {shlex.quote(str(out))}" in err
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    status, rest, err = hoop("flexible", scene, "--json", "--continue", out)
+    assert (status, err) == (0, "")
+    assert rest == whole
+    for name in ("motion.json", "history.csv"):
+        assert (out / name).read_text() == (tmp_path / "whole" / name).read_text()
+
+
+def test_a_run_can_go_further(hoop, tmp_path):
+    scene, out = tmp_path / "scene.toml", tmp_path / "out"
+    scene.write_text(MOTION.format(run="turns = 1"), encoding="utf-8")
+    assert hoop("flexible", scene, "--out", out)[0] == 0
+    scene.write_text(MOTION.format(run="turns = 2"), encoding="utf-8")
+    status, further, _ = hoop("flexible", scene, "--json", "--continue", out, "--out", tmp_path / "further")
+    assert status == 0
+    assert further == hoop("flexible", scene, "--json", "--out", tmp_path / "at-once")[1]
+
+
+@pytest.mark.parametrize("wrong", ["empty", "rigid", "other"])
+def test_what_cannot_be_gone_on_from_is_one_sentence(hoop, tmp_path, wrong):
+    scene, out = tmp_path / "scene.toml", tmp_path / "out"
+    scene.write_text(MOTION.format(run="turns = 1"), encoding="utf-8")
+    if wrong == "empty":
+        out.mkdir()
+    else:
+        hoop("rigid" if wrong == "rigid" else "flexible", scene, "--out", out)
+    scene.write_text(MOTION.format(run="turns = 1").replace("0.35", "0.36"), encoding="utf-8")
+    status, _, err = hoop("flexible", scene, "--continue", out, "--out", tmp_path / "new")
+    assert status == 2
+    assert is_one_sentence(err), err

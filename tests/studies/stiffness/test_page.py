@@ -1,0 +1,169 @@
+"""What the page of a stiffness study says, and when; what its figures show where curves coincide."""
+
+from __future__ import annotations
+
+import base64
+import html
+import io
+import json
+import re
+import tomllib
+from dataclasses import replace
+
+import numpy as np
+import pandas
+import pytest
+
+from rigid import load_scene, scene_from_dict, simulate
+from studies import StudyError, limit_of, stiffness_study
+from studies.cli import hoop as cli
+from studies.plots.difference import FORCES, at_the_same_angle, at_the_same_normal_impulse
+from studies.running import history
+from studies.stiffness.limits import CONFIDENCE, fitted_series
+from studies.stiffness.summary import case_cells, verdict
+
+THIRD = "third_solver:softened"
+LINE = ("study", "stiffness", "paper-3.3-massless", "--solver", THIRD, "--workers", 1, "--count", 5)
+
+
+@pytest.fixture(scope="module")
+def study():
+    return stiffness_study("paper-3.3-massless", solver=THIRD)
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    out = tmp_path_factory.mktemp("page")
+    assert cli.run([*map(str, LINE), "--damping", "0.5", "--law", "brush", "--out", str(out)]) == 0
+    return (out / "report.html").read_text(encoding="utf-8"), out
+
+
+def test_the_first_sentence_answers_in_words_and_says_what_its_symbols_are(page, study):
+    lead = html.unescape(re.search(r'<p class="lead">(.*?)</p>', page[0], re.S)[1])
+    for words in (lead, verdict(study)):
+        assert re.match(r"(Yes|No|Open): ", words)
+        first = words.partition("J_F/J_N")[2]
+        assert first.startswith(" (friction impulse over normal impulse")
+        assert "friction loss (energy that sliding takes in it)" in words
+
+
+@pytest.mark.parametrize(("rigid", "word"), [(0.0, "Yes"), (0.5, "No")])
+def test_the_verdict_is_that_of_the_intervals(study, rigid, word):
+    """A rigid value that is the limit, or half a unit beside it, which is far outside any interval here."""
+    limits = {name: replace(limit, rigid=limit.value + rigid) for name, limit in study.limits.items()}
+    assert verdict(replace(study, limits=limits)).startswith(f"{word}: ")
+
+
+def test_the_scene_is_shown_as_it_was_run(page):
+    told = html.unescape(re.search(r"The scene as it was run</h2>\s*<pre>(.*?)</pre>", page[0], re.S)[1])
+    shown = scene_from_dict(tomllib.loads(told))
+    assert shown == scene_from_dict(json.loads((page[1] / "study.json").read_text())["scene"])
+    assert (shown.contact.damping, shown.contact.law, shown.run.until) == (0.5, "brush", "pulse")
+
+
+def test_the_numbers_lie_beside_the_page_and_in_it(page):
+    text, out = page
+    frame = pandas.read_csv(out / "study.csv")
+    cases = json.loads((out / "study.json").read_text())["cases"]
+    assert list(frame["impulse_ratio"]) == [case["impulse_ratio"] for case in cases]
+    held = re.search(r'download="study.csv" href="data:text/plain;base64,([^"]*)"', text)[1]
+    pandas.testing.assert_frame_equal(pandas.read_csv(io.BytesIO(base64.b64decode(held))), frame)
+    # no fields: this solver has none, and the page does not name them
+    assert "fields.pvd" not in text
+
+
+def test_a_table_keeps_its_last_column_where_it_is_too_wide(page):
+    style = re.search(r"<style>(.*?)</style>", page[0], re.S)[1]
+    assert re.search(r"td:last-child \{ position: sticky; right: 0;", style)
+    # and there is room for all of it at 1400 px: 86 rem are 1376
+    assert "max-width: 86rem" in style
+
+
+def test_the_page_comes_when_all_that_it_names_is_there(hoop, tmp_path, monkeypatch):
+    """Fields that cannot be written are told; the page is whole without them, and an older one is gone meanwhile."""
+    import studies.cli.shared.output as output
+    from studies.plots import page as pages
+
+    seen = []
+    (tmp_path / "report.html").write_text("old")
+
+    def fails(*_: object) -> None:
+        seen.append((tmp_path / "report.html").exists())
+        raise StudyError("fields.pvd cannot be used: the disk is full.")
+
+    monkeypatch.setattr(output, "write_first_pulse", fails)
+    whole = pages.write_text
+    monkeypatch.setattr(pages, "write_text", lambda path, text: (seen.append(sorted(
+        entry.name for entry in tmp_path.iterdir())), whole(path, text))[1])  # fmt: skip
+    short = ("study", "stiffness", "paper-3.3-massless", "--count", 3, "--low", 1e7, "--high", 1e8, "--workers", 1)
+    status, out, err = hoop(*short, "--out", tmp_path)
+    assert status == 2
+    assert "the disk is full" in err
+    assert "Limit for infinite stiffness" in out  # nothing else is lost
+    assert seen[0] is False
+    assert {"study.csv", "study.json", "pulse.svg", "distance.svg", "pulse.png"} <= set(seen[1])
+    assert "fields.pvd" not in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+
+def test_a_star_stands_beside_the_error_that_is_too_large(study):
+    rung = study.rungs[-1]
+    away = abs(rung.measure("friction_loss") - study.limits["friction_loss"].rigid)
+    error = {**rung.outcome.numerical_error[0], "friction_loss": 0.2 * away}
+    outcome = replace(rung.outcome, resolved=False, numerical_error=(error,))
+    cells = case_cells(study, replace(rung, outcome=outcome))
+    assert [i for i, cell in enumerate(cells) if "*" in cell] == [5]  # foundation, bending, ratio, ±, loss, ±
+    assert not any("*" in cell for cell in case_cells(study, rung))
+
+
+def test_a_curve_differs_from_itself_by_nothing_whatever_the_clock():
+    motion = simulate(load_scene("paper-3.3-massless").replace(run={"until": "pulse"}))
+    columns = history.through(motion, motion.pulses[0])
+    late = {**columns, "t": columns["t"] + 0.1}
+    for each in (columns, late):
+        apart = at_the_same_angle(each, motion, motion.pulses[0])
+        # an angle is found to round-off, over which a force changes by its slope: some 1e5 times as much
+        jumps = np.r_[False, np.diff(columns["t"]) < 1e-9] | np.r_[np.diff(columns["t"]) < 1e-9, False]
+        for name in FORCES:
+            off = np.abs(apart[name][1:-1][~jumps[1:-1]])
+            assert np.nanmax(off) <= 1e-8 * np.ptp(columns[name]), name
+    # trapezoids over times between which N is straight to 2e-3 of its range
+    assert np.nanmax(np.abs(at_the_same_normal_impulse(columns, motion, motion.pulses[0]))) < 1e-3
+
+
+def test_a_force_that_is_larger_by_a_known_part_differs_by_that():
+    motion = simulate(load_scene("paper-3.3-massless").replace(run={"until": "pulse"}))
+    columns = history.through(motion, motion.pulses[0])
+    apart = at_the_same_angle({**columns, "normal_force": 1.01 * columns["normal_force"]}, motion, motion.pulses[0])
+    smooth = slice(1, int(np.argmax(columns["normal_force"])))  # before any jump
+    assert apart["normal_force"][smooth] == pytest.approx(0.01 * columns["normal_force"][smooth], rel=1e-5)
+
+
+def test_the_histories_of_a_pulse_end_where_its_measures_do():
+    """Both impulses through the pulse are the solver's own integrals at its end; the curves cover all of it."""
+    from studies.running.solvers import solver
+
+    motion = solver("flexible")(load_scene("paper-3.3-massless").replace(run={"until": "pulse"}), history=True)
+    pulse = motion.pulses[0]
+    columns = history.through(motion, pulse)
+    assert (columns["t"][0], columns["t"][-1]) == (pulse.t_start, pulse.t_end)
+    assert columns["normal_impulse"][-1] == pytest.approx(pulse.normal_impulse, rel=1e-12)
+    assert columns["friction_impulse"][-1] == pytest.approx(pulse.friction_impulse, rel=1e-12)
+    # while it spins, F = mu N: the correction keeps the curve on the cone
+    spinning = columns["t"] < pulse.phases[0].t_end
+    ratio = columns["friction_impulse"][spinning][5:] / columns["normal_impulse"][spinning][5:]
+    assert ratio == pytest.approx(motion.scene.friction.mu, rel=1e-3)
+
+
+def test_the_line_of_a_fitted_series_goes_through_its_cases():
+    """Cases of y = L - s^-1/3 + 40 s^-2/3, whose distance changes its sign on the way: no power of s goes through."""
+    s = np.geomspace(1e4, 1e10, 9)
+    y = 0.17 - 1e-2 * (s**-0.3333333 - 40 * s**-0.6666667)
+    assert len(set(np.sign(y - 0.17))) == 2
+    error = np.full(s.size, 1e-9)
+    limit = limit_of(s, y, 0.17, error, (1 / 3, 2 / 3))
+    along, fitted = fitted_series(limit, s, y, error, points=9)
+    assert along == pytest.approx(s)
+    # no further than the errors that the cases are said to have, at the level of the intervals
+    assert CONFIDENCE == 0.95
+    assert np.all(np.abs(fitted - y) <= 8 * error)
+    assert fitted_series(limit_of(s, y, 0.17, error), s, y, error) is None
