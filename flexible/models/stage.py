@@ -28,6 +28,20 @@ class Predictor(NamedTuple):
     guess: Any  # of d
 
 
+class Stage(NamedTuple):
+    """One stage of a step, solved or not; of one that is not, only ``ok`` and ``window`` have a meaning."""
+
+    ok: bool
+    d: Any = None  # increment of pos
+    acc: Any = None
+    matrix: Any = None  # Newton's; the model's own business
+    window: Any = None  # first rim element and number of elements
+    u: Any = None
+    nodal: Any = None
+    res: Any = None
+    bristles: Any = None
+
+
 class Window(NamedTuple):
     """What a ring of modes answers to the floor near which it is: u = shapes q + compliance f."""
 
