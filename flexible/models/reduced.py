@@ -93,7 +93,9 @@ def _near_floor(arrays: Arrays, window: tuple[int, int]) -> Window:
 
 
 @jit
-def stage(arrays: Arrays, old: Start, mode: int, damper: Damper, predictor: Predictor, near: Any) -> Stage:
+def solved(
+    arrays: Arrays, old: Start, mode: int, damper: Damper, predictor: Predictor, near: Any, first: bool
+) -> Stage:
     """See :class:`flexible.models.state.Model`; not ok as well where the window's compliance is not known."""
     expected = predictor.pos + predictor.guess
     low, high = old.res.low, old.res.high
@@ -112,15 +114,15 @@ def stage(arrays: Arrays, old: Start, mode: int, damper: Damper, predictor: Pred
         u_old = _moved(arrays, old, window)
         before = Before(old.pos[:3], u_old, old.bristles)
         start = (near[1] if near[0] == window else u_old, arrays.tolerance)
-        solved = solve_stage(
+        answer = solve_stage(
             arrays.frame, _near_floor(arrays, window), arrays.law, mode, before, damper, predictor, start
         )
-        contact = solved.contact
+        contact = answer.contact
         found = Stage(
-            solved.iterations >= 0, solved.d, solved.acc, solved.matrix, window, solved.u, contact.nodal, contact.res,
+            answer.iterations >= 0, answer.d, answer.acc, answer.matrix, window, answer.u, contact.nodal, contact.res,
             contact.bristles,
         )  # fmt: skip
-        if solved.iterations != -2:
+        if answer.iterations != -2:
             break
         margin = 2 * margin + arrays.element
     return found
@@ -206,7 +208,7 @@ class ReducedHoop(RimContact):
         first: bool,
     ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
-        found: Stage = stage(self.arrays, start_of(old), mode, damper, predictor, near)
+        found = solved(self.arrays, start_of(old), mode, damper, predictor, near, first)
         if not found.ok and self.learns(found.window):
             return self.stage(old, mode, damper, predictor, near, first)
         return found
@@ -215,9 +217,8 @@ class ReducedHoop(RimContact):
         """Kinetic, gravity, ring strain (of the modes and of the static part)."""
         kinetic, gravity, strain = self.held(state.pos, state.vel)
         if state.res.normal > 0:
-            compliance = self._arrays(state.window)[1]
-            force = state.nodal.ravel()
-            strain += float(force @ compliance @ force) / 2
+            moved = self.ring.rim_shapes[self.ring.dofs(*state.window)] @ state.pos[3:]
+            strain += float(state.nodal.ravel() @ (state.u.ravel() - moved)) / 2
         return kinetic, gravity, strain
 
     def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:

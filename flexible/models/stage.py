@@ -74,19 +74,28 @@ def _round_off(contact: Contact, height: float, u: Any, scale: float, damper: Da
 @jit
 def _assemble(matrix: Any, own: Any, contact: Any, window: Window, scale: float) -> None:
     """Newton's matrix for frame, modes and window, out of the tangents of inertia and contact."""
-    m = own.shape[0]
-    t_uu, t_ux = contact[3:, 3:].copy(), contact[3:, :3].copy()
-    matrix[:m, :m] = own
-    matrix[:3, :3] -= contact[:3, :3]
-    matrix[:3, m:] = -contact[:3, 3:]
-    if m > 3:
-        columns = window.shapes.T.copy()
-        matrix[3:m, :3] -= columns @ t_ux
-        matrix[3:m, m:] = -(columns @ t_uu)
-        matrix[m:, 3:m] = -scale * window.shapes
-    matrix[m:, :3] = -scale * (window.compliance @ t_ux)
-    matrix[m:, m:] = -scale * (window.compliance @ t_uu)
-    for k in range(m, matrix.shape[0]):
+    # in loops: an assignment of slices would compile numpy's broadcasting with all its messages
+    m, nodes = own.shape[0], window.shapes.shape[0]
+    for i in range(m):
+        for j in range(m):
+            matrix[i, j] = own[i, j]
+        for j in range(nodes):
+            matrix[i, m + j] = -contact[i, 3 + j] if i < 3 else 0.0
+            matrix[m + j, i] = -scale * window.shapes[j, i - 3] if i >= 3 else 0.0
+    for i in range(3):
+        for j in range(3):
+            matrix[i, j] -= contact[i, j]
+    for column in range(3 + nodes):
+        j = column if column < 3 else m + column - 3
+        for i in range(3, m):
+            for k in range(nodes):
+                matrix[i, j] -= window.shapes[k, i - 3] * contact[3 + k, column]
+        for i in range(nodes):
+            gives = 0.0
+            for k in range(nodes):
+                gives += window.compliance[i, k] * contact[3 + k, column]
+            matrix[m + i, j] = -scale * gives
+    for k in range(m, m + nodes):
         matrix[k, k] += scale
 
 
@@ -146,7 +155,6 @@ def solve_stage(
         own, own_tangent = inertia(frame, pos, vel, acc, beta)
         flat = contact.nodal.copy().reshape(2 * nodes)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
-        moved = compliance @ flat
         for i in range(3):
             residual[i] = own[i] - force[i]
         for i in range(n):
@@ -155,10 +163,12 @@ def solve_stage(
                 pushed += shapes[k, i] * flat[k]
             residual[3 + i] = own[3 + i] - pushed
         for k in range(2 * nodes):
-            modal_part = 0.0
+            moved = 0.0
             for i in range(n):
-                modal_part += shapes[k, i] * pos[3 + i]
-            residual[m + k] = scale * (u[k // 2, k % 2] - modal_part - moved[k])
+                moved += shapes[k, i] * pos[3 + i]
+            for i in range(2 * nodes):
+                moved += compliance[k, i] * flat[i]
+            residual[m + k] = scale * (u[k // 2, k % 2] - moved)
         # of forces, and of displacements as forces on the foundation
         worst, astray = largest(residual[:m]), largest(residual[m:])
         small = tolerance * (1 + abs(res.normal)) + _round_off(contact, pos[1], u, scale, damper)
@@ -197,5 +207,7 @@ def filtered_error(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, matr
     """
     size = pos.shape[0]
     load = np.zeros(matrix.shape[0])
-    load[:size] = inertia(frame, pos, vel, acc + error, beta)[0] - inertia(frame, pos, vel, acc, beta)[0]
-    return np.linalg.solve(matrix, load / beta**2)[:size].copy()
+    with_error, without = inertia(frame, pos, vel, acc + error, beta)[0], inertia(frame, pos, vel, acc, beta)[0]
+    for i in range(size):
+        load[i] = (with_error[i] - without[i]) / beta**2
+    return np.linalg.solve(matrix, load)[:size]

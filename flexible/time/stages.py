@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba.extending import overload, register_jitable
+from numba.extending import register_jitable
 
 from rigid.kernel.compile import jit
 
@@ -37,31 +37,6 @@ def floor_forces(model: Any, pos: Any, vel: Any, acc: Any) -> Any:
 def momentum_error(model: Any, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any) -> Any:
     """See ``error`` of :class:`flexible.models.state.Model`."""
     return model.error(pos, vel, acc, beta, matrix, error)
-
-
-@overload(solved, strict=False)
-def _solved(model: Any, old: Any, mode: Any, damper: Any, predictor: Any, near: Any, first: Any) -> Any:
-    """What compiled code has in their places: the reduced hoop."""
-    return lambda model, old, mode, damper, predictor, near, first: reduced.stage(
-        model, old, mode, damper, predictor, near
-    )
-
-
-@overload(held_energy, strict=False)
-def _held_energy(model: Any, pos: Any, vel: Any) -> Any:
-    return lambda model, pos, vel: reduced.held_energy(model, pos, vel)
-
-
-@overload(floor_forces, strict=False)
-def _floor_forces(model: Any, pos: Any, vel: Any, acc: Any) -> Any:
-    return lambda model, pos, vel, acc: reduced.floor_forces(model, pos, vel, acc)
-
-
-@overload(momentum_error, strict=False)
-def _momentum_error(model: Any, pos: Any, vel: Any, acc: Any, beta: Any, matrix: Any, error: Any) -> Any:
-    return lambda model, pos, vel, acc, beta, matrix, error: reduced.momentum_error(
-        model, pos, vel, acc, beta, matrix, error
-    )
 
 
 class Taken(NamedTuple):
@@ -119,7 +94,8 @@ def _nothing_known(stages: int, n: int) -> _Known:
 @register_jitable
 def _write_down(known: _Known, i: int, pos: Any, vel: Any, acc: Any, res: Resultants) -> None:
     """A stage that is solved."""
-    known.pos[i], known.vel[i], known.acc[i] = pos, vel, acc
+    for k in range(pos.shape[0]):  # an assignment of slices would compile numpy's broadcasting with all its messages
+        known.pos[i, k], known.vel[i, k], known.acc[i, k] = pos[k], vel[k], acc[k]
     known.normal[i], known.friction[i], known.drag[i] = res.normal, res.friction, res.damping
     known.elastic[i], known.eta[i], known.stored[i] = res.elastic, res.eta, res.normal_energy
 
@@ -181,17 +157,6 @@ def _work(table: Table, force: Any, way: Any) -> float:
     return total
 
 
-@register_jitable
-def _floor_work(model: Any, table: Table, known: _Known) -> float:
-    """Work of the floor's forces on all coordinates, found from inertia."""
-    total = 0.0
-    for i in range(known.pos.shape[0]):
-        force = floor_forces(model, known.pos[i], known.vel[i], known.acc[i])
-        for j in range(1, known.pos.shape[0]):
-            total += table.work[i, j] * (force * (known.pos[j] - known.pos[0])).sum()
-    return total
-
-
 def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
     """A step of length ``h`` from ``old`` (:class:`flexible.models.stage.Start`, or more).
 
@@ -237,8 +202,11 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
     drag_work = _work(table, known.drag, known.way)
     numerical = 0.0
     if ok:
-        gained = held_energy(model, known.pos[end], known.vel[end]) - held_energy(model, old.pos, old.vel)
-        numerical = _floor_work(model, table, known) - gained
+        numerical = held_energy(model, old.pos, old.vel) - held_energy(model, known.pos[end], known.vel[end])
+        for i in range(stages):
+            force = floor_forces(model, known.pos[i], known.vel[i], known.acc[i])
+            for j in range(1, stages):
+                numerical += table.work[i, j] * (force * (known.pos[j] - known.pos[0])).sum()
     return Taken(
         ok, known.pos[end].copy(), known.vel[end].copy(), known.acc[end].copy(), window, u, nodal, res, bristles,
         known.slip_velocity[end], known.elastic_rate[end], _sum(table.end_rate, known.feet) / h, error,
@@ -248,5 +216,8 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
     )  # fmt: skip
 
 
-#: the same of the arrays of a hoop
-take_compiled = jit(take)
+#: the same of the arrays of a reduced hoop
+take_compiled = jit(
+    take, solved=reduced.solved, held_energy=reduced.held_energy, floor_forces=reduced.floor_forces,
+    momentum_error=reduced.momentum_error,
+)  # fmt: skip
