@@ -1,7 +1,7 @@
-"""One implicit step: its stages one after the other, and what is measured of them.
+"""One implicit step: its stages one after the other, its error, impulses and losses.
 
 One text for two machines: Python runs it on a hoop (:class:`flexible.models.state.Model`), compiled code on the arrays
-of one whose stages are compiled too.
+of a reduced one, whose stages are compiled too.
 """
 
 from __future__ import annotations
@@ -158,9 +158,16 @@ def _work(table: Table, force: Any, way: Any) -> float:
 
 
 def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
-    """A step of length ``h`` from ``old`` (:class:`flexible.models.stage.Start`, or more).
+    """A step of length ``h`` of a model from ``old``.
 
-    ``damping`` is the normal damper's time, and the coefficient of the sticking patch against slip.
+    Parameters
+    ----------
+    model : flexible.models.state.Model or flexible.models.reduced.Arrays
+    old : flexible.models.state.State or flexible.models.reduced.Start
+    h : float
+    table : Table
+    damping : (float, float)
+        The normal damper's time, and the coefficient of the sticking patch against slip.
     """
     stages = table.c.shape[0]
     beta = table.gamma * h

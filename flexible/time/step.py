@@ -1,4 +1,4 @@
-"""One implicit step of any level, its error, impulses and losses; and the jump when the law of friction changes."""
+"""One implicit step of any level, from state to state; and the jump when the law of friction changes."""
 
 from __future__ import annotations
 
