@@ -72,6 +72,27 @@ def _round_off(contact: Contact, height: float, u: Any, scale: float, damper: Da
 
 
 @jit
+def _misfit(residual: Any, own: Any, contact: Contact, window: Window, pos: Any, u: Any, scale: float) -> None:
+    """What frame, modes and window lack of equilibrium."""
+    m, nodes = own.shape[0], window.shapes.shape[0]
+    flat = contact.nodal.copy().reshape(nodes)
+    for i in range(3):
+        residual[i] = own[i] - contact.force[i]
+    for i in range(3, m):
+        pushed = 0.0
+        for k in range(nodes):
+            pushed += window.shapes[k, i - 3] * flat[k]
+        residual[i] = own[i] - pushed
+    for k in range(nodes):
+        moved = 0.0
+        for i in range(3, m):
+            moved += window.shapes[k, i - 3] * pos[i]
+        for i in range(nodes):
+            moved += window.compliance[k, i] * flat[i]
+        residual[m + k] = scale * (u[k // 2, k % 2] - moved)
+
+
+@jit
 def _assemble(matrix: Any, own: Any, contact: Any, window: Window, scale: float) -> None:
     """Newton's matrix for frame, modes and window, out of the tangents of inertia and contact."""
     # in loops: an assignment of slices would compile numpy's broadcasting with all its messages
@@ -121,7 +142,6 @@ def solve_stage(
     ``start[1]`` is the tolerance on forces.
     """
     pos_pred, vel_pred, beta = predictor.pos, predictor.vel, predictor.beta
-    shapes, compliance = window.shapes, window.compliance
     u_guess, tolerance = start
     modal = frame.modal
     n = modal.shape[0]
@@ -135,14 +155,14 @@ def solve_stage(
     iterations = -1
     damping, last = 1.0, np.inf
     way, reach = 0.0, np.inf
-    softest = np.abs(compliance).max()
+    softest = np.abs(window.compliance).max()
     damper = pulling(damper, True)
     for iteration in range(MOST_ITERATIONS):
         pos = pos_pred + d
         acc = d / beta**2
         vel = vel_pred + d / beta
         contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper)
-        force, tangent, res = contact.force, contact.tangent, contact.res
+        tangent, res = contact.tangent, contact.res
         # across the bend of a smoothed friction Newton would go to and fro for ever
         if res.elastic > 0 and abs(res.way - way) > 1.5 * reach:
             share = reach / abs(res.way - way)
@@ -153,22 +173,8 @@ def solve_stage(
             continue
         way, reach = res.way, res.reach
         own, own_tangent = inertia(frame, pos, vel, acc, beta)
-        flat = contact.nodal.copy().reshape(2 * nodes)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
-        for i in range(3):
-            residual[i] = own[i] - force[i]
-        for i in range(n):
-            pushed = 0.0
-            for k in range(2 * nodes):
-                pushed += shapes[k, i] * flat[k]
-            residual[3 + i] = own[3 + i] - pushed
-        for k in range(2 * nodes):
-            moved = 0.0
-            for i in range(n):
-                moved += shapes[k, i] * pos[3 + i]
-            for i in range(2 * nodes):
-                moved += compliance[k, i] * flat[i]
-            residual[m + k] = scale * (u[k // 2, k % 2] - moved)
+        _misfit(residual, own, contact, window, pos, u, scale)
         # of forces, and of displacements as forces on the foundation
         worst, astray = largest(residual[:m]), largest(residual[m:])
         small = tolerance * (1 + abs(res.normal)) + _round_off(contact, pos[1], u, scale, damper)
