@@ -91,11 +91,19 @@ def _nothing_known(stages: int, n: int) -> _Known:
     )
 
 
+@jit
+def _store(rows: Any, i: int, values: Any) -> None:
+    """Write a row; an assignment of slices would compile numpy's broadcasting with all its messages."""
+    for k in range(values.shape[0]):
+        rows[i, k] = values[k]
+
+
 @register_jitable
 def _write_down(known: _Known, i: int, pos: Any, vel: Any, acc: Any, res: Resultants) -> None:
     """A stage that is solved."""
-    for k in range(pos.shape[0]):  # an assignment of slices would compile numpy's broadcasting with all its messages
-        known.pos[i, k], known.vel[i, k], known.acc[i, k] = pos[k], vel[k], acc[k]
+    _store(known.pos, i, pos)
+    _store(known.vel, i, vel)
+    _store(known.acc, i, acc)
     known.normal[i], known.friction[i], known.drag[i] = res.normal, res.friction, res.damping
     known.elastic[i], known.eta[i], known.stored[i] = res.elastic, res.eta, res.normal_energy
 
