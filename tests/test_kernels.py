@@ -99,7 +99,7 @@ def test_a_changed_callee_is_never_served_from_the_cache(tmp_path, warm):
     shutil.copytree(warm.cache, cache)
     assert run(installation, cache) == (-1.5, False, "")
     text = (installation / CALLEE).read_text(encoding="utf-8")
-    edited = text.replace("row[1] -= factor * foundation.diagonal", "row[1] -= 2 * factor * foundation.diagonal")
+    edited = text.replace("-factors[i] * diagonal[i]", "-2 * factors[i] * diagonal[i]")
     assert edited != text
     (installation / CALLEE).write_text(edited, encoding="utf-8")
     assert run(installation, cache)[:2] == (-3.0, True)

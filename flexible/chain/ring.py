@@ -172,7 +172,7 @@ class _Shape:
         theta = self.ring.mesh.rim_theta
         loaded = np.array([int(np.argmin(np.abs(theta - angle))) for angle in LOADED])
         columns = (2 * loaded[:, None] + np.arange(2)).ravel()
-        moved = self.ring.rim_block(np.arange(2 * len(theta)), columns)
+        moved = self.ring.solve_rim(columns)[0][:, columns]
         turned = self.inverse @ rim_matrix(self.rod, self.still, self.nodes)[1][columns].T
         misfit = (moved - rim_matrix(self.rod, self.still, self.nodes)[1] @ turned).reshape(len(theta), 2, 6)
         clear = np.flatnonzero((np.abs(theta) > LOADED[0] / 4) & (np.abs(theta) < LOADED[0] * 0.8))

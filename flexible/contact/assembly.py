@@ -12,7 +12,7 @@ import numpy as np
 
 from rigid.kernel.compile import jit
 
-from .points.normal import force_by_gaps
+from .points.normal import sum_by_gaps
 
 X, Y = 0, 1
 
@@ -163,17 +163,4 @@ def gathered(points: Any, values: Any, directions: Any, nodes: int) -> Any:
 @jit
 def slip_by_gaps(points: Any, ways: Any, foundation: Any, slip: float, elastic: float, up: Any, nodes: int) -> Any:
     """Derivative of the mean slip by the gaps, through the normal forces that weigh it."""
-    result = np.zeros(2 + nodes)
-    around = np.zeros(3)
-    total = points.gap.shape[0]
-    for i in range(total):
-        before = i - 1 if i > 0 and not points.last[i - 1] else -1
-        behind = i + 1 if i + 1 < total and not points.last[i] else -1
-        around[:] = 0.0
-        force_by_gaps(around, (ways[i] - slip) / elastic, foundation, before, i, behind)
-        for side in range(3):
-            near = i - 1 + side
-            if around[side] != 0:
-                for q in range(5):
-                    result[_row(q, points.local[near])] += around[side] * up[near, q]
-    return result
+    return gathered(points, sum_by_gaps((ways - slip) / elastic, foundation), up, nodes)

@@ -77,12 +77,9 @@ def _nothing(nodes: int, outside: bool, way: float) -> Contact:
 @jit
 def _add_shared(points: Any, foundation: Any, forces: Any, shared: Any, elastic: float) -> None:
     """Share a force of the whole patch over its points like the pressure."""
-    total = points.gap.shape[0]
-    for i in range(total):
-        before = i - 1 if i > 0 and not points.last[i - 1] else -1
-        behind = i + 1 if i + 1 < total and not points.last[i] else -1
+    for i in range(points.gap.shape[0]):
         forces.force[i] += shared.force * (foundation.force[i] / elastic)
-        force_by_gaps(forces.by_gap[i, 1:4], shared.force / elastic, foundation, before, i, behind)
+    force_by_gaps(forces.by_gap, shared.force / elastic, foundation)
 
 
 @jit
@@ -90,9 +87,8 @@ def _add_turning(tangent: Any, force: Any, points: Any, pressed: Any, pulled: An
     """The directions themselves turn with phi: add that to the tangent, for vertical and horizontal point forces."""
     turning = 0.0
     for i in range(points.gap.shape[0]):
-        psi = points.psi[i]
-        u_x, u_y = sin(psi) - points.arm_x[i], points.arm_y[i] - lift(psi)
-        turning += pressed[i] * (cos(psi) - u_y) + pulled[i] * (sin(psi) - u_x)
+        # cos(psi) - u_Y and sin(psi) - u_X
+        turning += pressed[i] * (1 - points.arm_y[i]) + pulled[i] * points.arm_x[i]
     tangent[2, 2] += turning
     for row in range(3, force.shape[0], 2):
         tangent[2, row] += force[row + 1]
@@ -190,13 +186,12 @@ def contact_forces(
     load = _load(foundation, damper)
     elastic, eta = load.elastic, load.eta
     dphi = phi - before.pose[2]
-    lifts = lift(points.psi)
     moved = 0.0
     if elastic == 0:
         way = _way_over_the_floor(pose, u, rim, before)
     else:
         moved = (foundation.force * points.move).sum() / elastic
-        way = moved + dphi * (foundation.force * lifts).sum() / elastic
+        way = moved + dphi * (foundation.force * points.lifted).sum() / elastic
     slip = Slip(way, damper.way_0, damper.velocity_0 + damper.rate * (way - damper.way_0), damper.rate, damper.drag)
     carried = carry(points, before.bristles, dphi, damper, slip, moved)
     answer = tractions(points, foundation, carried, mode, load, slip, law)
@@ -221,12 +216,12 @@ def contact_forces(
         add_outer(tangent, spread(gathered(points, forces.share, along, nodes), X, s, c), load.eta_rate * elastic_by)
     if shared.acts:
         elastic_by = spread(k_yy[0], Y, s, c)
-        slip_by = spread(gathered(points, foundation.force / elastic, along, nodes), X, s, c)
-        slip_by[2] += dphi * (foundation.force * np.sin(points.psi)).sum() / elastic
-        ways = points.move + dphi * lifts
+        spreading = spread(gathered(points, foundation.force / elastic, along, nodes), X, s, c)
+        slip_by = spreading.copy()
+        slip_by[2] += dphi * (foundation.force * points.sine).sum() / elastic
+        ways = points.move + dphi * points.lifted
         slip_by += spread(slip_by_gaps(points, ways, foundation, way, elastic, up, nodes), Y, s, c)
         shared_by = shared.by_way * slip_by + (shared.by_elastic - shared.force / elastic) * elastic_by
-        spreading = spread(gathered(points, foundation.force / elastic, along, nodes), X, s, c)
         add_outer(tangent, spreading, shared_by)
     _add_turning(tangent, force, points, eta * foundation.force, forces.force)
 

@@ -19,8 +19,8 @@ from ..chain.whole import balance, held, passed_on, sections
 from ..contact.points.data import Before, Damper, Rim
 from ..ring.fem import ring_of
 from .rim_contact import RimContact
-from .stage import Predictor, largest
-from .state import Stage, State
+from .stage import Predictor, Stage, largest
+from .state import State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -107,7 +107,8 @@ class ChainHoop(RimContact):
         mode: int,
         damper: Damper,
         predictor: Predictor,
-        near: Stage | None = None,
+        near: tuple[Window, Array],
+        first: bool,
     ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
         ring = self.ring
@@ -117,7 +118,7 @@ class ChainHoop(RimContact):
             guess[3:] = old.pos[3:] - predictor.pos[3:]
             predictor = predictor._replace(guess=guess)
         expected = predictor.pos + predictor.guess
-        if near is None:
+        if first:
             low, high = self._reach(expected)
             if old.res.normal > 0:
                 low, high = min(low, old.res.low), max(high, old.res.high)
@@ -157,10 +158,10 @@ class ChainHoop(RimContact):
         _, frame, force = balance(self.ring.chain, pos, vel, acc)
         return np.concatenate([frame, force[1:-1].ravel()])
 
-    def error(self, state: State, beta: float, matrix: Factors, error: Array) -> float:
+    def error(self, pos: Array, vel: Array, acc: Array, beta: float, matrix: Factors, error: Array) -> float:
         """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
         chain = self.ring.chain
-        rate = passed_on(matrix, chain, state.pos, error, beta)
+        rate = passed_on(matrix, chain, pos, error, beta)
         slow = np.abs(self._slow @ rate[3:]).max(initial=0.0) / (1 + chain.body.ring_mass) ** 0.5
         return float(largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow])))
 

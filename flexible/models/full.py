@@ -20,8 +20,8 @@ from ..ring.fem import Ring, ring_of
 from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
 from .rim_contact import RimContact
-from .stage import Predictor, largest
-from .state import Stage, State
+from .stage import Predictor, Stage, largest
+from .state import State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -135,7 +135,8 @@ class FullHoop(RimContact):
         mode: int,
         damper: Damper,
         predictor: Predictor,
-        near: Stage | None = None,
+        near: tuple[Window, Array],
+        first: bool,
     ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
         if self.ring.massless:  # no inertia to go by: from where the ring was
@@ -247,10 +248,10 @@ class FullHoop(RimContact):
         own = inertia(self.ring, pos, vel, acc, 1.0)
         return np.concatenate([own.frame, own.ring])
 
-    def error(self, state: State, beta: float, matrix: NewtonMatrix, error: Array) -> float:
+    def error(self, pos: Array, vel: Array, acc: Array, beta: float, matrix: NewtonMatrix, error: Array) -> float:
         """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
-        ring, still = self.ring, np.zeros_like(state.vel)
-        without, with_error = (inertia(ring, state.pos, still, acc, beta) for acc in (still, error))
+        ring, still = self.ring, np.zeros_like(vel)
+        without, with_error = (inertia(ring, pos, still, a, beta) for a in (still, error))
         load = (with_error.frame - without.frame) / beta**2, (with_error.ring - without.ring) / beta**2
         rate = np.concatenate(matrix.solve(*load))
         slow = np.abs(self._slow @ rate[3:]).max(initial=0.0) / (1 + ring.body.ring_mass) ** 0.5

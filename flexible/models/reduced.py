@@ -2,20 +2,151 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+from typing import Any, NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Scene
+from rigid.kernel.compile import jit
 
-from ..contact.points.data import Before, Damper, Rim
-from ..ring.frame import energies, inertia
-from ..ring.reduction import ReducedRing, reduce
+from ..contact.points.data import Before, Bristles, Damper, Parameters, Resultants
+from ..contact.points.data import Rim as NearFloor
+from ..contact.points.rim import below_floor
+from ..ring.frame import Frame, energies, inertia
+from ..ring.reduction import ReducedRing, Rim, is_known, reduce, residual, window_dofs
 from .equilibrium import RestingModes
-from .rim_contact import RimContact
-from .stage import Predictor, Window, filtered_error, largest, solve_stage
-from .state import Stage, State
+from .rim_contact import RimContact, window_around
+from .stage import Predictor, Stage, Window, filtered_error, largest, solve_stage
+from .state import State
 
 Array = NDArray[np.float64]
+
+
+class Arrays(NamedTuple):
+    """A reduced hoop in compiled code."""
+
+    frame: Frame
+    rim: Rim
+    vertex: Any  # (n_elements,) angles at which rim elements begin
+    theta: Any  # (n_rim,) angles of rim nodes
+    element: float  # mean length of one
+    law: Parameters
+    tolerance: float  # of Newton
+
+
+class Start(NamedTuple):
+    """What a step needs to know of the :class:`flexible.models.state.State` in which it begins."""
+
+    pos: Any
+    vel: Any
+    acc: Any
+    mode: int
+    window: tuple[int, int]
+    u: Any
+    nodal: Any
+    res: Resultants
+    bristles: Bristles
+    slip_velocity: float
+    elastic_rate: float
+
+
+def start_of(state: State) -> Start:
+    """The same of a state."""
+    return Start(
+        state.pos, state.vel, state.acc, state.mode, state.window, state.u, state.nodal, state.res, state.bristles,
+        state.slip_velocity, state.elastic_rate,
+    )  # fmt: skip
+
+
+@jit
+def _moved(arrays: Arrays, old: Start, window: tuple[int, int]) -> Any:
+    """Displacement of the nodes of another window at a known state."""
+    if window == old.window:
+        return old.u
+    elements = arrays.vertex.shape[0]
+    here, there = window_dofs(elements, window), window_dofs(elements, old.window)
+    moved = np.zeros((here.shape[0] // 2, 2))
+    gives = residual(arrays.rim, here, there)
+    for i in range(here.shape[0]):
+        for k in range(arrays.rim.shapes.shape[1]):
+            moved[i // 2, i % 2] += arrays.rim.shapes[here[i], k] * old.pos[3 + k]
+        if old.res.normal > 0:
+            for j in range(there.shape[0]):
+                moved[i // 2, i % 2] += gives[i, j] * old.nodal[j // 2, j % 2]
+    return moved
+
+
+@jit
+def _near_floor(arrays: Arrays, window: tuple[int, int]) -> Window:
+    """What the ring answers in a window."""
+    dofs = window_dofs(arrays.vertex.shape[0], window)
+    block = residual(arrays.rim, dofs, dofs)
+    shapes, compliance = np.empty((dofs.shape[0], arrays.rim.shapes.shape[1])), np.empty(block.shape)
+    for i in range(dofs.shape[0]):
+        for k in range(shapes.shape[1]):
+            shapes[i, k] = arrays.rim.shapes[dofs[i], k]
+        for j in range(dofs.shape[0]):
+            compliance[i, j] = (block[i, j] + block[j, i]) / 2
+    return Window(NearFloor(window[0], arrays.vertex), shapes, compliance)
+
+
+@jit
+def solved(
+    arrays: Arrays, old: Start, mode: int, damper: Damper, predictor: Predictor, near: Any, first: bool
+) -> Stage:
+    """See :class:`flexible.models.state.Model`; not ok as well where the window's compliance is not known."""
+    expected = predictor.pos + predictor.guess
+    low, high = old.res.low, old.res.high
+    if old.res.normal == 0:  # a bent rim comes down anywhere
+        moved = np.zeros(arrays.rim.shapes.shape[0])
+        for i in range(moved.shape[0]):
+            for k in range(arrays.rim.shapes.shape[1]):
+                moved[i] += arrays.rim.shapes[i, k] * expected[3 + k]
+        low, high = below_floor(arrays.theta, expected[2], expected[1], moved)
+    margin = 0.3 * (high - low) + 0.1 * arrays.element
+    found = Stage(False, expected, expected, np.empty((0, 0)), old.window, old.u, old.nodal, old.res, old.bristles)
+    for _ in range(4):
+        window = window_around(arrays.vertex, expected[2], low, high, margin)
+        if not is_known(arrays.rim, window_dofs(arrays.vertex.shape[0], window)):
+            return Stage(False, expected, expected, found.matrix, window, old.u, old.nodal, old.res, old.bristles)
+        u_old = _moved(arrays, old, window)
+        before = Before(old.pos[:3], u_old, old.bristles)
+        start = (near[1] if near[0] == window else u_old, arrays.tolerance)
+        answer = solve_stage(
+            arrays.frame, _near_floor(arrays, window), arrays.law, mode, before, damper, predictor, start
+        )
+        contact = answer.contact
+        found = Stage(
+            answer.iterations >= 0, answer.d, answer.acc, answer.matrix, window, answer.u, contact.nodal, contact.res,
+            contact.bristles,
+        )  # fmt: skip
+        if answer.iterations != -2:
+            break
+        margin = 2 * margin + arrays.element
+    return found
+
+
+@jit
+def floor_forces(arrays: Arrays, pos: Any, vel: Any, acc: Any) -> Any:
+    """Forces of the floor on all coordinates that go with these accelerations."""
+    return inertia(arrays.frame, pos, vel, acc, 1.0)[0]
+
+
+@jit
+def held_energy(arrays: Arrays, pos: Any, vel: Any) -> float:
+    """What the coordinates hold by themselves."""
+    kinetic, gravity, strain = energies(arrays.frame, pos, vel)
+    return kinetic + gravity + strain
+
+
+@jit
+def momentum_error(arrays: Arrays, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any) -> float:
+    """Size of an ``error`` in the velocities, see :class:`flexible.models.state.Model`."""
+    rate = filtered_error(arrays.frame, pos, vel, acc, beta, matrix, error)
+    ringing = largest(rate[3:]) / (1 + arrays.frame.body.ring_mass) ** 0.5
+    return max(largest(rate[1:3]), abs(rate[0] + rate[2]), ringing)
 
 
 class ReducedHoop(RimContact):
@@ -25,6 +156,14 @@ class ReducedHoop(RimContact):
         self.ring: ReducedRing = reduce(scene, modes)
         super().__init__(scene, self.ring.vertex, points, tolerance)
         self._blocks: dict[tuple[int, int], tuple[Array, Array]] = {}
+
+    @cached_property
+    def arrays(self) -> Arrays:
+        """What the compiled step takes."""
+        return Arrays(
+            self.ring.frame, self.ring.rim, self.vertex, self._rim_theta, self.element, self.law.parameters,
+            self.tolerance,
+        )  # fmt: skip
 
     @property
     def coordinates(self) -> int:
@@ -49,11 +188,15 @@ class ReducedHoop(RimContact):
         """Displacement of the nodes of another window at a known state."""
         if window == state.window:
             return state.u
-        here, there = self.ring.dofs(*window), self.ring.dofs(*state.window)
-        moved = self.ring.rim_shapes[here] @ state.pos[3:]
-        if state.res.normal > 0:
-            moved = moved + self.ring.compliance(here, there) @ state.nodal.ravel()
-        return moved.reshape(-1, 2)
+        self.learns(window)
+        return np.asarray(_moved(self.arrays, start_of(state), window))
+
+    def learns(self, window: tuple[int, int] | None) -> bool:
+        """See :class:`flexible.models.state.Model`."""
+        if window is None or is_known(self.arrays.rim, self.ring.dofs(*window)):
+            return False
+        self.ring.ring.solve_rim(self.ring.dofs(*window))
+        return True
 
     def stage(
         self,
@@ -61,39 +204,21 @@ class ReducedHoop(RimContact):
         mode: int,
         damper: Damper,
         predictor: Predictor,
-        near: Stage | None = None,
+        near: tuple[tuple[int, int], Array],
+        first: bool,
     ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
-        expected = predictor.pos + predictor.guess
-        low, high = old.res.low, old.res.high
-        if old.res.normal == 0:  # a bent rim comes down anywhere
-            low, high = self.reach(expected[2], expected[1], self.ring.rim_shapes @ expected[3:])
-        margin = 0.3 * (high - low) + 0.1 * self.element
-        for _ in range(4):
-            window = self.window(float(expected[2]), low, high, margin)
-            u_old = self.displacement(old, window)
-            shapes, compliance = self._arrays(window)
-            u_guess = near.u if near is not None and near.window == window else u_old
-            near_floor = Window(Rim(window[0], self.ring.vertex), shapes, compliance)
-            before = Before(old.pos[:3], u_old, old.bristles)
-            iterations, d, acc, u, matrix, contact = solve_stage(
-                self.ring.frame, near_floor, self.law.parameters, mode, before, damper, predictor,
-                (u_guess, self.tolerance),
-            )  # fmt: skip
-            if iterations != -2:
-                break
-            margin = 2 * margin + self.element
-        return Stage(
-            iterations >= 0, d, acc, matrix, window, u, contact.nodal, contact.res, contact.bristles,
-        )  # fmt: skip
+        found = solved(self.arrays, start_of(old), mode, damper, predictor, near, first)
+        if not found.ok and self.learns(found.window):
+            return self.stage(old, mode, damper, predictor, near, first)
+        return found
 
     def energies(self, state: State) -> tuple[float, float, float]:
         """Kinetic, gravity, ring strain (of the modes and of the static part)."""
         kinetic, gravity, strain = self.held(state.pos, state.vel)
         if state.res.normal > 0:
-            compliance = self._arrays(state.window)[1]
-            force = state.nodal.ravel()
-            strain += float(force @ compliance @ force) / 2
+            moved = self.ring.rim_shapes[self.ring.dofs(*state.window)] @ state.pos[3:]
+            strain += float(state.nodal.ravel() @ (state.u.ravel() - moved)) / 2
         return kinetic, gravity, strain
 
     def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:
@@ -103,12 +228,9 @@ class ReducedHoop(RimContact):
 
     def forces(self, pos: Array, vel: Array, acc: Array) -> Array:
         """See :class:`flexible.models.state.Model`."""
-        force: Array = inertia(self.ring.frame, pos, vel, acc, 1.0)[0]
+        force: Array = floor_forces(self.arrays, pos, vel, acc)
         return force
 
-    def error(self, state: State, beta: float, matrix: Array, error: Array) -> float:
+    def error(self, pos: Array, vel: Array, acc: Array, beta: float, matrix: Array, error: Array) -> float:
         """See :class:`flexible.models.state.Model`."""
-        frame = self.ring.frame
-        rate = filtered_error(frame, state.pos, state.vel, state.acc, beta, matrix, error)
-        ringing = np.abs(rate[3:]).max(initial=0.0) / (1 + frame.body.ring_mass) ** 0.5
-        return float(largest(np.array([rate[0] + rate[2], rate[1], rate[2], ringing])))
+        return float(momentum_error(self.arrays, pos, vel, acc, beta, matrix, error))

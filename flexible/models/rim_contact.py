@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from math import ceil, pi
+from typing import Any
 
 import numpy as np
+from numba.extending import register_jitable
 from numpy.typing import NDArray
 
 from rigid import Scene
@@ -12,7 +14,7 @@ from rigid import Scene
 from ..contact.laws.law import Law
 from ..contact.laws.listing import LAWS
 from ..contact.points.data import Parameters
-from ..contact.points.rim import element_at, gap_at, upward
+from ..contact.points.rim import below_floor, element_at
 from .state import State
 
 Array = NDArray[np.float64]
@@ -69,6 +71,15 @@ def relaxation_time(scene: Scene) -> float:
     return 2 * scene.contact.damping * ((1 + scene.hoop.mass_ratio) / patch_stiffness(scene)) ** 0.5
 
 
+@register_jitable
+def window_around(vertex: Any, phi: float, low: float, high: float, margin: float) -> tuple[int, int]:
+    """First rim element and number of elements of the part ``low`` to ``high`` (angles from the bottom)."""
+    theta = pi - phi
+    first = element_at(vertex, theta + low - margin)
+    last = element_at(vertex, theta + high + margin)
+    return first, last - first + 1
+
+
 class RimContact:
     """The rim of a scene's hoop as the floor sees it.
 
@@ -92,28 +103,31 @@ class RimContact:
         self.element = 2 * pi / scene.solve.elements
         self.relaxation = relaxation_time(scene)
 
+    @property
+    def arrays(self) -> Any:
+        """See :class:`flexible.models.state.Model`: none, unless a level has them."""
+        return None
+
+    def learns(self, window: tuple[int, int] | None) -> bool:
+        """See :class:`flexible.models.state.Model`."""
+        return False
+
     def patch_damping(self, state: State) -> float:
         """See :class:`flexible.models.state.Model`."""
         return self.relaxation * self.law.parameters.eps_t * state.res.length
 
     def window(self, phi: float, low: float, high: float, margin: float) -> tuple[int, int]:
-        """First rim element and number of elements of the part ``low`` to ``high`` (angles from the bottom)."""
-        theta = pi - phi
-        first = element_at(self.vertex, theta + low - margin)
-        last = element_at(self.vertex, theta + high + margin)
-        return first, last - first + 1
+        """See :func:`window_around`."""
+        window: tuple[int, int] = window_around(self.vertex, phi, low, high, margin)
+        return window
 
     def reach(self, phi: float, height: float, moved: Array) -> tuple[float, float]:
         """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is.
 
         ``moved`` is the displacement of all rim nodes, (2 n_rim,), node by node.
         """
-        u = moved.reshape(-1, 2)
-        psi = phi - pi + self.rim_angle(np.arange(len(u)))
-        psi -= 2 * pi * np.round(psi / (2 * pi))
-        gap = gap_at(height, psi, upward(u[:, 0], u[:, 1], np.sin(phi), np.cos(phi)))
-        below = psi[gap <= max(0.0, gap.min())]
-        return float(below.min()), float(below.max())
+        low, high = below_floor(self._rim_theta, phi, height, moved)
+        return float(low), float(high)
 
     def rim_angle(self, nodes: NDArray[np.int64]) -> Array:
         """Angles of rim nodes, counted round and round from the first element's first."""

@@ -28,6 +28,20 @@ class Predictor(NamedTuple):
     guess: Any  # of d
 
 
+class Stage(NamedTuple):
+    """One stage of a step, solved or not; of one that is not, only ``ok`` and ``window`` have a meaning."""
+
+    ok: bool
+    d: Any = None  # increment of pos
+    acc: Any = None
+    matrix: Any = None  # Newton's; the model's own business
+    window: Any = None  # first rim element and number of elements
+    u: Any = None
+    nodal: Any = None
+    res: Any = None
+    bristles: Any = None
+
+
 class Window(NamedTuple):
     """What a ring of modes answers to the floor near which it is: u = shapes q + compliance f."""
 
@@ -58,21 +72,51 @@ def _round_off(contact: Contact, height: float, u: Any, scale: float, damper: Da
 
 
 @jit
+def _misfit(residual: Any, own: Any, contact: Contact, window: Window, pos: Any, u: Any, scale: float) -> None:
+    """What frame, modes and window lack of equilibrium."""
+    m, nodes = own.shape[0], window.shapes.shape[0]
+    flat = contact.nodal.copy().reshape(nodes)
+    for i in range(3):
+        residual[i] = own[i] - contact.force[i]
+    for i in range(3, m):
+        pushed = 0.0
+        for k in range(nodes):
+            pushed += window.shapes[k, i - 3] * flat[k]
+        residual[i] = own[i] - pushed
+    for k in range(nodes):
+        moved = 0.0
+        for i in range(3, m):
+            moved += window.shapes[k, i - 3] * pos[i]
+        for i in range(nodes):
+            moved += window.compliance[k, i] * flat[i]
+        residual[m + k] = scale * (u[k // 2, k % 2] - moved)
+
+
+@jit
 def _assemble(matrix: Any, own: Any, contact: Any, window: Window, scale: float) -> None:
     """Newton's matrix for frame, modes and window, out of the tangents of inertia and contact."""
-    m = own.shape[0]
-    t_uu, t_ux = contact[3:, 3:].copy(), contact[3:, :3].copy()
-    matrix[:m, :m] = own
-    matrix[:3, :3] -= contact[:3, :3]
-    matrix[:3, m:] = -contact[:3, 3:]
-    if m > 3:
-        columns = window.shapes.T.copy()
-        matrix[3:m, :3] -= columns @ t_ux
-        matrix[3:m, m:] = -(columns @ t_uu)
-        matrix[m:, 3:m] = -scale * window.shapes
-    matrix[m:, :3] = -scale * (window.compliance @ t_ux)
-    matrix[m:, m:] = -scale * (window.compliance @ t_uu)
-    for k in range(m, matrix.shape[0]):
+    # in loops: an assignment of slices would compile numpy's broadcasting with all its messages
+    m, nodes = own.shape[0], window.shapes.shape[0]
+    for i in range(m):
+        for j in range(m):
+            matrix[i, j] = own[i, j]
+        for j in range(nodes):
+            matrix[i, m + j] = -contact[i, 3 + j] if i < 3 else 0.0
+            matrix[m + j, i] = -scale * window.shapes[j, i - 3] if i >= 3 else 0.0
+    for i in range(3):
+        for j in range(3):
+            matrix[i, j] -= contact[i, j]
+    for column in range(3 + nodes):
+        j = column if column < 3 else m + column - 3
+        for i in range(3, m):
+            for k in range(nodes):
+                matrix[i, j] -= window.shapes[k, i - 3] * contact[3 + k, column]
+        for i in range(nodes):
+            gives = 0.0
+            for k in range(nodes):
+                gives += window.compliance[i, k] * contact[3 + k, column]
+            matrix[m + i, j] = -scale * gives
+    for k in range(m, m + nodes):
         matrix[k, k] += scale
 
 
@@ -98,7 +142,6 @@ def solve_stage(
     ``start[1]`` is the tolerance on forces.
     """
     pos_pred, vel_pred, beta = predictor.pos, predictor.vel, predictor.beta
-    shapes, compliance = window.shapes, window.compliance
     u_guess, tolerance = start
     modal = frame.modal
     n = modal.shape[0]
@@ -112,14 +155,14 @@ def solve_stage(
     iterations = -1
     damping, last = 1.0, np.inf
     way, reach = 0.0, np.inf
-    softest = np.abs(compliance).max()
+    softest = np.abs(window.compliance).max()
     damper = pulling(damper, True)
     for iteration in range(MOST_ITERATIONS):
         pos = pos_pred + d
         acc = d / beta**2
         vel = vel_pred + d / beta
         contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper)
-        force, tangent, res = contact.force, contact.tangent, contact.res
+        tangent, res = contact.tangent, contact.res
         # across the bend of a smoothed friction Newton would go to and fro for ever
         if res.elastic > 0 and abs(res.way - way) > 1.5 * reach:
             share = reach / abs(res.way - way)
@@ -130,21 +173,8 @@ def solve_stage(
             continue
         way, reach = res.way, res.reach
         own, own_tangent = inertia(frame, pos, vel, acc, beta)
-        flat = contact.nodal.copy().reshape(2 * nodes)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
-        moved = compliance @ flat
-        for i in range(3):
-            residual[i] = own[i] - force[i]
-        for i in range(n):
-            pushed = 0.0
-            for k in range(2 * nodes):
-                pushed += shapes[k, i] * flat[k]
-            residual[3 + i] = own[3 + i] - pushed
-        for k in range(2 * nodes):
-            modal_part = 0.0
-            for i in range(n):
-                modal_part += shapes[k, i] * pos[3 + i]
-            residual[m + k] = scale * (u[k // 2, k % 2] - modal_part - moved[k])
+        _misfit(residual, own, contact, window, pos, u, scale)
         # of forces, and of displacements as forces on the foundation
         worst, astray = largest(residual[:m]), largest(residual[m:])
         small = tolerance * (1 + abs(res.normal)) + _round_off(contact, pos[1], u, scale, damper)
@@ -183,5 +213,7 @@ def filtered_error(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, matr
     """
     size = pos.shape[0]
     load = np.zeros(matrix.shape[0])
-    load[:size] = inertia(frame, pos, vel, acc + error, beta)[0] - inertia(frame, pos, vel, acc, beta)[0]
-    return np.linalg.solve(matrix, load / beta**2)[:size].copy()
+    with_error, without = inertia(frame, pos, vel, acc + error, beta)[0], inertia(frame, pos, vel, acc, beta)[0]
+    for i in range(size):
+        load[i] = (with_error[i] - without[i]) / beta**2
+    return np.linalg.solve(matrix, load)[:size]

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..contact.laws.law import Law
 from ..contact.points.data import Bristles, Damper, Resultants
-from .stage import Predictor
+from .stage import Predictor, Stage
 
 Array = NDArray[np.float64]
 
@@ -43,25 +43,18 @@ class State:
         return self.res.friction
 
 
-class Stage(NamedTuple):
-    """One stage of a step, solved or not; of one that is not, only ``ok`` has a meaning."""
-
-    ok: bool
-    d: Any = None  # increment of pos
-    acc: Any = None
-    matrix: Any = None  # Newton's; the model's own business
-    window: Any = None
-    u: Any = None
-    nodal: Any = None
-    res: Any = None
-    bristles: Any = None
-
-
 class Model(Protocol):
     """What the march needs of a level of fidelity."""
 
     law: Law
     relaxation: float
+
+    @property
+    def arrays(self) -> Any:
+        """What the compiled step takes of a model whose stages are compiled code, otherwise None."""
+
+    def learns(self, window: tuple[int, int] | None) -> bool:
+        """Whether a stage may have failed because ``arrays`` lacked a part of the rim, which they now have."""
 
     def patch_damping(self, state: State) -> float:
         """Damping coefficient of the sticking patch against slip."""
@@ -72,10 +65,12 @@ class Model(Protocol):
         mode: int,
         damper: Damper,
         predictor: Predictor,
-        near: Stage | None = None,
+        near: tuple[tuple[int, int], Array],
+        first: bool,
     ) -> Stage:
-        """Solve one stage; the ring starts from the stage ``near``, if that had the same window.
+        """Solve one stage, the ``first`` of a step or not.
 
+        The rim's nodes start from where they were near by, a window and its displacement, if that is the same window.
         Whatever fails in it is a stage that is not ok, or a LinAlgError.
         """
 
@@ -88,7 +83,7 @@ class Model(Protocol):
     def forces(self, pos: Array, vel: Array, acc: Array) -> Array:
         """Forces of the floor on all coordinates that go with these accelerations."""
 
-    def error(self, state: State, beta: float, matrix: Any, error: Array) -> float:
+    def error(self, pos: Array, vel: Array, acc: Array, beta: float, matrix: Any, error: Array) -> float:
         """Size of an ``error`` in the velocities after a step whose last matrix of Newton is ``matrix``.
 
         An impulse over M: a tolerance is the same share of the impulses whatever the mass of the hoop.

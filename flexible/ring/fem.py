@@ -108,10 +108,17 @@ class Ring:
         n = len(self.rim_dofs)
         return np.empty((n, n), order="F"), np.zeros(-(-n // COLUMNS), np.bool_)
 
-    def rim_block(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> Array:
-        """Displacement of some of ``rim_dofs`` under unit forces on others; a motion loads a short arc of the rim.
+    def solve_rim(self, columns: NDArray[np.int64]) -> tuple[Array, NDArray[np.bool_]]:
+        """Displacement of all of ``rim_dofs`` under unit forces on some; a motion loads a short arc of the rim.
 
         Only the columns that are asked for, and their neighbours, are solved for, once.
+
+        Returns
+        -------
+        compliance : (2 n_rim, 2 n_rim) array
+            Those columns of it, and whatever others were asked for before.
+        known : array
+            Which groups of ``COLUMNS`` columns these are.
         """
         compliance, known = self._columns
         for group in np.unique(columns // COLUMNS):
@@ -121,13 +128,13 @@ class Ring:
                 load[self.rim_dofs[some], np.arange(len(some))] = 1.0
                 compliance[:, some] = self.solve(load)[self.rim_dofs]
                 known[group] = True
-        return compliance[np.ix_(rows, columns)]
+        return compliance, known
 
     @property
     def rim_compliance(self) -> Array:
         """Displacement of the rim under unit forces on it, (2 n_rim, 2 n_rim), in the order of ``rim_dofs``."""
         every = np.arange(len(self.rim_dofs))
-        compliance = self.rim_block(every, every)
+        compliance, _ = self.solve_rim(every)
         return (compliance + compliance.T) / 2
 
     def modes(self, count: int) -> tuple[Array, Array]:

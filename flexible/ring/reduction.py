@@ -7,16 +7,56 @@ compliance minus what the modes already hold. A massless ring needs no mode: its
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
+from numba.extending import register_jitable
 from numpy.typing import NDArray
 
 from rigid import Scene
+from rigid.kernel.compile import jit
 
-from .fem import Ring, membrane_stiffness, ring_of
+from .fem import COLUMNS, Ring, membrane_stiffness, ring_of
 from .frame import Body, Frame
 
 Array = NDArray[np.float64]
+
+
+class Rim(NamedTuple):
+    """What the rim's displacement is made of, in compiled code."""
+
+    shapes: Any  # (2 n_rim, n) modes
+    weighted: Any  # (2 n_rim, n) the same over their squared frequencies
+    unit: Any  # (2 n_rim, 2 n_rim) static compliance of the ring for E b = 1, in columns as far as it is known
+    known: Any  # bool, of groups of COLUMNS columns
+    stiffness: float  # E b
+
+
+@register_jitable
+def window_dofs(elements: int, window: tuple[int, int]) -> Any:
+    """Dofs of a window of a rim of so many elements, counted round and round."""
+    return (4 * window[0] + np.arange(4 * window[1] + 2)) % (4 * elements)
+
+
+@register_jitable
+def is_known(rim: Rim, columns: Any) -> bool:
+    """Whether the compliance is known in these columns."""
+    return bool(rim.known[columns // COLUMNS].all())
+
+
+@jit
+def residual(rim: Rim, rows: Any, columns: Any) -> Any:
+    """Static compliance but for what the modes hold of it, in columns that are known."""
+    block, held = np.empty((rows.shape[0], columns.shape[0])), np.zeros((rows.shape[0], columns.shape[0]))
+    for k in range(rim.shapes.shape[1]):
+        for i in range(rows.shape[0]):
+            for j in range(columns.shape[0]):
+                held[i, j] += rim.weighted[rows[i], k] * rim.shapes[columns[j], k]
+    for i in range(rows.shape[0]):
+        for j in range(columns.shape[0]):
+            block[i, j] = rim.unit[rows[i], columns[j]] / rim.stiffness - held[i, j]
+    return block
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +82,12 @@ class ReducedRing:
     rim_shapes: Array
     vertex: Array
 
+    @cached_property
+    def rim(self) -> Rim:
+        """The rim for compiled code; what it knows of the compliance grows."""
+        weighted = np.ascontiguousarray(self.rim_shapes / self.frame.modal[:, 0])
+        return Rim(self.rim_shapes, weighted, *self.ring.solve_rim(np.empty(0, np.int64)), self.stiffness)
+
     def window(self, first: int, count: int) -> tuple[Array, Array]:
         """Modes and residual compliance of the nodes of rim elements ``first`` to ``first + count - 1``."""
         dofs = self.dofs(first, count)
@@ -50,13 +96,14 @@ class ReducedRing:
 
     def compliance(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> Array:
         """Residual static compliance: displacement of some rim dofs under unit forces on others."""
-        held = (self.rim_shapes[rows] / self.frame.modal[:, 0]) @ self.rim_shapes[columns].T
-        return self.ring.rim_block(rows, columns) / self.stiffness - held
+        self.ring.solve_rim(columns)
+        block: Array = residual(self.rim, rows, columns)
+        return block
 
     def dofs(self, first: int, count: int) -> NDArray[np.int64]:
         """Rim dofs of a window, counted round and round."""
-        nodes = np.arange(2 * first, 2 * (first + count) + 1) % (2 * len(self.vertex))
-        return np.column_stack([2 * nodes, 2 * nodes + 1]).ravel()
+        dofs: NDArray[np.int64] = window_dofs(len(self.vertex), (first, count))
+        return dofs
 
 
 def body_of(scene: Scene) -> Body:

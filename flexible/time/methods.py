@@ -10,12 +10,28 @@ from __future__ import annotations
 
 from functools import cached_property
 from math import sqrt
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+
+
+class Table(NamedTuple):
+    """A method as the step takes it, see :class:`Method`."""
+
+    a: Any  # (stages, stages)
+    b: Any  # (stages,)
+    c: Any  # (stages,)
+    gamma: float
+    error: Any  # (stages,)
+    work: Any  # (stages, stages)
+    end_rate: Any  # (stages,)
+    order: Any  # (stages,) of the stages in time
+    nearest: Any  # (stages, 2) to each stage in time, among those before it
+    share: Any  # (stages,) of the change between the two at which a line through them is at the stage
 
 
 class Method:
@@ -75,6 +91,19 @@ class Method:
     def end_rate(self) -> Array:
         """(stages,) Rate at the end of a step of unit length of what is known at the stages."""
         return np.array([node.deriv()(1.0) for node in self._nodes])
+
+    @cached_property
+    def table(self) -> Table:
+        """All of it as named arrays."""
+        nearest, share = np.zeros((len(self.c), 2), np.int64), np.zeros(len(self.c))
+        for i in range(2, len(self.c)):
+            near, next_near = np.argsort(np.abs(self.c[:i] - self.c[i]), kind="stable")[:2]
+            nearest[i] = near, next_near
+            share[i] = (self.c[i] - self.c[near]) / (self.c[near] - self.c[next_near])
+        return Table(
+            self.a, self.b.copy(), self.c, self.gamma, self.error, self.work, self.end_rate,
+            np.argsort(self.c), nearest, share,
+        )  # fmt: skip
 
 
 def _tr_bdf2() -> Method:

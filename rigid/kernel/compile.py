@@ -50,12 +50,18 @@ def compiled() -> dict[str, Callable[..., Any]]:
     return twins
 
 
-def jit(function: F) -> F:
-    """Mark a function for compilation at its first call, with a cache on disk."""
+def jit(function: F, **instead: Any) -> F:
+    """Mark a function for compilation at its first call, with a cache on disk.
+
+    Compiled code takes what is given by name ``instead`` of the functions that have these names where it is written, so
+    that one text serves Python and compiled code; the file must import the modules of both.
+    """
     from .store import moved
 
     assert isinstance(function, FunctionType)
-    return _compiler(moved(function, _home_of(function.__module__, function.__code__.co_filename)), keep=True)
+    place = _home_of(function.__module__, function.__code__.co_filename)
+    scope = {**function.__globals__, **instead} if instead else None
+    return _compiler(moved(function, place, scope), keep=True)
 
 
 @cache

@@ -60,13 +60,11 @@ def _slide(points: Any, foundation: Any, carried: Any, mode: int, load: Any, law
     weight, _ = weights(points, carried, law.spacing, True, False)
     lumped = -law.eps_n * (weight * np.minimum(points.gap, 0.0)).sum()
     even = load.elastic / lumped if lumped > 0 else 1.0
+    force_by_gaps(forces.by_gap, load.eta * mode * law.mu, foundation)
     energy, held, pulled = 0.0, 0.0, 0.0
     for i in range(total):
-        before = i - 1 if i > 0 and not points.last[i - 1] else -1
-        behind = i + 1 if i + 1 < total and not points.last[i] else -1
         forces.share[i] = mode * law.mu * foundation.force[i]
         forces.force[i] = load.eta * forces.share[i]
-        force_by_gaps(forces.by_gap[i, 1:4], load.eta * mode * law.mu, foundation, before, i, behind)
         held -= weight[i] * law.eps_t * carried.stretch[i]
         # what a damper adds to the pressure is no spring: bristles that held it would give it back when they stick
         pressure = -law.eps_n * min(points.gap[i], 0.0)

@@ -16,6 +16,8 @@ from rigid.kernel.compile import jit
 from .data import Bristles, Damper, Parameters, PointForces, Resultants, Slip
 from .rim import lift
 
+ENTERS = 1e-9  # of a step: Newton's last change to the instant of an entry, whose error is then its square
+
 
 class Carried(NamedTuple):
     """The bristles of all points at hand at the end of a step."""
@@ -36,6 +38,7 @@ class _Entry(NamedTuple):
 
     rest: float  # fraction of the step since then, negative where it never touched
     psi: float  # angle from the bottom at which it did
+    lifted: float  # height of the undeformed circle there over its lowest point
     by_gap: float  # derivatives of the fraction by the new gap and by phi
     by_phi: float
     speed: float  # of the angle against the fraction
@@ -43,14 +46,16 @@ class _Entry(NamedTuple):
 
 
 @jit
-def _entry(g_old: float, g_new: float, psi: float, dphi: float, turn: float, ratio: float) -> _Entry:
-    """When a point with the gaps ``g_old`` > 0 and ``g_new`` at the ends of a step touched.
+def _entry(points: Any, i: int, dphi: float, turn: float, ratio: float) -> _Entry:
+    """When a point that was off the floor when the step began touched.
 
     Its angle is the parabola in time that ends with ``turn`` a step: over a step in which the whole patch is renewed a
     constant rate would misplace all entries by as much as phidot changes, and the creep with them. What of the gap is
     not the circle's is linear in time.
     """
-    never = _Entry(-1.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    never = _Entry(-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    g_old, g_new = max(points.gap_old[i], 0.0), points.gap[i]
+    psi, lifted = points.psi[i], points.lifted[i]
     a = dphi * dphi / 2
     b = g_new - g_old - a
     disc = b * b - 4 * a * g_old
@@ -60,22 +65,22 @@ def _entry(g_old: float, g_new: float, psi: float, dphi: float, turn: float, rat
     if s <= 0:
         return never
     bend = turn - dphi
-    own = g_old - g_new - (lift(psi - dphi) - lift(psi))
-    speed, slope = 0.0, 0.0
-    for _ in range(4):
+    own = g_old - g_new - (lift(psi - dphi) - lifted)
+    step = 1.0
+    for iteration in range(5):
         angle = psi - turn * s + bend * s * s
         speed = -turn + 2 * bend * s
-        slope = sin(angle) * speed + own
+        half, other = sin(angle / 2), cos(angle / 2)
+        slope = 2 * half * other * speed + own
         if slope <= 0:
             return never
-        s = min(max(s - (g_new + lift(angle) - lift(psi) + own * s) / slope, 0.0), 1.0)
-    angle = psi - turn * s + bend * s * s
-    speed = -turn + 2 * bend * s
-    slope = sin(angle) * speed + own
-    if slope <= 0:
-        return never
+        if iteration == 4 or abs(step) < ENTERS:
+            break
+        step = (g_new + (2 * half * half - lifted) + own * s) / slope
+        s = min(max(s - step, 0.0), 1.0)
     shift = 1 - ratio * s + (ratio - 1) * s * s
-    return _Entry(s, angle, -(1 - s) / slope, -(sin(angle) * shift - (1 - s) * sin(psi)) / slope, speed, shift)
+    by_phi = -(2 * half * other * shift - (1 - s) * points.sine[i]) / slope
+    return _Entry(s, angle, 2 * half * half, -(1 - s) / slope, by_phi, speed, shift)
 
 
 @jit
@@ -108,13 +113,13 @@ def carry(points: Any, bristles: Any, dphi: float, damper: Damper, slip: Slip, m
             rate[i] = 1.0
             sliding[i] = flags[p]
             continue
-        entry = _entry(max(points.gap_old[i], 0.0), points.gap[i], points.psi[i], dphi, turn, ratio)
+        entry = _entry(points, i, dphi, turn, ratio)
         rest, psi_in = entry.rest, entry.psi
         if rest >= 0:
             touched[i] = True
             ending = ratio * (move - start)
             psi = points.psi[i]
-            lifted, lifted_in = lift(psi), lift(psi_in)
+            lifted, lifted_in = points.lifted[i], entry.lifted
             rolled = psi - psi_in - 2 * cos((psi + psi_in) / 2) * sin((psi - psi_in) / 2)
             way[i] = stretch[i] = rolled + rest * (ending - (ending - move) * rest)
             mean[i] = rest * (slip_ending - (slip_ending - slip.way) * rest)

@@ -105,6 +105,8 @@ class Points(NamedTuple):
     move: Any  # along the floor since then, but for
     rolled: Any  # what the rigid circle's rolling alone would move it, psi - sin(psi) now less then
     psi: Any  # angle from the bottom
+    sine: Any  # of psi
+    lifted: Any  # height of the undeformed circle there over its lowest point
 
 
 @jit
@@ -136,14 +138,21 @@ def gather(pose: Any, u: Any, rim: Rim, spacing: float, before: Before) -> tuple
     arm_x, arm_y, gap = np.empty(total), np.empty(total), np.empty(total)
     gap_old, move = np.empty(total), np.empty(total)
     rolled, angle = np.empty(total), np.empty(total)
+    sines, lifted = np.empty(total), np.empty(total)
     outside = False
+    # sines and cosines of psi/2 give all others: they are what a point costs
+    s_turn, c_turn, s_half, c_half = sin(dphi / 2), cos(dphi / 2), sin(dphi / 4), cos(dphi / 4)
+    rolls = dphi - 2 * s_turn
     m = 0
     for r in range(ranges.shape[0]):
+        element = min(max(element_at(vertex, ranges[r, 0] * spacing), first), first + count - 1)
+        start, end = vertex_angle(vertex, element), vertex_angle(vertex, element + 1)
         for j in range(ranges[r, 0], ranges[r, 1] + 1):
             theta = j * spacing
-            element = min(max(element_at(vertex, theta), first), first + count - 1)
-            start = vertex_angle(vertex, element)
-            xi = (theta - start) / (vertex_angle(vertex, element + 1) - start)
+            while theta >= end and element < first + count - 1:
+                element += 1
+                start, end = end, vertex_angle(vertex, element + 1)
+            xi = (theta - start) / (end - start)
             outside = outside or xi < -1e-9 or xi > 1 + 1e-9
             k = 2 * (element - first)
             n0, n1, n2 = shape_functions(xi)
@@ -152,15 +161,17 @@ def gather(pose: Any, u: Any, rim: Rim, spacing: float, before: Before) -> tuple
             v1 = n0 * u_old[k, 0] + n1 * u_old[k + 1, 0] + n2 * u_old[k + 2, 0]
             v2 = n0 * u_old[k, 1] + n1 * u_old[k + 1, 1] + n2 * u_old[k + 2, 1]
             ux, uy = sideways(u1, u2, s, c), upward(u1, u2, s, c)
-            psi, psi_old = phi - pi + theta, phi_old - pi + theta
+            psi = phi - pi + theta
+            sine, cosine = sin(psi / 2), cos(psi / 2)
+            lifted[m], lifted_old = 2 * sine**2, 2 * (sine * c_turn - cosine * s_turn) ** 2
             number[m], local[m] = j, k
             shape[m, 0], shape[m, 1], shape[m, 2] = n0, n1, n2
-            gap[m] = gap_at(height, psi, uy)
-            gap_old[m] = gap_at(old_pose[1], psi_old, upward(v1, v2, s_old, c_old))
-            arm_x[m], arm_y[m] = sin(psi) - ux, lift(psi) + uy
-            angle[m] = psi
-            rolled[m] = dphi - 2 * cos((psi + psi_old) / 2) * sin(dphi / 2)
+            gap[m] = height + lifted[m] + uy
+            gap_old[m] = old_pose[1] + lifted_old + upward(v1, v2, s_old, c_old)
+            angle[m], sines[m] = psi, 2 * sine * cosine
+            arm_x[m], arm_y[m] = sines[m] - ux, lifted[m] + uy
+            rolled[m] = rolls + 4 * s_turn * (sine * c_half - cosine * s_half) ** 2
             move[m] = dv + ux - sideways(v1, v2, s_old, c_old)
             m += 1
         last[m - 1] = True
-    return Points(number, last, local, shape, arm_x, arm_y, gap, gap_old, move, rolled, angle), outside
+    return Points(number, last, local, shape, arm_x, arm_y, gap, gap_old, move, rolled, angle, sines, lifted), outside

@@ -77,10 +77,29 @@ def press(gap: Any, last: Any, eps_n: float, spacing: float) -> Any:
 
 
 @jit
-def force_by_gaps(row: Any, factor: float, foundation: Any, before: int, here: int, behind: int) -> None:
-    """Add ``factor`` times the derivatives of a point's normal force by the gaps before it, its own and behind it."""
-    row[1] -= factor * foundation.diagonal[here]
-    if before >= 0:
-        row[0] -= factor * foundation.coupling[before]
-    if behind >= 0:
-        row[2] -= factor * foundation.coupling[here]
+def force_by_gaps(by_gap: Any, factor: float, foundation: Foundation) -> None:
+    """Add ``factor`` times the derivatives of the points' normal forces by the gaps around them.
+
+    ``by_gap`` is that of :class:`flexible.contact.points.data.PointForces`.
+    """
+    diagonal, coupling = foundation.diagonal, foundation.coupling  # no coupling with what is no neighbour
+    for i in range(diagonal.shape[0]):
+        by_gap[i, 2] -= factor * diagonal[i]
+        by_gap[i, 3] -= factor * coupling[i]
+        if i > 0:
+            by_gap[i, 1] -= factor * coupling[i - 1]
+
+
+@jit
+def sum_by_gaps(factors: Any, foundation: Foundation) -> Any:
+    """Derivative of the sum of the points' normal forces, each times its factor, by the gap of each point."""
+    diagonal, coupling = foundation.diagonal, foundation.coupling
+    total = diagonal.shape[0]
+    result = np.empty(total)
+    for i in range(total):
+        result[i] = -factors[i] * diagonal[i]
+        if i > 0:
+            result[i] -= factors[i - 1] * coupling[i - 1]
+        if i + 1 < total:
+            result[i] -= factors[i + 1] * coupling[i]
+    return result

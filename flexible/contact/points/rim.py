@@ -59,3 +59,23 @@ def element_at(vertex: Any, theta: float) -> int:
     turn = int(floor((theta - vertex[0]) / (2 * pi)))
     rest = theta - 2 * pi * turn
     return int(np.searchsorted(vertex, rest, side="right")) - 1 + turn * n
+
+
+@jit
+def below_floor(theta: Any, phi: float, height: float, moved: Any) -> tuple[float, float]:
+    """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is.
+
+    ``theta`` are the angles of all rim nodes, (n_rim,), ``moved`` their displacement, (2 n_rim,), node by node.
+    """
+    s, c = np.sin(phi), np.cos(phi)
+    gap, psi = np.empty(theta.shape[0]), np.empty(theta.shape[0])
+    for i in range(theta.shape[0]):
+        angle = phi - pi + theta[i]
+        psi[i] = angle - 2 * pi * np.round(angle / (2 * pi))
+        gap[i] = gap_at(height, psi[i], upward(moved[2 * i], moved[2 * i + 1], s, c))
+    deepest = max(0.0, gap.min())
+    low, high = np.inf, -np.inf
+    for i in range(theta.shape[0]):
+        if gap[i] <= deepest:
+            low, high = min(low, psi[i]), max(high, psi[i])
+    return low, high

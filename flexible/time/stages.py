@@ -1,0 +1,238 @@
+"""One implicit step: its stages one after the other, its error, impulses and losses.
+
+One text for two machines: Python runs it on a hoop (:class:`flexible.models.state.Model`), compiled code on the arrays
+of a reduced one, whose stages are compiled too.
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numba.extending import register_jitable
+
+from rigid.kernel.compile import jit
+
+from ..contact.points.data import Bristles, Damper, Resultants
+from ..models import reduced
+from ..models.stage import Predictor
+from .methods import Table
+
+
+def solved(model: Any, old: Any, mode: int, damper: Damper, predictor: Predictor, near: Any, first: bool) -> Any:
+    """See ``stage`` of :class:`flexible.models.state.Model`."""
+    return model.stage(old, mode, damper, predictor, near, first)
+
+
+def held_energy(model: Any, pos: Any, vel: Any) -> Any:
+    """What the coordinates hold."""
+    return sum(model.held(pos, vel))
+
+
+def floor_forces(model: Any, pos: Any, vel: Any, acc: Any) -> Any:
+    """See ``forces`` of :class:`flexible.models.state.Model`."""
+    return model.forces(pos, vel, acc)
+
+
+def momentum_error(model: Any, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any) -> Any:
+    """See ``error`` of :class:`flexible.models.state.Model`."""
+    return model.error(pos, vel, acc, beta, matrix, error)
+
+
+class Taken(NamedTuple):
+    """A step that was tried. Of one that could not be solved, only ``ok`` and ``window`` have a meaning."""
+
+    ok: bool
+    pos: Any  # at its end
+    vel: Any
+    acc: Any
+    window: Any  # of rim, of the last stage that was tried
+    u: Any
+    nodal: Any
+    res: Resultants
+    bristles: Bristles
+    slip_velocity: float
+    elastic_rate: float
+    feet_velocity: float
+    error: float  # of the velocities
+    normal_impulse: float
+    friction_impulse: float
+    friction_work: float
+    damped: float
+    numerical: float  # energy of frame and ring that the floor's work does not account for, lost to the integrator
+    off_floor: float
+
+
+class _Known(NamedTuple):
+    """What is known at the stages of a step, as arrays; ways and rates of the patch count from its beginning."""
+
+    pos: Any  # (stages, n)
+    vel: Any
+    acc: Any
+    normal: Any  # (stages,)
+    friction: Any
+    drag: Any
+    elastic: Any
+    elastic_rate: Any
+    eta: Any
+    stored: Any
+    way: Any
+    slip_velocity: Any
+    feet: Any
+
+
+@register_jitable
+def _nothing_known(stages: int, n: int) -> _Known:
+    """Room for so many stages."""
+    pos, vel, acc = np.zeros((stages, n)), np.zeros((stages, n)), np.zeros((stages, n))
+    rows = np.zeros((10, stages))
+    return _Known(
+        pos, vel, acc, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8], rows[9]
+    )
+
+
+@jit
+def _store(rows: Any, i: int, values: Any) -> None:
+    """Write a row; an assignment of slices would compile numpy's broadcasting with all its messages."""
+    for k in range(values.shape[0]):
+        rows[i, k] = values[k]
+
+
+@register_jitable
+def _write_down(known: _Known, i: int, pos: Any, vel: Any, acc: Any, res: Resultants) -> None:
+    """A stage that is solved."""
+    _store(known.pos, i, pos)
+    _store(known.vel, i, vel)
+    _store(known.acc, i, acc)
+    known.normal[i], known.friction[i], known.drag[i] = res.normal, res.friction, res.damping
+    known.elastic[i], known.eta[i], known.stored[i] = res.elastic, res.eta, res.normal_energy
+
+
+@register_jitable
+def _sum(weights: Any, values: Any) -> Any:
+    """Of as many of the values as there are weights, each with its own."""
+    total = weights[0] * values[0]
+    for i in range(1, weights.shape[0]):
+        total += weights[i] * values[i]
+    return total
+
+
+@register_jitable
+def _expected(table: Table, acc: Any, i: int) -> Any:
+    """Accelerations of stage ``i``, by those of the two known ones that are nearest in time."""
+    if i == 1:
+        return acc[0].copy()
+    near, next_near, share = table.nearest[i, 0], table.nearest[i, 1], table.share[i]
+    return acc[near] + share * (acc[near] - acc[next_near])
+
+
+@register_jitable
+def _widening(old: Any, later: float) -> float:
+    """Length of the patch so much later over what it is: like N_el^(1/3), a parabola's.
+
+    A length that lags by a step would let the creep of a damped patch lag by as much.
+    """
+    if old.res.elastic <= 0:
+        return 1.0
+    return float(min(max(1 + later * old.elastic_rate / old.res.elastic, 0.1), 10.0) ** (1 / 3))
+
+
+@register_jitable
+def _damped(table: Table, known: _Known) -> float:
+    """What the normal damper takes, the integral of (eta - 1) over the springs' energy."""
+    stored = known.stored - known.stored[0]
+    if known.elastic.min() > 0:
+        return float(_work(table, known.eta - 1.0, stored))
+    damped = 0.0
+    for k in range(1, stored.shape[0]):  # off the floor there is no factor
+        before, after = table.order[k - 1], table.order[k]
+        factor, counted = 0.0, 0
+        for i in (before, after):
+            if known.elastic[i] > 0:
+                factor += known.eta[i] - 1
+                counted += 1
+        damped += factor / max(counted, 1) * (stored[after] - stored[before])
+    return damped
+
+
+@register_jitable
+def _work(table: Table, force: Any, way: Any) -> float:
+    """Work of a force along a way, both known at the stages."""
+    total = 0.0
+    for i in range(force.shape[0]):
+        for j in range(way.shape[0]):
+            total += force[i] * table.work[i, j] * way[j]
+    return total
+
+
+def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
+    """A step of length ``h`` of a model from ``old``.
+
+    Parameters
+    ----------
+    model : flexible.models.state.Model or flexible.models.reduced.Arrays
+    old : flexible.models.state.State or flexible.models.reduced.Start
+    h : float
+    table : Table
+    damping : (float, float)
+        The normal damper's time, and the coefficient of the sticking patch against slip.
+    """
+    stages = table.c.shape[0]
+    beta = table.gamma * h
+    relaxation, against_slip = damping[0] / beta, damping[1]
+    known = _nothing_known(stages, old.pos.shape[0])
+    _write_down(known, 0, old.pos, old.vel, old.acc, old.res)
+    known.elastic_rate[0], known.slip_velocity[0] = old.elastic_rate, old.slip_velocity
+    window, u, nodal, res, bristles = old.window, old.u, old.nodal, old.res, old.bristles
+    ok, error = True, 0.0
+    for i in range(1, stages):
+        weights = h * table.a[i, :i]
+        vel = old.vel + _sum(weights, known.acc)
+        pos = old.pos + _sum(weights, known.vel) + beta * vel
+        elastic = old.res.elastic + _sum(weights, known.elastic_rate)
+        way = _sum(weights, known.slip_velocity)
+        turning = table.c[i] * (h * vel[2] - (pos[2] - old.pos[2]) / table.gamma)
+        drag = against_slip * _widening(old, table.c[i] * h) / beta
+        damper = Damper(relaxation, elastic, 1.0, drag, way, table.c[i] / table.gamma, 1 / beta, 0.0, turning, False)
+        predictor = Predictor(pos, vel, beta, beta**2 * _expected(table, known.acc, i))
+        # without numbers to begin with there is nothing to solve: no angle, no rim
+        if not np.isfinite(pos.sum() + vel.sum() + predictor.guess.sum() + elastic + way + turning + drag):
+            ok = False
+            break
+        found = solved(model, old, old.mode, damper, predictor, (window, u), i == 1)
+        window = found.window
+        if not found.ok:
+            ok = False
+            break
+        u, nodal, res, bristles = found.u, found.nodal, found.res, found.bristles
+        _write_down(known, i, pos + found.d, vel + found.d / beta, found.acc, res)
+        known.elastic_rate[i] = (res.elastic - elastic) / beta
+        known.way[i], known.slip_velocity[i] = res.way, (res.way - way) / beta
+        known.feet[i] = res.feet
+        if i == stages - 1:
+            off = h * _sum(table.error, known.acc)
+            error = momentum_error(model, known.pos[i], known.vel[i], known.acc[i], beta, found.matrix, off)
+    end = stages - 1
+    weights = h * table.b
+    drag_work = _work(table, known.drag, known.way)
+    numerical = 0.0
+    if ok:
+        numerical = held_energy(model, old.pos, old.vel) - held_energy(model, known.pos[end], known.vel[end])
+        for i in range(stages):
+            force = floor_forces(model, known.pos[i], known.vel[i], known.acc[i])
+            for j in range(1, stages):
+                numerical += table.work[i, j] * (force * (known.pos[j] - known.pos[0])).sum()
+    return Taken(
+        ok, known.pos[end].copy(), known.vel[end].copy(), known.acc[end].copy(), window, u, nodal, res, bristles,
+        known.slip_velocity[end], known.elastic_rate[end], _sum(table.end_rate, known.feet) / h, error,
+        _sum(weights, known.normal), _sum(weights, known.friction),
+        res.beyond + _work(table, known.friction - known.drag, known.way), _damped(table, known) - drag_work,
+        numerical, (weights * (known.normal == 0.0)).sum(),
+    )  # fmt: skip
+
+
+#: the same of the arrays of a reduced hoop
+take_compiled = jit(
+    take, solved=reduced.solved, held_energy=reduced.held_energy, floor_forces=reduced.floor_forces,
+    momentum_error=reduced.momentum_error,
+)  # fmt: skip

@@ -1,0 +1,89 @@
+"""The step that compiled code takes is the one that Python takes on the same hoop: one text, two machines."""
+
+import numpy as np
+import pytest
+from scenes import HOOP, flying
+
+import rigid
+from flexible.handover import hand_over
+from flexible.models.reduced import ReducedHoop, start_of
+from flexible.ring.fem import COLUMNS
+from flexible.time.methods import METHODS
+from flexible.time.stages import take, take_compiled
+from flexible.time.step import attempt
+
+
+def rolling(scene):
+    """The hoop in the equilibrium of its release, at the bottom of a swing."""
+    hoop = ReducedHoop(scene)
+    return hoop, hand_over(hoop, rigid.simulate(scene), 0.0)
+
+
+def both(hoop, state, h, method):
+    damping = hoop.relaxation, hoop.patch_damping(state)
+    by_python = take(hoop, state, h, METHODS[method].table, damping)
+    return by_python, take_compiled(hoop.arrays, start_of(state), h, METHODS[method].table, damping)
+
+
+def agree(one, other, tolerance):
+    """All that a step is made of, integers to the last."""
+    for name, value in one._asdict().items():
+        found = getattr(other, name)
+        if name in ("ok", "window"):
+            assert found == value
+        elif isinstance(value, tuple):
+            agree(value, found, tolerance)
+        else:
+            assert np.allclose(found, value, rtol=tolerance, atol=tolerance), name
+
+
+@pytest.mark.parametrize("method", list(METHODS))
+@pytest.mark.parametrize("law", ["patch", "brush", "regularised"])
+@pytest.mark.parametrize("mass_ratio", [0.0, 0.1])
+def test_a_step_on_the_floor(law, mass_ratio, method):
+    """Each stage is known to Newton's tolerance, 1e-9 (1 + N), and rates to that over the inertia and 1/h."""
+    friction = {"mu_s": 0.35 if law != "regularised" else 0.3}
+    scene = HOOP.replace(
+        release={"phi0": 1.5, "omega0": 1.0}, hoop={"mass_ratio": mass_ratio}, friction=friction,
+        contact={"law": law, "damping": 1.0},
+    )  # fmt: skip
+    hoop, state = rolling(scene)
+    one, other = both(hoop, state, 1e-3, method)
+    assert one.ok
+    assert one.res.normal > 0
+    agree(one, other, 1e-7)
+
+
+def test_a_step_in_flight():
+    """Nothing but inertia: to round-off."""
+    hoop = ReducedHoop(HOOP)
+    rng = np.random.default_rng(3)
+    n = hoop.coordinates
+    pos = np.concatenate([[0.0, 0.3, 2.0], 1e-4 * rng.standard_normal(n)])
+    vel = np.concatenate([[0.1, 0.2, 1.0], 1e-2 * rng.standard_normal(n)])
+    one, other = both(hoop, flying(hoop, pos, vel), 1e-3, "esdirk3")
+    assert one.ok
+    assert one.off_floor == pytest.approx(1e-3, rel=1e-12)
+    agree(one, other, 1e-11)
+
+
+def test_what_is_known_of_the_ring_is_no_part_of_a_step():
+    """A step into windows whose compliance nobody asked for is, bit by bit, that of a hoop that knows all of it."""
+    scene = HOOP.replace(release={"phi0": 1.5, "omega0": 1.0}, solve={"elements": 124})  # a ring of no other test
+    hoop, state = rolling(scene)
+    compliance, known = hoop.ring.ring.solve_rim(np.empty(0, np.int64))
+    assert not known.all()
+    here = hoop.ring.dofs(*state.window) // COLUMNS
+    kept = compliance.copy()
+    compliance[:], known[:] = np.nan, False
+    found = attempt(hoop, state, 1e-3)
+    assert known[here].any()
+    hoop.ring.ring.solve_rim(np.arange(len(compliance)))
+    again = attempt(hoop, state, 1e-3)
+    assert found is not None
+    assert again is not None
+    for one, other in zip(found.state.pos, again.state.pos, strict=True):
+        assert one == other
+    assert (found.state.u == again.state.u).all()
+    columns = hoop.ring.dofs(*state.window)
+    assert np.array_equal(compliance[:, columns], kept[:, columns])
