@@ -34,7 +34,6 @@ from .segment import Segment
 from .time.adaptive import SHORTEST
 from .time.events import Ends
 from .time.step import MarchError
-from .units import dimensionless
 
 Progress = Callable[[float], object]
 
@@ -89,7 +88,7 @@ def simulate(
         raise rigid.SceneError(
             "hoop.k = 0 is not possible here: the flexible hoop needs a disk with a radius, or a hoop with a mass."
         )
-    inner = dimensionless(scene)
+    inner = scene.to_dimensionless()
     hoop = hoop_of(inner)
     builder = Builder(inner)
     builder.range = Range(hoop)

@@ -19,6 +19,7 @@ from .kernel.compile import compiled, kernel
 from .kernel.layout import MORE, ORDER, RECORDS, SERIES, STATE, STEPS, WIDTH, WORK_BOUND, T
 from .motion import Array
 from .output import summary
+from .output.units import without_units
 from .phases.choice import entry_run, release_from
 from .phases.reasons import reason
 from .record.pulse import cut_pulse
@@ -248,8 +249,7 @@ def _table(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
         return np.ascontiguousarray(table)
     rows = []
     for scene in map(as_scene, scenes):
-        hoop, friction, release = scene.hoop, scene.friction, scene.release
-        time = scene.time_unit
+        hoop, friction, release = scene.hoop, scene.friction, without_units(scene.release, scene)
         rows.append(
             (
                 hoop.k,
@@ -258,8 +258,8 @@ def _table(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
                 friction.mu_s,
                 friction.mu,
                 release.phi0,
-                release.omega0 * time,
-                release.slip0 * time / hoop.R,
+                release.omega0,
+                release.slip0,
                 scene.landing.restitution,
             )
         )
