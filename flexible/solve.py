@@ -253,7 +253,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
 
 
 def _to_the_end_of(pulse: Pulse, ends: Ends, phi: float) -> Ends:
-    """``ends``, and the end of a rigid pulse if it lies ahead of ``phi`` in this swing: a hop may lead to a later one."""
+    """``ends``, and the end of a rigid pulse if it lies ahead in this swing: hops may lead to a later one."""
     if phi < pulse.phi_end < ends.high and pulse.phi_end > pulse.phi_start:
         return ends._replace(high=pulse.phi_end)
     if ends.low < pulse.phi_end < phi and pulse.phi_end < pulse.phi_start:

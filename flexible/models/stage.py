@@ -12,8 +12,8 @@ import numpy as np
 
 from rigid.kernel.compile import jit
 
-from ..contact.forces import contact_forces
-from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling, too_deep
+from ..contact.forces import contact_forces, first_guess
+from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
 from ..ring.frame import Frame, inertia
 
 MOST_POINTS = 5000  # to a patch, two hundred times as wide as under the weight: 1e7 weights are no solution
@@ -118,14 +118,11 @@ def solve_stage(
         pos = pos_pred + d
         acc = d / beta**2
         vel = vel_pred + d / beta
-        contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper)
-        force, tangent, res = contact.force, contact.tangent, contact.res
-        deep = too_deep(res, damper, law.eps_n) if iteration == 0 else 0.0
-        if deep != 0:  # the rim's nodes start where the patch is about as deep as it was
-            u[:, 0] += deep * np.cos(pos[2])
-            u[:, 1] -= deep * np.sin(pos[2])
+        if iteration == 0:
+            contact = first_guess(pos[:3], u, window.rim, law, mode, before, damper)
+        else:
             contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper)
-            force, tangent, res = contact.force, contact.tangent, contact.res
+        force, tangent, res = contact.force, contact.tangent, contact.res
         # across the bend of a smoothed friction Newton would go to and fro for ever
         if res.elastic > 0 and abs(res.way - way) > 1.5 * reach:
             share = reach / abs(res.way - way)

@@ -177,20 +177,6 @@ def pulling(damper: Damper, pulls: bool) -> Damper:
     )  # fmt: skip
 
 
-@jit
-def too_deep(res: Resultants, damper: Damper, eps_n: float) -> float:
-    """How much deeper the patch is than it is likely to end up, where the damper makes N another one by it; else 0.
-
-    A soft ring follows the floor: where the frame has moved and the rim not yet, N_el is many times what it will be, and
-    the damper multiplies that by the stage's rate. Newton then takes tens of iterations to come back. A patch of the
-    depth delta and the length L, whatever the rim's curvature, has N_el = (2/3) eps_n L delta, and N_el ~ delta^(3/2).
-    """
-    if damper.relaxation == 0 or damper.elastic_0 <= 0 or res.elastic <= 0 or abs(res.eta - 1) < 1:
-        return 0.0
-    depth = 1.5 * res.elastic / (eps_n * res.length)
-    return depth * (1 - (damper.elastic_0 / res.elastic) ** (2 / 3))
-
-
 def no_bristles() -> Bristles:
     """Those of a hoop off the floor."""
     return Bristles(np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0, np.int8))
