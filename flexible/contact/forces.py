@@ -258,15 +258,17 @@ def _too_low(pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, dampe
 
 
 @jit
-def first_guess(pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper) -> Contact:
-    """:func:`contact_forces` where Newton begins, on a rim ``u`` that is moved to where the patch is about as it was.
+def forces_in_newton(
+    pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper, begins: bool
+) -> Contact:  # fmt: skip
+    """:func:`contact_forces`; where Newton ``begins``, with the rim ``u`` moved to where its patch is about as it was.
 
     A soft ring follows the floor. With a frame that has moved and a rim that has not, the patch is off the floor, and
     the next guess, without its forces, far below it; or so deep that the damper, which multiplies by the stage's rate,
     makes N hundreds of times what it will be. From either Newton takes tens of iterations to come back.
     """
     contact = contact_forces(pose, u, rim, law, mode, before, damper)
-    for _ in range(3):
+    for _ in range(3 if begins else 0):
         raised = _too_low(pose, u, rim, law, before, damper, contact.res)
         if raised == 0:
             break

@@ -97,7 +97,7 @@ def soft_scene(x: list[float]) -> Scene:
     """A damped hoop of any stiffness through its first pulse, at the default level and tolerance.
 
     k 0.03 to 0.6, r 1 to 1.2, m_h/m 0 to 0.3, mu 0.05 to 0.8, mu_s/mu 1 to 1.5, released at rest at 2 to 60 degrees;
-    foundation 1e6 to 1e12, bending 1 to 1e7, patch and brush.
+    foundation 1e6 to 1e12, bending 1 to 1e7, the two laws that stick.
     """
     mu, mass = _power(x[3], 0.05, 0.8), _beyond(x[2], 0.2)
     return Scene(
@@ -106,7 +106,7 @@ def soft_scene(x: list[float]) -> Scene:
         Release(radians(2 + 58 * x[5])),
         Run(until="pulse"),
         ring=Ring(bending_stiffness=_power(x[6], 1.0, 1e7)),
-        contact=Contact("patch" if x[8] < 0.5 else "brush", stiffness=_power(x[7], 1e6, 1e12), damping=1.0),
+        contact=Contact(LAWS[x[8] >= 0.5], stiffness=_power(x[7], 1e6, 1e12), damping=1.0),
     )
 
 
