@@ -31,6 +31,7 @@ from .models.select import Range, hoop_of
 from .models.state import State
 from .motion import FlexibleMotion, FlexiblePulse
 from .segment import Segment
+from .time.adaptive import SHORTEST
 from .time.events import Ends
 from .time.step import MarchError
 
@@ -205,7 +206,7 @@ def _rest_of(run: Run, builder: Builder) -> Run | None:
         left = run.turns - len(builder.turns)
         return Run(turns=left) if left > 0 else None
     if run.t_end is not None:
-        return Run(t_end=run.t_end - builder.t) if run.t_end > builder.t else None
+        return Run(t_end=run.t_end - builder.t) if run.t_end - builder.t >= SHORTEST else None
     return run
 
 
@@ -255,13 +256,15 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
             low=2 * pi * (ceil(phi) - 1), high=2 * pi * (floor(phi) + 1), turns=1,
         )  # fmt: skip
         if run.until == "pulse" and pulses:  # before the first whole pulse there may be the rest of one
-            first, last = pulses[-1].phi_start, pulses[-1].phi_end
-            ends = ends._replace(high=min(ends.high, last)) if last > first else ends._replace(low=max(ends.low, last))
+            ends = _to_the_end_of(pulses[-1], ends, float(state.pos[2]))
+        began = state.t
         state, segment, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
         _add_pulses(
             builder, segment, pulses, over=not trouble and scene.run.t_end is not None and ends.t - state.t < 1e-12
         )
-        if not trouble and scene.run.t_end is None and state.t >= limit:
+        if not trouble and state.t == began and _rest_of(scene.run, builder) is not None:
+            trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: a swing of no length"
+        elif not trouble and scene.run.t_end is None and state.t >= limit:
             trouble = f"stopped at t = {state.t:.6g}: the rigid hoop swings that far in a quarter of this time"
         if trouble:
             builder.completed = False
@@ -270,6 +273,15 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
             return "the first pulse is over"
         run = _rest_of(scene.run, builder)
     return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
+
+
+def _to_the_end_of(pulse: Pulse, ends: Ends, phi: float) -> Ends:
+    """``ends``, and the end of a rigid pulse if it lies ahead in this swing: hops may lead to a later one."""
+    if phi < pulse.phi_end < ends.high and pulse.phi_end > pulse.phi_start:
+        return ends._replace(high=pulse.phi_end)
+    if ends.low < pulse.phi_end < phi and pulse.phi_end < pulse.phi_start:
+        return ends._replace(low=pulse.phi_end)
+    return ends
 
 
 def _add_pulses(builder: Builder, segment: Segment, pulses: list[Pulse], over: bool) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 
 from rigid.kernel.compile import jit
 
-from ..contact.forces import contact_forces
+from ..contact.forces import forces_in_newton
 from ..contact.points.data import MOST_ITERATIONS, pulling
 from .bordered import FRAME, Factors, factor, nothing_factored, solve
 from .rim import follow
@@ -89,7 +89,7 @@ def solve_stage(
     damper = pulling(damper, True)
     for iteration in range(MOST_ITERATIONS):
         pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
-        contact = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper)
+        contact = forces_in_newton(pos[:FRAME], u, facing.rim, law, mode, before, damper, iteration == 0)
         res = contact.res
         # across the bend of a smoothed friction Newton would go to and fro for ever
         if res.elastic > 0 and abs(res.way - way) > 1.5 * reach:

@@ -133,9 +133,18 @@ class ChainHoop(RimContact):
             iterations, d, u, factors, contact = solve_stage(
                 ring.chain, facing, self.law.parameters, mode, before, damper, predictor, (beyond, self.tolerance)
             )
-            if iterations != -2:
+            if iterations == -2:
+                margin = 2 * margin + self.element
+                continue
+            if iterations < 0:
                 break
-            margin = 2 * margin + self.element
+            # a soft ring bulges: in a long step another part of it may have come down
+            at = predictor.pos + d
+            lower, higher = self._reach(at)
+            first, count = self.window(float(at[2]), lower, higher, 0.0)
+            if window[0] <= first and first + count <= window[0] + window[1]:
+                break
+            low, high = self._looked = min(low, lower), max(high, higher)
         acc = d / predictor.beta**2
         if massless:
             acc[3:] = 0.0

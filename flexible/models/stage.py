@@ -12,7 +12,7 @@ import numpy as np
 
 from rigid.kernel.compile import jit
 
-from ..contact.forces import contact_forces
+from ..contact.forces import forces_in_newton
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
 from ..ring.frame import Frame, inertia
 
@@ -161,7 +161,7 @@ def solve_stage(
         pos = pos_pred + d
         acc = d / beta**2
         vel = vel_pred + d / beta
-        contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper)
+        contact = forces_in_newton(pos[:3], u, window.rim, law, mode, before, damper, iteration == 0)
         tangent, res = contact.tangent, contact.res
         # across the bend of a smoothed friction Newton would go to and fro for ever
         if res.elastic > 0 and abs(res.way - way) > 1.5 * reach:

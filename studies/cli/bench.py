@@ -58,16 +58,19 @@ def bench(
 @out_folder("Write the map of margins here.")
 @click.option("--seed", type=click.IntRange(0, 2**31), default=0, metavar="N", help="Another sequence of scenes.")
 @click.option("--scenes", type=click.IntRange(1, 1_000_000), metavar="N", help="How many scenes; 3000 by default.")
-@click.option("--quick", is_flag=True, help="At most a minute.")
+@click.option("--soft", type=click.IntRange(0, 100_000), default=0, metavar="N", help="N more, of any stiffness.")
+@click.option("--quick", is_flag=True, help="840 scenes, in a few minutes.")
 @click.pass_context
-def stress(ctx: click.Context, as_json: bool, out: Path | None, seed: int, scenes: int | None, quick: bool) -> None:
+def stress(
+    ctx: click.Context, as_json: bool, out: Path | None, seed: int, scenes: int | None, soft: int, quick: bool
+) -> None:
     """Numerical stability over everything a user can type."""
     from ..running.progress import bar
     from ..stress.run import run_stress
 
     target = results_folder(out)
     with bar("stress") as progress:
-        report = run_stress(scenes, seed, quick, progress)
+        report = run_stress(scenes, seed, quick, progress, soft)
     if target is not None:
         from ..stress.figures import draw
 

@@ -8,7 +8,7 @@ from math import log10, pi, radians
 from rigid import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, Solve
 from rigid.elastic import LAWS
 
-RIGID_NUMBERS, HOSTILE_NUMBERS, FLEXIBLE_NUMBERS = 10, 8, 14
+RIGID_NUMBERS, HOSTILE_NUMBERS, FLEXIBLE_NUMBERS, SOFT_NUMBERS = 10, 8, 14, 9
 
 
 def sobol(count: int, numbers: int, seed: int) -> list[list[float]]:
@@ -93,6 +93,23 @@ def flexible_scene(x: list[float]) -> Scene:
     )
 
 
+def soft_scene(x: list[float]) -> Scene:
+    """A damped hoop of any stiffness through its first pulse, at the default level and tolerance.
+
+    k 0.03 to 0.6, r 1 to 1.2, m_h/m 0 to 0.3, mu 0.05 to 0.8, mu_s/mu 1 to 1.5, released at rest at 2 to 60 degrees;
+    foundation 1e6 to 1e12, bending 1 to 1e7, the two laws that stick.
+    """
+    mu, mass = _power(x[3], 0.05, 0.8), _beyond(x[2], 0.2)
+    return Scene(
+        Hoop(_power(x[0], 0.03, 0.6), 1.0 + 0.2 * x[1], 0.0 if mass is None else 0.3 * mass),
+        Friction(mu * (1.0 + 0.5 * x[4]), mu),
+        Release(radians(2 + 58 * x[5])),
+        Run(until="pulse"),
+        ring=Ring(bending_stiffness=_power(x[6], 1.0, 1e7)),
+        contact=Contact(LAWS[x[8] >= 0.5], stiffness=_power(x[7], 1e6, 1e12), damping=1.0),
+    )
+
+
 def hostile_scene(x: list[float], y: list[float]) -> Scene:
     """What a user can type, range of the model or not, for the elastic ring, to the first pulse or a moment in time.
 
@@ -126,6 +143,11 @@ def rigid_scenes(count: int, seed: int) -> Iterator[Scene]:
 def flexible_scenes(count: int, seed: int) -> Iterator[Scene]:
     """A seeded sequence."""
     return map(flexible_scene, sobol(count, FLEXIBLE_NUMBERS, seed))
+
+
+def soft_scenes(count: int, seed: int) -> Iterator[Scene]:
+    """A seeded sequence."""
+    return map(soft_scene, sobol(count, SOFT_NUMBERS, seed))
 
 
 def hostile_scenes(count: int, seed: int) -> Iterator[Scene]:

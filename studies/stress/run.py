@@ -17,13 +17,14 @@ from ..machine.processes import Processes, WorkerDied, cores
 from .checks import Checked, Margins, toml
 from .work import Bound, Work
 
-RIGID, FLEXIBLE, HOSTILE, CYCLES = "rigid", "flexible", "hostile", "cycles"
-KINDS = (RIGID, FLEXIBLE, HOSTILE, CYCLES)
+RIGID, FLEXIBLE, SOFT, HOSTILE, CYCLES = "rigid", "flexible", "soft", "hostile", "cycles"
+KINDS = (RIGID, FLEXIBLE, SOFT, HOSTILE, CYCLES)
 THOROUGH = 5  # one rigid scene in so many is also integrated in time
 TWICE = 2  # one flexible scene in so many is run again, mirrored and in SI units
 ALL_NODES = 60  # one in so many with all nodes (not with --quick)
 CHUNK = 50
 HANGS = 60.0  # seconds of processor time in one run that takes no steps, or none that are counted
+MOST_STEPS = 50_000  # of a soft scene, as many as any run takes by itself
 ENOUGH = 0.8  # of the flexible scenes within the range of the model come to their end
 
 
@@ -37,6 +38,7 @@ class Amount:
     seconds_rigid: float = 20.0
     steps: int = 12_000
     steps_hostile: int = 5_000
+    soft: int = 0
 
 
 QUICK = Amount(rigid=800, flexible=24, hostile=16, steps=5_000, steps_hostile=1_000)
@@ -156,7 +158,8 @@ class Report:
 def _find(solver: str, number: int, scene: Scene, work: Work, check: Check) -> Finding:
     """Run the checks of a scene; whatever happens is told."""
     try:
-        found, crash = check(scene, work, number), ""
+        with work.alarm():
+            found, crash = check(scene, work, number), ""
     except Bound:
         found, crash = Checked({}, "went on to the work bound", False, True), ""
     except Exception as error:
@@ -202,6 +205,7 @@ def run_chunk(task: Task) -> list[Finding]:
         CYCLES: (lambda *_: iter(cycles.HOOPS.values()), lambda scene, *_: cycles.drift(scene)),
         RIGID: (draws.rigid_scenes, rigid_check),
         FLEXIBLE: (draws.flexible_scenes, flexible_check),
+        SOFT: (draws.soft_scenes, flexible_check),
         HOSTILE: (draws.hostile_scenes, flexible_check),
     }[task.kind]
     _warm(RIGID if task.kind in (RIGID, CYCLES) else FLEXIBLE)
@@ -222,11 +226,16 @@ def _warm(kind: str) -> None:
 
         for mass in (0.1, 0.0):  # all friction laws are one compiled function
             short = scene.replace(hoop={"mass_ratio": mass}, run={"t_end": 1e-3})
-            simulate_flexible(short.replace(solve={"resolve": "all"}))
+            for level in ("reduced", "chain"):
+                simulate_flexible(short.replace(solve={"resolve": "all", "level": level}))
 
 
 def run_stress(
-    scenes: int | None = None, seed: int = 0, quick: bool = False, progress: Callable[[float], None] | None = None
+    scenes: int | None = None,
+    seed: int = 0,
+    quick: bool = False,
+    progress: Callable[[float], None] | None = None,
+    soft: int = 0,
 ) -> Report:
     """Draw, run and check.
 
@@ -237,19 +246,23 @@ def run_stress(
     seed : int
         Of the sequence.
     quick : bool
-        Within a minute on two cores.
+        Some 840 scenes instead of 3000, with fewer steps each: a few minutes on two cores.
     progress : callable, optional
         Told the fraction done.
+    soft : int
+        So many more, of any stiffness, at the default level and tolerance.
     """
     amount = QUICK if quick else WHOLE
     if scenes is not None:
         flexible, hostile = max(scenes // 9, 1), scenes // 18
         amount = replace(amount, rigid=max(scenes - flexible - hostile, 1), flexible=flexible, hostile=hostile)
+    amount = replace(amount, soft=soft)
     start = time.perf_counter()
     report = Report(seed)
     tasks = [Task(CYCLES, seed)]
     for kind, count, steps, seconds in (
         (FLEXIBLE, amount.flexible, amount.steps, HANGS),
+        (SOFT, amount.soft, MOST_STEPS, HANGS),
         (HOSTILE, amount.hostile, amount.steps_hostile, HANGS),
         (RIGID, amount.rigid, 0, amount.seconds_rigid),
     ):

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import signal
+import threading
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from flexible import FlexibleMotion
@@ -16,7 +20,8 @@ class Bound(Exception):
 class Work:
     """What a run may take.
 
-    Steps, so that a scene comes out the same on a busy machine; seconds only end what takes no steps.
+    Steps, so that a scene comes out the same on a busy machine; seconds only end what takes no steps, and within
+    :meth:`alarm` that which takes none that it tells of, too.
 
     Parameters
     ----------
@@ -44,6 +49,30 @@ class Work:
     def used(self) -> float:
         """Seconds of all runs."""
         return time.process_time() - self.first
+
+    @contextmanager
+    def alarm(self) -> Iterator[None]:
+        """Raise :class:`Bound` in whatever runs inside once its run has used up its seconds.
+
+        Where the system has no timer of processor time, or outside the main thread, only what is told of is bounded.
+        """
+        if not hasattr(signal, "setitimer") or threading.current_thread() is not threading.main_thread():
+            yield
+            return
+
+        def over(*_: Any) -> None:
+            left = self.seconds - (time.process_time() - self.start)
+            if left <= 0:
+                raise Bound
+            signal.setitimer(signal.ITIMER_PROF, left + 1e-3)
+
+        before = signal.signal(signal.SIGPROF, over)
+        signal.setitimer(signal.ITIMER_PROF, self.seconds + 1e-3)
+        try:
+            yield
+        finally:
+            signal.setitimer(signal.ITIMER_PROF, 0.0)
+            signal.signal(signal.SIGPROF, before)
 
     def __call__(self, _: float = 0.0) -> None:
         if time.process_time() - self.start > self.seconds:

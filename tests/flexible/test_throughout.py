@@ -1,5 +1,6 @@
 """Several swings and pulses in one run, flexible throughout or in the pulses only: ends, hand-back, turns, pulses."""
 
+from itertools import pairwise
 from math import pi
 
 import numpy as np
@@ -47,6 +48,22 @@ def test_a_run_to_rest_ends_where_the_rigid_hoop_would_slip_no_more(friction):
     last = max((phase.t_end for phase in exact.phases if phase.kind != Kind.ROLL), default=0.0)
     turn = next(turn.t for turn in exact.turns if turn.t >= last)
     assert motion.phases[-1].t_end == pytest.approx(turn, rel=5 * REACH)
+
+
+def test_a_swing_that_hops_lead_out_of_ends_at_its_own_turn():
+    """The rigid hoop flies for several turns, comes back, and has its first pulse where this swing has never been: an
+    end that lay behind was reached without a step, again and again."""
+    scene = STIFF.replace(
+        hoop={"k": 0.345, "r": 1.313, "mass_ratio": 0.0157}, friction={"mu_s": 9.55, "mu": 2.79},
+        release={"phi0": 0.3757, "omega0": -4.449}, run={"until": "pulse"}, landing={"restitution": 0.9225},
+        ring={"bending_stiffness": 1.1e7}, solve={"rtol": 0.009, "elements": 40},
+        contact={"law": "regularised", "stiffness": 125.6, "damping": 1.41},
+    )  # fmt: skip
+    pulse = rigid.simulate(scene.replace(friction={"mu_s": 2.79})).pulses[-1]
+    assert not -2 * pi < pulse.phi_end < 2 * pi  # beyond the swing
+    motion = flexible.simulate(scene)
+    assert motion.completed, motion.ended
+    assert all(first.t_end <= then.t_start < then.t_end for first, then in pairwise(motion.phases))
 
 
 def test_a_smooth_floor_is_no_run_without_end():

@@ -18,8 +18,8 @@ from .rim import element_at, gap_at, lift, shape_functions, sideways, upward, ve
 
 
 @jit
-def _touching(height: float, psi_start: float, width: float, y0: float, y1: float, y2: float) -> tuple[float, float]:
-    """Part [low, high] of an element, in 0..1, where the gap is negative; low > high when there is none."""
+def _lowest(height: float, psi_start: float, width: float, y0: float, y1: float, y2: float) -> tuple[float, float]:
+    """Where in an element, 0..1, the gap is least, and how large it is there."""
     c1, c2 = -3 * y0 + 4 * y1 - y2, 2 * y0 - 4 * y1 + 2 * y2
     base = height + y0
     at_start = base + lift(psi_start)
@@ -32,7 +32,17 @@ def _touching(height: float, psi_start: float, width: float, y0: float, y1: floa
             lowest = 0.0 if at_start < at_end else 1.0
             break
         lowest = min(max(lowest - slope / curvature, 0.0), 1.0)
-    bottom = base + c1 * lowest + c2 * lowest**2 + lift(psi_start + lowest * width)
+    return lowest, base + c1 * lowest + c2 * lowest**2 + lift(psi_start + lowest * width)
+
+
+@jit
+def _touching(height: float, psi_start: float, width: float, y0: float, y1: float, y2: float) -> tuple[float, float]:
+    """Part [low, high] of an element, in 0..1, where the gap is negative; low > high when there is none."""
+    c1, c2 = -3 * y0 + 4 * y1 - y2, 2 * y0 - 4 * y1 + 2 * y2
+    base = height + y0
+    at_start = base + lift(psi_start)
+    at_end = base + c1 + c2 + lift(psi_start + width)
+    lowest, bottom = _lowest(height, psi_start, width, y0, y1, y2)
     if min(bottom, at_start, at_end) >= 0:
         return 1.0, 0.0
     edges = np.array([0.0, 1.0])
@@ -52,6 +62,24 @@ def _touching(height: float, psi_start: float, width: float, y0: float, y1: floa
             s -= value / slope
         edges[side] = min(max(s, 0.0), 1.0)
     return edges[0], edges[1]
+
+
+@jit
+def least_gap(pose: Any, u: Any, rim: Rim) -> float:
+    """The least gap of a window of rim elements."""
+    s, c = sin(pose[2]), cos(pose[2])
+    least = np.inf
+    for i in range((u.shape[0] - 1) // 2):
+        start = vertex_angle(rim.vertex, rim.first + i)
+        width = vertex_angle(rim.vertex, rim.first + i + 1) - start
+        k = 2 * i
+        y0, y1, y2 = (
+            upward(u[k, 0], u[k, 1], s, c),
+            upward(u[k + 1, 0], u[k + 1, 1], s, c),
+            upward(u[k + 2, 0], u[k + 2, 1], s, c),
+        )
+        least = min(least, _lowest(pose[1], pose[2] - pi + start, width, y0, y1, y2)[1])
+    return least
 
 
 @jit
