@@ -65,6 +65,7 @@ class SeriesWriter:
                 old.unlink(missing_ok=True)
         except OSError as error:
             raise SeriesError(f"{directory} cannot hold a series: {error.strerror}.") from None
+        self._units = dict(units or {})
         about = {"title": title, "units": dict(units or {})}
         _replace(self.folder / "about.json", json.dumps(about, indent=1, ensure_ascii=False).encode())
         self._encoder = Encoder()
@@ -97,7 +98,7 @@ class SeriesWriter:
             last = self._last.get(name)
             if last is None or last[0] is not block:
                 file = f"{name}-{self._frames:05d}.vtu"
-                _replace(self.folder / file, self._encoder.encode(block, frame.time))
+                _replace(self.folder / file, self._encoder.encode(block, frame.time, name, self._units))
                 last = self._last[name] = (block, file)
             entries.append(
                 f'<DataSet timestep="{float(frame.time)!r}" group="" part="{part}" '

@@ -29,6 +29,9 @@ _TYPES: dict[str, np.dtype[Any]] = {
     "Int8": np.dtype("i1"),
 }
 _NAMES = {dtype: name for name, dtype in _TYPES.items()}
+BLOCK, UNIT = "block: ", "unit of "
+"""How the names of fields begin that say what a file holds."""
+
 _COMPONENTS = {"stress": ("xx", "yy", "xy")}
 _HEAD = b'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian"'
 _MARK = b'<AppendedData encoding="raw">\n_'
@@ -42,8 +45,13 @@ class Encoder:
     level: int = 1  # of zlib: higher ones take longer and save nothing on the low bits of doubles
     _kept: dict[int, tuple[AnyArray, list[tuple[str, bytes]]]] = field(default_factory=dict)
 
-    def encode(self, block: Block, time: float) -> bytes:
-        """The bytes of the VTU file of ``block``, with its time as VTK's field ``TimeValue``."""
+    def encode(self, block: Block, time: float, name: str = "", units: Mapping[str, str] | None = None) -> bytes:
+        """The bytes of the VTU file of ``block``, with its time as VTK's field ``TimeValue``.
+
+        What opens the file alone finds there too which block it is, ``block: ring``, and the unit of each field that
+        ``units`` has, ``unit of stress: m g/R²``: words as names of fields, each with the number 1, as not every reader
+        of VTU takes words for values.
+        """
         parts: list[bytes] = []
         offset = 0
 
@@ -56,7 +64,13 @@ class Encoder:
                 offset += len(code)
             return "\n".join(lines)
 
-        values = {"TimeValue": np.array([time]), **block.field_data}
+        known = {field: (units or {}).get(field, "") for field in (*block.point_data, *block.cell_data)}
+        words = [
+            f"{BLOCK}{name}" if name else "",
+            *(f"{UNIT}{field}: {unit}" if unit else "" for field, unit in known.items()),
+        ]
+        labels = {word: np.ones(1) for word in words if word}
+        values = {"TimeValue": np.array([time]), **labels, **block.field_data}
         header = "\n".join(
             [
                 ' header_type="UInt32" compressor="vtkZLibDataCompressor">',
@@ -145,7 +159,8 @@ def _decode(root: ElementTree.Element, data: bytes) -> Block:
     cells = arrays("Cells")
     cell_type = int(cells["types"][0])
     values = arrays("FieldData")
-    values.pop("TimeValue", None)
+    for label in [name for name in values if name == "TimeValue" or name.startswith((BLOCK, UNIT))]:
+        del values[label]
     return Block(
         points=arrays("Points")["Points"],
         cells=cells["connectivity"].reshape(-1, NODES[cell_type]),

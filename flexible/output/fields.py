@@ -37,7 +37,7 @@ from meshes import (
     von_mises,
 )
 from meshes.draw.scales import tidy
-from meshes.draw.style import SI_UNITS, UNITS
+from meshes.draw.style import SI_UNITS, UNITS, unit
 from rigid import Scene
 
 from ..motion import FlexibleMotion
@@ -110,7 +110,9 @@ def write_fields(
     si = not scene.dimensionless
     instants = instants_at(motion, when)
     painter = _Painter(scene, asked, instants)
-    with SeriesWriter(directory, SI_UNITS if si else UNITS, _title(scene)) as writer:
+    units = SI_UNITS if si else UNITS
+    units = units | {name: unit(name, units) for name in FIELDS}
+    with SeriesWriter(directory, units, _title(scene)) as writer:
         writer.history(**curves(motion, float(when[0]), float(when[-1])))
         for start in range(0, len(instants), _TOGETHER):
             for frame in painter.frames(instants[start : start + _TOGETHER]):

@@ -54,7 +54,7 @@ class Layout:
         self.units = {**style.UNITS, **units}
         width, height = size
         # type is set for a page 1280 wide and shrinks less than the page does, so that it stays legible
-        self.type = 13.0 * max(0.62, min(width / 1280, height / 900) ** 0.75)
+        self.type = 13.0 * max(0.74, min(width / 1280, height / 900) ** 0.75)
         self.figure = Figure(figsize=(width / 100, height / 100), dpi=100, facecolor=style.PAPER)
         self.canvas = FigureCanvasAgg(self.figure)
         duration = span[1] - span[0]
@@ -73,7 +73,8 @@ class Layout:
         room = width - 2.4 * em
         if colours is not None:
             room -= self._colour_bar(colours, em) + em
-        self._title(title, room, em)
+        #: pixels between which the line of the title is free
+        self._free = (self._title(title, room, em), width - (width - 2.4 * em - room) - 1.2 * em)
         if drawn:
             self._curves(below, em)
         self._over: list[tuple[tuple[slice, slice], Image, Any]] = []
@@ -153,10 +154,13 @@ class Layout:
         axes.yaxis.set_minor_locator(NullLocator())
 
     def note(self, text: str) -> None:
-        """Print a line in the middle above the picture, on every page from now on."""
-        top = self.view_box[1]
-        form = {"color": style.FAINT, "ha": "center", "va": "center", "fontsize": 0.8 * self.type}
-        self._text(self.size[0] / 2, top * 0.62, text, **form)
+        """Print a line beside the title, or below it where it would not fit, on every page from now on."""
+        em, top = self.type * 100 / 72, self.view_box[1]
+        left, right = self._free
+        form = {"color": style.FAINT, "va": "center", "fontsize": 0.8 * self.type}
+        printed = self._text(left + 1.5 * em, top * 0.62, text, moving=True, **form)
+        if printed.get_window_extent(self.canvas.get_renderer()).x1 > right - em:
+            printed.set(x=0.5, y=1 - (top + 1.3 * em) / self.size[1], ha="center")
         self.canvas.draw()
         self._blank = self.canvas.copy_from_bbox(self.figure.bbox)
 
@@ -171,19 +175,24 @@ class Layout:
         w, h = self.size
         return self.figure.add_axes((left / w, 1 - (top + height) / h, width / w, height / h))
 
-    def _title(self, title: str, room: float, em: float) -> None:
-        """The title, in smaller type where it would not fit."""
+    def _title(self, title: str, room: float, em: float) -> float:
+        """The title, in smaller type where it would not fit; where it ends, in pixels."""
         top = self.view_box[1]
         printed = self._text(1.2 * em, top * 0.62, title, color=style.INK, weight="bold", va="center")
-        needed = float(printed.get_window_extent(self.canvas.get_renderer()).width)
-        if needed > room:
-            printed.set_fontsize(max(0.6, room / needed) * self.type)
+        end = 1.2 * em
+        for _ in range(3):  # hinted letters do not shrink in proportion
+            end = float(printed.get_window_extent(self.canvas.get_renderer()).x1)
+            needed = end - 1.2 * em
+            if needed <= room:
+                break
+            printed.set_fontsize(max(0.6 * self.type, 0.99 * room / needed * printed.get_fontsize()))
+        return end
 
     def _patch(self, shots: Sequence[Shot], em: float) -> None:
         """Axes at the left, below the legend, where the hoop does not come."""
         _, top, width, height = self.view_box
-        start, foot = 8.6 * em, height * ABOVE_FLOOR - 6.2 * em
-        high, wide = min(foot - start, 0.34 * height), 0.17 * width
+        start, foot = 10.2 * em, height * ABOVE_FLOOR - 6.2 * em
+        high, wide = min(foot - start, 0.34 * height), max(0.17 * width, 11.5 * em)
         if high > 4 * em:
             axes = self._axes(3.2 * em, top + foot - high, wide, high)
             self._plot = PatchPlot(axes, list(shots), self.units, self.type)

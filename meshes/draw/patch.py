@@ -60,15 +60,15 @@ class PatchPlot:
             axes.spines[side].set_visible(False)
         for side in ("left", "bottom"):
             axes.spines[side].set_color(style.FAINT)
-        axes.tick_params(labelsize=0.75 * size, color=style.FAINT, labelcolor=style.INK, length=2, pad=1.5)
+        axes.tick_params(labelsize=0.85 * size, color=style.FAINT, labelcolor=style.INK, length=2, pad=1.5)
         axes.locator_params(nbins=4)
         axes.xaxis.set_major_formatter(lambda value, _: f"{value / 10.0**self.power_x:g}")
         axes.yaxis.set_major_formatter(lambda value, _: f"{value / 10.0**self.power:g}")
-        small: dict[str, Any] = {"fontsize": 0.75 * size, "color": style.INK}
+        small: dict[str, Any] = {"fontsize": 0.85 * size, "color": style.INK}
         axes.set_xlabel(f"x − x_C  [{_ten(self.power_x)}{units['length']}]", labelpad=1, **small)
         unit = f"[{_ten(self.power)}{style.unit('pressure', units)}]"
         axes.set_title(f"in the patch  {unit}", loc="left", pad=2 * size, **small)
-        where: dict[str, Any] = {"transform": axes.transAxes, "fontsize": 0.75 * size, "va": "bottom"}
+        where: dict[str, Any] = {"transform": axes.transAxes, "fontsize": 0.85 * size, "va": "bottom"}
         axes.text(0.0, 1.02, "pressure", color=style.NORMAL, **where)
         axes.text(1.0, 1.02, "friction", color=style.FRICTION, ha="right", **where)
         axes.axhline(0, color=style.FAINT, lw=0.6)

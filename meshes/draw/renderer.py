@@ -100,18 +100,18 @@ class Renderer:
         self._ring = _polygons(first.ring.points, faces)
         self._edge, self._ghost = _lines(first.ring.points, edges), _lines(first.ring.points, edges)
         flat: dict[str, Any] = {"lighting": False, "show_scalar_bar": False}
-        self.plotter.add_mesh(self._ghost, color=style.GHOST, line_width=width, **flat)
+        self.plotter.add_mesh(self._ghost, name="undeformed", color=style.GHOST, line_width=width, **flat)
         self.ring_actor: Any = None
         self.paint(colours)
-        self.plotter.add_mesh(self._edge, color=style.EDGE, line_width=0.8 * width, **flat)
+        self.plotter.add_mesh(self._edge, name="rim", color=style.EDGE, line_width=0.8 * width, **flat)
         self._disk = None
         if first.disk is not None:
             self._disk = _polygons(first.disk.points, first.disk.cells)
             halves = first.disk.cell_data.get("half", np.zeros(len(first.disk.cells)))
             self._disk.cell_data["half"] = halves
-            self.plotter.add_mesh(self._disk, scalars="half", cmap=list(style.DISK), clim=[0, 1], **flat)
+            self.plotter.add_mesh(self._disk, name="disk", scalars="half", cmap=list(style.DISK), clim=[0, 1], **flat)
         self._floor, self._ticks = _polygons(np.zeros((4, 3)), np.array([[0, 1, 2, 3]])), pyvista.PolyData()
-        self.plotter.add_mesh(self._floor, color=style.FLOOR, **flat)
+        self.plotter.add_mesh(self._floor, name="floor", color=style.FLOOR, **flat)
         self._floor_line = _lines(np.zeros((2, 3)), np.array([[0, 1]]))
         self.plotter.add_mesh(self._floor_line, color=style.FLOOR_EDGE, line_width=1.5 * width, **flat)
         self._ticks = _lines(np.zeros((80, 3)), np.arange(80).reshape(-1, 2))

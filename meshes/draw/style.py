@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 PAPER = "#ffffff"
 INK = "#2b2f36"
-FAINT = "#8d939c"
+FAINT = "#6f767f"
 RING = "#5b6b7d"  # a ring without a field
 EDGE = "#2f3945"
 GHOST = "#c9ced5"

@@ -111,7 +111,7 @@ def write_html(path: Path, pages: Iterator[Image], fps: int, times: NDArray[np.f
 
 
 FORMATS = {
-    ".gif": Format(60, (640, 480), write_gif),
+    ".gif": Format(60, (800, 600), write_gif),
     ".mp4": Format(150, (1280, 900), write_mp4),
     ".html": Format(60, (960, 720), write_html),
 }

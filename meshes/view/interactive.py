@@ -7,12 +7,15 @@ from typing import Any
 import numpy as np
 
 from ..draw import style
-from ..draw.layout import Layout
+from ..draw.layout import Image, Layout
+from ..draw.lens import Lens, enlargement
 from ..draw.renderer import ABOVE_FLOOR, Colours, Renderer
 from ..draw.scales import field_names, limits, sampled
+from ..draw.shots import Shot
 from .setting import Setting
 
-_HELP = "space plays, left and right step, + and - change the deformation, c the colours, q quits"
+HELP = "space plays, left and right step, [ and ] change the deformation, c the colours, q quits"
+"""What the keys do; + and - do as [ and ]."""
 _STEPS = 200
 
 
@@ -42,6 +45,8 @@ class Window:
         self.plotter: Any = self.renderer.plotter
         self.plotter.title = "hoop-pulse"
         self._overlay = Overlay(self.plotter, size, self.layout.view_box)
+        self.lens: Lens | None = None
+        self._look_closer()
         left, right = (x / size[0] for x in self.layout.time_axis)
         _, top, _, height = self.layout.view_box
         y = 1 - (top + (1 + 2 * ABOVE_FLOOR) / 3 * height) / size[1]  # on the floor
@@ -57,8 +62,8 @@ class Window:
             ("space", self.play),
             ("Right", lambda: self.step(1)),
             ("Left", lambda: self.step(-1)),
-            ("plus", lambda: self.exaggerate(2.0)),
-            ("minus", lambda: self.exaggerate(0.5)),
+            *((key, lambda: self.exaggerate(2.0)) for key in ("bracketright", "plus")),
+            *((key, lambda: self.exaggerate(0.5)) for key in ("bracketleft", "minus")),
             ("c", self.next_field),
         ):
             self.plotter.clear_events_for_key(key, raise_on_missing=False)
@@ -81,8 +86,22 @@ class Window:
         y = self.renderer.height * (floor - 0.5)
         camera.position = (camera.position[0], y, camera.position[2])
         camera.focal_point = (camera.focal_point[0], y, 0.0)
-        self._overlay.show(self.layout.fill(self._paper, shot, self.factor))
+        self._overlay.show(self.page(shot))
         self.plotter.render()
+
+    def page(self, shot: Shot) -> Image:
+        """What lies over the view: text, curves, patch and lens on white paper, (height, width, 3) bytes."""
+        view, caption = self._paper, None
+        if self.lens is not None and self.lens.fits(shot):
+            view = self._paper.copy()
+            caption = self.lens.draw(view, shot, view.shape[1] / 2, ABOVE_FLOOR * view.shape[0])
+        return self.layout.fill(view, shot, self.factor, caption)
+
+    def close(self) -> None:
+        """Free what draws."""
+        self.renderer.close()
+        if self.lens is not None:
+            self.lens.renderer.close()
 
     def play(self) -> None:
         """Start or stop."""
@@ -109,6 +128,7 @@ class Window:
         self.colours = Colours(field, *limits(shots, field, style.signed(field)))
         self.renderer.paint(self.colours)
         self._lay_out()
+        self._look_closer()
         self.go(self.time)
 
     def _tick(self, _: int) -> None:
@@ -117,9 +137,19 @@ class Window:
 
     def _lay_out(self) -> None:
         source = self.setting.source
-        self.layout = Layout(self.size, source.curves, self.span, self.colours, source.units, source.title)
-        self.layout.note(_HELP)
+        patches = self.setting.patches if self.setting.zoom == 1 else ()
+        self.layout = Layout(self.size, source.curves, self.span, self.colours, source.units, source.title, patches)
+        self.layout.note(HELP)
         self._paper = np.full((*self.layout.view_box[3:1:-1], 3), 255, dtype=np.uint8)
+
+    def _look_closer(self) -> None:
+        """A lens in the colours of the ring, where a picture has one."""
+        if self.lens is not None:
+            self.lens.renderer.close()
+        chosen, self.lens = self.setting, None
+        if self.colours is not None and chosen.zoom == 1 and enlargement(chosen.first) >= 2:
+            scale = self.size[1] / self.renderer.height
+            self.lens = Lens(chosen.first, scale, self.colours, chosen.lens_factor)
 
 
 class Overlay:

@@ -216,7 +216,7 @@ def animate(
     timing : Timing, optional
         Which instants become how many pictures, and how fast they follow each other.
     size : (width, height), optional
-        In pixels; 640 x 480 for a gif, 960 x 720 for a page, 1280 x 900 for a film.
+        In pixels; 800 x 600 for a gif, 960 x 720 for a page, 1280 x 900 for a film.
     progress : callable, optional
         Called with the number of pictures done and their total.
 

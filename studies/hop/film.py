@@ -36,7 +36,7 @@ def film(found: Chosen, path: Path, frames: int = FRAMES) -> Path:
         drawn = draw_hoop(whole, found.case.scene, steps, int(index[0]))
         (near,) = wall.plot([], [], ".-", color=OKABE_ITO["ring_strain"], ms=3)
         wall.axhline(0, color=RIGID, lw=1)
-        wall.set(xlim=(-0.3, 0.3), ylim=(-0.1 * top, top), title="the rim over the floor, heights enlarged")
+        wall.set(xlim=(-0.3, 0.3), ylim=(-0.1 * top, top), title="rim over the floor, enlarged")
         force.plot(t, history.normal_force[index], color="0.7")
         (passed,) = force.plot([], [], color=RIGID)
         force.axvspan(0, history.t[found.last] - history.t[found.first], color="0.94", zorder=0)

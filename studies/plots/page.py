@@ -30,7 +30,7 @@ tr.rigid td { border-top: 2px solid #999; font-weight: 600; }
 td.bad { color: #a33; text-align: left; white-space: normal; }
 figure { margin: 1.2rem 0 2rem; } figcaption { color: #555; font-size: .9rem; }
 .enlarge { display: block; overflow-x: auto; cursor: zoom-in; } .enlarge input { position: absolute; opacity: 0; }
-.enlarge img { width: 100%; max-width: 66rem; height: auto; display: block; }
+.enlarge img { max-width: min(100%, 66rem); height: auto; display: block; }
 .enlarge input:checked + img { width: 110rem; max-width: none; cursor: zoom-out; }
 .enlarge input:focus-visible + img { outline: 2px solid #0072B2; }
 code, pre { font: .85rem/1.45 ui-monospace, monospace; background: #f5f5f3; } pre { padding: .7rem 1rem;

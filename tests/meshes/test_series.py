@@ -103,6 +103,20 @@ def test_meshio_opens_a_frame(written):
     np.testing.assert_array_equal(mesh.point_data["stress"], ring.point_data["stress"])
 
 
+def test_a_file_alone_says_which_block_it_is_and_in_which_units(tmp_path, ring, ovals):
+    """As VTK's own reader finds it; our own reader gives the block back as it was."""
+    vtk = pytest.importorskip("pyvista")
+    units = {"displacement": "R", "stress": "m g/R²"}
+    frame = next(iter(ovals.frames(ring, [0.0])))
+    with SeriesWriter(tmp_path, units) as writer:
+        writer.add(frame)
+    for name, block in read(tmp_path)[0].blocks.items():
+        known = set(vtk.read(next((tmp_path / "fields").glob(f"{name}-*.vtu"))).field_data.keys())
+        assert f"block: {name}" in known
+        assert {f"unit of {field}: {unit}" for field, unit in units.items() if field in block.point_data} <= known
+        assert set(block.field_data) == set(frame.blocks[name].field_data)
+
+
 def test_a_block_that_does_not_change_is_written_once(written):
     directory, _ = written
     assert [path.name for path in (directory / "fields").glob("floor-*")] == ["floor-00000.vtu"]

@@ -208,6 +208,46 @@ def test_the_window_steps_stretches_and_changes_colours(series):
     opened.renderer.close()
 
 
+@needs_renderer
+def test_the_window_has_what_a_picture_has(series):
+    """The lens, where it fits; the patch's axes, where the pressure is known; the key help clear of the title."""
+    from meshes.view.interactive import HELP, Window
+
+    opened = Window(setting(series, field="hoop_stress"), off_screen=True, size=SIZE)
+    shot = SeriesSource(series).shot(0.3)
+    assert bool(opened.setting.patches) == bool(opened.layout.aside)
+    lensless = opened.layout.fill(opened._paper, shot, opened.factor)
+    if opened.lens is not None and opened.lens.fits(shot):
+        middle = (slice(SIZE[1] // 5, SIZE[1] // 2), slice(SIZE[0] // 3, 2 * SIZE[0] // 3))
+        assert (opened.page(shot)[middle] != lensless[middle]).any(axis=2).mean() > 0.05
+    texts = {text.get_text(): text.get_window_extent() for text in opened.layout.figure.texts}
+    help_box, title = texts[HELP], texts[SeriesSource(series).title]
+    assert not help_box.overlaps(title)
+    opened.close()
+
+
+@needs_renderer
+@pytest.mark.parametrize(("key", "ratio"), [("bracketright", 2.0), ("bracketleft", 0.5), ("plus", 2.0), ("minus", 0.5)])
+def test_the_keys_do_what_is_documented(series, key, ratio):
+    from meshes.view.interactive import HELP, Window
+    from studies.cli.view import view as command
+
+    opened = Window(setting(series), off_screen=True, size=SIZE)
+    before = opened.factor
+    for action in opened.plotter.iren._key_press_event_callbacks[key]:
+        action()
+    assert opened.factor == ratio * before
+    for text in (HELP, command.help, window.__doc__):
+        assert "[ and ]" in text
+    opened.close()
+
+
+@needs_renderer
+def test_what_is_drawn_goes_by_its_name(series):
+    with Camera(setting(series), SIZE) as camera:
+        assert {"ring", "rim", "disk", "floor"} <= set(camera.renderer.plotter.actors)
+
+
 def test_exaggeration_keeps_the_height_over_the_floor(series):
     shot = SeriesSource(series).shot(0.0)
     true = (shot.ring.points + shot.displacement)[:, 1].min()

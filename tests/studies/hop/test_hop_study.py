@@ -105,6 +105,18 @@ def test_thresholds_are_found_by_bisection():
 
 
 @pytest.mark.usefixtures("leaping")
+def test_the_table_has_all_hops_and_the_repr_is_short():
+    study = rolled(2)
+    frame = study.to_dataframe()
+    hops = [hop for case in study.cases for hop in case.hops]
+    assert frame["height"].notna().sum() == len(hops)
+    assert sorted(frame["height"].dropna()) == sorted(hop["height"] for hop in hops)
+    assert set(frame["bending_stiffness"]) == {case.bending_stiffness for case in study.cases}
+    assert len(repr(study).splitlines()) <= 6
+    assert "<" in study._repr_html_()
+
+
+@pytest.mark.usefixtures("leaping")
 def test_json_is_the_contract(hoop):
     status, out, err = hoop(
         "study", "hop", SCENE, "--over", "ring.bending_stiffness=0.5:100:5", "--over", "hoop.k=0.1,0.2", "--bisections",
