@@ -141,10 +141,12 @@ class ChainHoop(RimContact):
             # a soft ring bulges: in a long step another part of it may have come down
             at = predictor.pos + d
             lower, higher = self._reach(at)
-            first, count = self.window(float(at[2]), lower, higher, 0.0)
-            if window[0] <= first and first + count <= window[0] + window[1]:
+            begin, count = self.window(float(at[2]), lower, higher, 0.0)
+            if window[0] <= begin and begin + count <= window[0] + window[1]:
                 break
             low, high = self._looked = min(low, lower), max(high, higher)
+        else:  # whatever came out leaves a part of the rim below the floor
+            iterations = -2
         acc = d / predictor.beta**2
         if massless:
             acc[3:] = 0.0
