@@ -38,7 +38,13 @@ def worst(k: float, turns: Sequence[Sequence[float]]) -> float:
 
 def _ours(k: float) -> Callable[[], Any]:
     scene = scene_of(k)
-    return lambda: simulate(scene)
+
+    def run() -> rigid.Motion:
+        motion = simulate(scene)
+        len(motion.turns)  # its lists are made when they are looked at; the others return their turns too
+        return motion
+
+    return run
 
 
 def _judge_motion(k: float) -> Callable[[rigid.Motion], float]:
