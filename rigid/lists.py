@@ -20,6 +20,18 @@ KINDS = {
     at.FLIGHT: Kind.FLIGHT, at.SKIM: Kind.SKIM, at.IMPACT: Kind.IMPACT,
 }  # fmt: skip
 
+
+
+def phases_of(sequence: float) -> tuple[Kind, ...]:
+    """The phases of a pulse from the digits that the kernel notes them in; nothing of NaN."""
+    found: list[Kind] = []
+    rest = int(sequence) if sequence == sequence else 0
+    while rest:
+        rest, digit = divmod(rest, at.SEQUENCE_BASE)
+        found.append(KINDS[digit])
+    return tuple(reversed(found))
+
+
 T = TypeVar("T")
 Row = list[float]
 Sample = Callable[[Array, Side], States]
