@@ -136,13 +136,11 @@ class Batch:
         from .output.frame import pulses_of_scenes
 
         measures = ("t_start", "t_stop", "phi_start", "phi_stop", *PULSE_MEASURES, "impulse_ratio", "cut")
-        table = pulses_of_scenes({name: getattr(self, name) for name in measures}, self._of_scenes())
+        counts = {name: getattr(self, name) for name in ("phase_count", "turn_count", "pulse_count", "t_end")}
+        ended = [reason(int(code)) for code in self.code]
+        table = pulses_of_scenes({name: getattr(self, name) for name in measures}, {**counts, "ended": ended})
         table["cut"] = table["cut"] == 1
         return table
-
-    def _of_scenes(self) -> dict[str, Sequence[object]]:
-        counts = ("phase_count", "turn_count", "pulse_count", "t_end")
-        return {**{name: getattr(self, name) for name in counts}, "ended": [reason(int(code)) for code in self.code]}
 
     def phases(self, scene: int, pulse: int = 0) -> tuple[Kind, ...]:
         """What the contact does in a pulse of a scene, in its order; nothing where there is no such pulse."""

@@ -21,7 +21,6 @@ KINDS = {
 }  # fmt: skip
 
 
-
 def phases_of(sequence: float) -> tuple[Kind, ...]:
     """The phases of a pulse from the digits that the kernel notes them in; nothing of NaN."""
     found: list[Kind] = []
