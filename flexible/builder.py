@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from rigid import Hoop, Kind, Motion, Phase, Scene, Side, States, Turn, scene_to_dict
 from rigid.output.file import Stored
+from rigid.output.units import in_units
 
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range
@@ -22,7 +23,6 @@ from .segment import Segment
 from .time.adaptive import LIMITS, Limits, march
 from .time.events import Ends
 from .time.methods import METHODS
-from .units import with_units
 
 Array = NDArray[np.float64]
 
@@ -88,7 +88,7 @@ class Sampler:
             states = self.pieces[i].states(flat[mask], side)
             for name, column in columns.items():
                 column[mask] = getattr(states, name)
-        return with_units(States(**{name: c.reshape(np.shape(t)) for name, c in columns.items()}), self.scene)
+        return in_units(States(**{name: c.reshape(np.shape(t)) for name, c in columns.items()}), self.scene)
 
 
 def _lost_in_landings(motion: Motion, until: float) -> float:
@@ -212,15 +212,15 @@ class Builder:
         sample = Sampler(tuple(self.pieces), scene)
         return FlexibleMotion(
             scene=scene,
-            phases=tuple(with_units(phase, scene) for phase in self.phases),
-            turns=tuple(with_units(turn, scene) for turn in self.turns),
-            pulses=tuple(replace(with_units(pulse, scene), sample=sample) for pulse in self.pulses),
+            phases=tuple(in_units(phase, scene) for phase in self.phases),
+            turns=tuple(in_units(turn, scene) for turn in self.turns),
+            pulses=tuple(replace(in_units(pulse, scene), sample=sample) for pulse in self.pulses),
             ended=ended,
             completed=self.completed,
             sample=sample,
-            ledger=with_units(ledger, scene),
+            ledger=in_units(ledger, scene),
             steps=self.steps,
-            history=with_units(history_of(self.pieces), scene) if history else None,
+            history=in_units(history_of(self.pieces), scene) if history else None,
             kept=tuple(self.kept or ()),
         )
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Kind, Motion, Side
+from rigid.output.units import without_units
 
 from .contact.laws.law import Rolling
 from .contact.points.data import NOTHING, no_bristles
@@ -55,16 +56,9 @@ class Pose:
 
 def pose_at(motion: Motion, t: float, side: Side = "right") -> Pose:
     """The rigid motion at time ``t``, without its units; where phases meet, in the one that ``side`` says."""
-    scene = motion.scene
-    now = motion.at(t, side)
-    return Pose(
-        float(now.phi),
-        float(now.omega) * scene.time_unit,
-        float(now.slip_velocity) / scene.velocity_unit,
-        float(now.normal_force) / scene.force_unit,
-        float(now.friction_force) / scene.force_unit,
-        motion.phase_at(t, side).kind,
-    )
+    now = without_units(motion.at(t, side), motion.scene)
+    forces = float(now.normal_force), float(now.friction_force)
+    return Pose(float(now.phi), float(now.omega), float(now.slip_velocity), *forces, motion.phase_at(t, side).kind)
 
 
 def instants_around(motion: Motion, t: float) -> tuple[tuple[float, Side, float], ...]:
@@ -154,10 +148,10 @@ def hand_over(hoop: Hoop, motion: Motion, t: float) -> State:
     """The flexible hoop at time ``t`` of a rigid motion, with the rates of the equilibria around it."""
     scene = motion.scene
     pose = pose_at(motion, t)
-    now = motion.at(t)
+    now = without_units(motion.at(t), scene)
     if scene.solve.start == "undeformed" and t == 0:
         return undeformed(hoop, pose)
-    state = equilibrium(hoop, pose, t / scene.time_unit, float(now.x_C) / scene.hoop.R)
+    state = equilibrium(hoop, pose, float(now.t), float(now.x_C))
     vel = np.zeros_like(state.pos)
     vel[2] = pose.omega
     u_rate = 0.0

@@ -10,6 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Motion, Phase, Pulse
+from rigid.output.units import (
+    AngularAcceleration,
+    AngularVelocity,
+    Energy,
+    Force,
+    Impulse,
+    Length,
+    Number,
+    Time,
+    Velocity,
+)
 
 if TYPE_CHECKING:
     import pandas
@@ -36,17 +47,17 @@ class Ledger:
     others leave unexplained; it tends to zero faster than ``numerical_loss``, like rtol^(3/2).
     """
 
-    initial: float
-    kinetic: float
-    gravity: float
-    ring_strain: float
-    contact_spring: float
-    friction_loss: float
-    landing_loss: float
-    damping_loss: float
-    hand_over: float
-    numerical_loss: float
-    residual: float
+    initial: Energy[float]
+    kinetic: Energy[float]
+    gravity: Energy[float]
+    ring_strain: Energy[float]
+    contact_spring: Energy[float]
+    friction_loss: Energy[float]
+    landing_loss: Energy[float]
+    damping_loss: Energy[float]
+    hand_over: Energy[float]
+    numerical_loss: Energy[float]
+    residual: Energy[float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,11 +68,11 @@ class FlexiblePulse(Pulse):
     the ring's strain and of the contact's springs; ``phases`` is what the patch does inside.
     """
 
-    time_off_floor: float
-    ring_energy_peak: float
-    contact_energy_peak: float
-    damping_loss: float
-    numerical_loss: float
+    time_off_floor: Time[float]
+    ring_energy_peak: Energy[float]
+    contact_energy_peak: Energy[float]
+    damping_loss: Energy[float]
+    numerical_loss: Energy[float]
     phases: tuple[Phase, ...]
 
 
@@ -72,27 +83,27 @@ class History:
     Losses and impulses are running totals.
     """
 
-    t: Array
-    phi: Array
-    omega: Array
-    alpha: Array
-    x_C: Array
-    y_C: Array
-    slip_velocity: Array  # of the patch's centre against the floor, tangential
-    approach_velocity: Array  # of the patch's centre, upward
-    normal_force: Array
-    friction_force: Array
-    patch_length: Array
-    stick_fraction: Array
-    kinetic: Array
-    gravity: Array
-    ring_strain: Array
-    contact_spring: Array
-    friction_loss: Array
-    damping_loss: Array
-    numerical_loss: Array
-    normal_impulse: Array
-    friction_impulse: Array
+    t: Time[Array]
+    phi: Number[Array]
+    omega: AngularVelocity[Array]
+    alpha: AngularAcceleration[Array]
+    x_C: Length[Array]
+    y_C: Length[Array]
+    slip_velocity: Velocity[Array]  # of the patch's centre against the floor, tangential
+    approach_velocity: Velocity[Array]  # of the patch's centre, upward
+    normal_force: Force[Array]
+    friction_force: Force[Array]
+    patch_length: Length[Array]
+    stick_fraction: Number[Array]
+    kinetic: Energy[Array]
+    gravity: Energy[Array]
+    ring_strain: Energy[Array]
+    contact_spring: Energy[Array]
+    friction_loss: Energy[Array]
+    damping_loss: Energy[Array]
+    numerical_loss: Energy[Array]
+    normal_impulse: Impulse[Array]
+    friction_impulse: Impulse[Array]
 
     def __repr__(self) -> str:
         return f"History({len(self.t)} steps)"

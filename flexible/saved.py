@@ -7,12 +7,12 @@ from typing import Any
 
 from rigid import Kind, Motion, Phase, Scene, Turn, scene_from_dict
 from rigid.output.file import Stored, read
+from rigid.output.units import in_units
 from rigid.solve import unstored
 
 from .builder import Piece, Sampler, history_of
 from .motion import FlexibleMotion, FlexiblePulse, Ledger
 from .segment import Segment
-from .units import dimensionless, with_units
 
 
 def load_motion(path: str | PathLike[str]) -> Motion:
@@ -30,7 +30,7 @@ def load_motion(path: str | PathLike[str]) -> Motion:
 
 def _flexible(stored: Stored, scene: Scene) -> Motion:
     told = stored.told
-    hoop = dimensionless(scene).hoop
+    hoop = scene.to_dimensionless().hoop
     pieces = tuple(_piece(number, piece, stored, hoop) for number, piece in enumerate(told["pieces"]))
     sample = Sampler(pieces, scene)
     return FlexibleMotion(
@@ -43,7 +43,7 @@ def _flexible(stored: Stored, scene: Scene) -> Motion:
         sample=sample,
         ledger=Ledger(**told["ledger"]),
         steps=told["steps"],
-        history=with_units(history_of(pieces), scene) if told["history"] else None,
+        history=in_units(history_of(pieces), scene) if told["history"] else None,
     )
 
 

@@ -33,7 +33,6 @@ from .motion import FlexibleMotion, FlexiblePulse
 from .segment import Segment
 from .time.events import Ends
 from .time.step import MarchError
-from .units import dimensionless
 
 Progress = Callable[[float], object]
 
@@ -88,7 +87,7 @@ def simulate(
         raise rigid.SceneError(
             "hoop.k = 0 is not possible here: the flexible hoop needs a disk with a radius, or a hoop with a mass."
         )
-    inner = dimensionless(scene)
+    inner = scene.to_dimensionless()
     hoop = hoop_of(inner)
     builder = Builder(inner)
     builder.range = Range(hoop)

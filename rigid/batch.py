@@ -20,6 +20,7 @@ from .kernel.layout import HOPS, MORE, ORDER, RECORDS, SERIES, STATE, STEPS, WID
 from .lists import phases_of
 from .motion import Array, Kind
 from .output import summary
+from .output.units import without_units
 from .phases.choice import entry_run, release_from
 from .phases.reasons import reason
 from .record.pulse import cut_pulse
@@ -250,21 +251,10 @@ def _table(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
         return np.ascontiguousarray(table)
     rows = []
     for scene in map(as_scene, scenes):
-        hoop, friction, release = scene.hoop, scene.friction, scene.release
-        time = scene.time_unit
-        rows.append(
-            (
-                hoop.k,
-                hoop.r,
-                hoop.mass_ratio,
-                friction.mu_s,
-                friction.mu,
-                release.phi0,
-                release.omega0 * time,
-                release.slip0 * time / hoop.R,
-                scene.landing.restitution,
-            )
-        )
+        hoop, friction, release = scene.hoop, scene.friction, without_units(scene.release, scene)
+        hoop_and_friction = (hoop.k, hoop.r, hoop.mass_ratio, friction.mu_s, friction.mu)
+        bounce = scene.landing.restitution
+        rows.append((*hoop_and_friction, release.phi0, release.omega0, release.slip0, bounce))
     return np.array(rows, dtype=float).reshape(len(rows), len(QUANTITIES))
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from .kernel import layout as at
 from .kernel.angle import angle_of
 from .motion import Array, Kind, Phase, Pulse, Side, States, Turn
+from .output.units import in_units
 from .scene import Scene
 
 KINDS = {
@@ -248,31 +249,27 @@ class Listing:
         return Start(KINDS.get(int(row[0])), row[1] * self.scene.time_unit, angle_of(row[2], row[3], row[4]))
 
     def _turn(self, row: Row) -> Turn:
-        scene = self.scene
-        return Turn(
-            row[1] * scene.time_unit,
-            angle_of(row[2], row[3], row[4]),
-            row[6] * scene.velocity_unit,
-            row[at.TURN_ENERGY] * (1 + scene.hoop.mass_ratio) * scene.energy_unit,
-        )
+        energy = row[at.TURN_ENERGY] * (1 + self.scene.hoop.mass_ratio)
+        return in_units(Turn(row[1], angle_of(row[2], row[3], row[4]), row[6], energy), self.scene)
 
     def _pulse(self, row: Row) -> Pulse:
-        scene, mass = self.scene, 1 + self.scene.hoop.mass_ratio
-        return Pulse(
-            t_start=row[1] * scene.time_unit,
-            t_end=row[5] * scene.time_unit,
+        mass = 1 + self.scene.hoop.mass_ratio
+        pulse = Pulse(
+            t_start=row[1],
+            t_end=row[5],
             phi_start=angle_of(*row[2:5]),
             phi_end=angle_of(*row[6:9]),
-            normal_impulse=row[9] * mass * scene.impulse_unit,
-            friction_impulse=row[10] * mass * scene.impulse_unit,
-            friction_loss=row[11] * mass * scene.energy_unit,
-            peak_normal_force=row[12] * mass * scene.force_unit,
+            normal_impulse=row[9] * mass,
+            friction_impulse=row[10] * mass,
+            friction_loss=row[11] * mass,
+            peak_normal_force=row[12] * mass,
             newton_restitution=row[13],
             poisson_restitution=row[14],
             energetic_restitution=row[15],
             cut=bool(row[at.PULSE_CUT]),
             sample=self.sample,
         )
+        return in_units(pulse, self.scene)
 
 
 def merged(starts: list[Row], end: Row) -> list[Row]:

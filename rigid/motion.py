@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .output import sampling, summary
+from .output.units import AngularAcceleration, AngularVelocity, Energy, Force, Impulse, Length, Number, Time, Velocity
 from .scene import Scene
 from .scenefile import scene_to_dict
 
@@ -45,20 +46,20 @@ class Phase:
     """A stretch of time in which the contact does one thing; an impact has no duration."""
 
     kind: Kind
-    t_start: float
-    t_end: float
-    phi_start: float
-    phi_end: float
+    t_start: Time[float]
+    t_end: Time[float]
+    phi_start: Number[float]
+    phi_end: Number[float]
 
 
 @dataclass(frozen=True, slots=True)
 class Turn:
     """An instant with phidot = 0 after release."""
 
-    t: float
-    phi: float
-    slip_velocity: float
-    energy: float
+    t: Time[float]
+    phi: Number[float]
+    slip_velocity: Velocity[float]
+    energy: Energy[float]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,17 +74,17 @@ class Pulse:
     restitutions NaN. ``sample`` is that of the motion which the pulse is a part of.
     """
 
-    t_start: float
-    t_end: float
-    phi_start: float
-    phi_end: float
-    normal_impulse: float
-    friction_impulse: float
-    friction_loss: float
-    peak_normal_force: float
-    newton_restitution: float
-    poisson_restitution: float
-    energetic_restitution: float
+    t_start: Time[float]
+    t_end: Time[float]
+    phi_start: Number[float]
+    phi_end: Number[float]
+    normal_impulse: Impulse[float]
+    friction_impulse: Impulse[float]
+    friction_loss: Energy[float]
+    peak_normal_force: Force[float]
+    newton_restitution: Number[float]
+    poisson_restitution: Number[float]
+    energetic_restitution: Number[float]
     cut: bool = False
     sample: Callable[[Array, Side], States] | None = field(default=None, repr=False, compare=False)
 
@@ -126,16 +127,16 @@ class States:
     of the contact point, F is positive to the right. N, F and ``alpha`` jump where phases meet.
     """
 
-    t: Array
-    phi: Array
-    omega: Array
-    alpha: Array
-    x_C: Array
-    y_C: Array
-    slip_velocity: Array
-    normal_force: Array
-    friction_force: Array
-    energy: Array
+    t: Time[Array]
+    phi: Number[Array]
+    omega: AngularVelocity[Array]
+    alpha: AngularAcceleration[Array]
+    x_C: Length[Array]
+    y_C: Length[Array]
+    slip_velocity: Velocity[Array]
+    normal_force: Force[Array]
+    friction_force: Force[Array]
+    energy: Energy[Array]
 
 
 @dataclass(frozen=True, repr=False)

@@ -15,7 +15,7 @@ import dataclasses
 import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import degrees, inf, pi, sqrt
+from math import degrees, inf, pi
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from .allowed import SceneError, answering, require, require_choice, require_whole, unknown
 from .elastic import Contact, Ring, Solve
+from .output.units import AngularVelocity, Measured, Number, Time, Velocity, without_units
 
 N = TypeVar("N", float, NDArray[np.float64])
 
@@ -137,9 +138,9 @@ class Release:
     looks like degrees, which a warning says.
     """
 
-    phi0: float
-    omega0: float = 0.0
-    slip0: float = 0.0
+    phi0: Number[float]
+    omega0: AngularVelocity[float] = 0.0
+    slip0: Velocity[float] = 0.0
 
     if TYPE_CHECKING:
 
@@ -171,7 +172,7 @@ class Run:
     """
 
     turns: int | None = None
-    t_end: float | None = None
+    t_end: Time[float | None] = None
     until: str | None = None
 
     def __post_init__(self) -> None:
@@ -204,7 +205,7 @@ class Landing:
 
 @answering(None)
 @dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(Measured):
     """Everything both solvers need to know; see the parts for their parameters.
 
     Examples
@@ -234,35 +235,10 @@ class Scene:
             return 1 - 1 / self.hoop.r
         return 0.02 if self.ring.thickness is None else self.ring.thickness
 
-    @property
-    def dimensionless(self) -> bool:
-        """Whether it is in the paper's scaling."""
-        return self.hoop.R == self.hoop.m == self.hoop.g == 1
-
-    @property
-    def time_unit(self) -> float:
-        """sqrt(R/g)."""
-        return sqrt(self.hoop.R / self.hoop.g)
-
-    @property
-    def velocity_unit(self) -> float:
-        """sqrt(g R)."""
-        return sqrt(self.hoop.R * self.hoop.g)
-
-    @property
-    def force_unit(self) -> float:
-        """m g."""
-        return self.hoop.m * self.hoop.g
-
-    @property
-    def energy_unit(self) -> float:
-        """m g R."""
-        return self.hoop.m * self.hoop.g * self.hoop.R
-
-    @property
-    def impulse_unit(self) -> float:
-        """m sqrt(g R)."""
-        return self.hoop.m * self.velocity_unit
+    def to_dimensionless(self) -> Scene:
+        """The same scene in the paper's scaling, R = m = g = 1."""
+        release, run = without_units(self.release, self), without_units(self.run, self)
+        return self.replace(hoop={"R": 1.0, "m": 1.0, "g": 1.0}, release=release, run=run)
 
     def replace(self, **changes: Any) -> Scene:
         """A copy with keys of its parts changed, each part given as a dict: ``scene.replace(hoop={"k": 0.2})``.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf, pi
 from os import PathLike
@@ -17,6 +17,7 @@ from .kernel.compile import compiled
 from .lists import Deferred, Listing, Row
 from .motion import Array, Motion, Side, States
 from .output.file import Stored, read
+from .output.units import in_units, without_units
 from .phases import instant
 from .phases.choice import MOST_STALLS, entry_run, release_from
 from .phases.reasons import reason
@@ -41,7 +42,7 @@ def parameters(scene: Scene) -> list[float]:
     if is_point_mass(constants):
         e, one_minus_e, gyr, zeta = 1.0, 0.0, 0.0, 0.0
     turns = inf if run.turns is None else float(run.turns)
-    t_end = inf if run.t_end is None else run.t_end / scene.time_unit
+    t_end = without_units(run, scene).t_end
     friction = scene.friction
     bounce = scene.landing.restitution
     return [
@@ -53,17 +54,16 @@ def parameters(scene: Scene) -> list[float]:
         friction.mu,
         bounce,
         turns,
-        t_end,
+        inf if t_end is None else t_end,
         float(UNTIL_CODES[run.until]),
     ]
 
 
 def release_state(scene: Scene) -> list[float]:
     """The state at t = 0 (see :mod:`rigid.kernel.layout`)."""
-    release = scene.release
+    release = without_units(scene.release, scene)
     state = [0.0] * at.STATE
-    omega0, slip0 = float(release.omega0 * scene.time_unit), float(release.slip0 / scene.velocity_unit)
-    release_from(state, release.phi0, omega0, slip0)
+    release_from(state, release.phi0, float(release.omega0), float(release.slip0))
     state[at.STEPS] = float(STEPS)
     return state
 
@@ -257,20 +257,9 @@ class Sampler:
         table[order] = rows
         columns = [column.reshape(t.shape) for column in table.T]
         phi, omega, x, gap, slip, normal, friction, energy, alpha = columns
-        hoop = scene.hoop
-        mass = 1 + hoop.mass_ratio
-        return States(
-            t=t,
-            phi=phi,
-            omega=omega / scene.time_unit,
-            alpha=alpha / scene.time_unit**2,
-            x_C=x * hoop.R,
-            y_C=(1 + gap) * hoop.R,
-            slip_velocity=slip * scene.velocity_unit,
-            normal_force=normal * mass * scene.force_unit,
-            friction_force=friction * mass * scene.force_unit,
-            energy=energy * mass * scene.energy_unit,
-        )
+        mass = 1 + scene.hoop.mass_ratio
+        found = States(t, phi, omega, alpha, x, 1 + gap, slip, normal * mass, friction * mass, energy * mass)
+        return replace(in_units(found, scene), t=t)  # to the last bit as asked for
 
     def _rows(self, times: Array, owner: NDArray[np.int64]) -> Array:
         """A row of the kernel's columns for each time, in the phase of the number ``owner``."""

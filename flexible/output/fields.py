@@ -107,7 +107,7 @@ def write_fields(
         raise SeriesError("the motion kept no states of the ring: simulate(scene, history=True) does.")
     when = times_of(motion, frames, times, pulse)
     scene = motion.scene
-    si = not scene.hoop.R == scene.hoop.m == scene.hoop.g == 1
+    si = not scene.dimensionless
     instants = instants_at(motion, when)
     painter = _Painter(scene, asked, instants)
     with SeriesWriter(directory, SI_UNITS if si else UNITS, _title(scene)) as writer:

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from meshes import Placement, SeriesError, frame_times
 from rigid import Pulse
+from rigid.output.units import without_units
 
 from ..models.state import State
 from ..motion import FlexibleMotion, Kept
@@ -86,10 +87,10 @@ def _instant(motion: FlexibleMotion, clocks: list[Array], t: float, told: float)
         place = Placement(float(state.pos[2]), state.x_C, 1 + float(state.pos[1]))
         velocity = (float(state.vel[0] + state.vel[2]), float(state.vel[1]))
         return Instant(told, place, velocity, float(state.vel[2]), kept, state, before, after)
-    now, R, unit = motion.at(told), motion.scene.hoop.R, motion.scene.velocity_unit
-    place = Placement(float(now.phi), float(now.x_C) / R, float(now.y_C) / R)
-    omega = float(now.omega) * motion.scene.time_unit
-    return Instant(told, place, (omega + float(now.slip_velocity) / unit, 0.0), omega)
+    now = without_units(motion.at(told), motion.scene)
+    place = Placement(float(now.phi), float(now.x_C), float(now.y_C))
+    omega = float(now.omega)
+    return Instant(told, place, (omega + float(now.slip_velocity), 0.0), omega)
 
 
 def instants_at(motion: FlexibleMotion, times: Array) -> list[Instant]:

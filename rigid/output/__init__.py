@@ -1,5 +1,6 @@
 """A motion for people: where to sample it, as curves, as a table, in a few lines of text, in a file.
 
+``units``     what a quantity is measured in, part of its definition; the solvers' numbers and a scene's
 ``sampling``  times between which forces are straight
 ``axes``      curves over time or angle, in matplotlib
 ``summary``   text of a screen's length, and the same as HTML

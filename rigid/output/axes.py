@@ -8,22 +8,24 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .units import Unit
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Array = NDArray[np.float64]
 
 _WORDS = {
-    "t": ("time", "$t$", r"\sqrt{R/g}"),
-    "phi": ("angle", r"$\varphi$", "rad"),
-    "omega": ("angular velocity", r"$\dot\varphi$", r"\sqrt{g/R}"),
-    "alpha": ("angular acceleration", r"$\ddot\varphi$", "g/R"),
-    "x_C": ("way of the centre", "$x_C$", "R"),
-    "y_C": ("height of the centre", "$y_C$", "R"),
-    "slip_velocity": ("slip velocity", "$v$", r"\sqrt{gR}"),
-    "normal_force": ("normal force", "$N$", "mg"),
-    "friction_force": ("friction force", "$F$", "mg"),
-    "energy": ("energy", "$E$", "mgR"),
+    "t": ("time", "$t$", Unit.TIME),
+    "phi": ("angle", r"$\varphi$", Unit.NUMBER),
+    "omega": ("angular velocity", r"$\dot\varphi$", Unit.ANGULAR_VELOCITY),
+    "alpha": ("angular acceleration", r"$\ddot\varphi$", Unit.ANGULAR_ACCELERATION),
+    "x_C": ("way of the centre", "$x_C$", Unit.LENGTH),
+    "y_C": ("height of the centre", "$y_C$", Unit.LENGTH),
+    "slip_velocity": ("slip velocity", "$v$", Unit.VELOCITY),
+    "normal_force": ("normal force", "$N$", Unit.FORCE),
+    "friction_force": ("friction force", "$F$", Unit.FORCE),
+    "energy": ("energy", "$E$", Unit.ENERGY),
 }
 """Name, symbol and unit of everything that a state has."""
 
@@ -41,7 +43,7 @@ def label(name: str, dimensionless: bool) -> str:
     words, symbol, unit = _WORDS[name]
     if name == "phi":
         return f"{words} {symbol} (rad)"
-    return f"{words} {symbol[:-1]}/{_grouped(unit)}$" if dimensionless else f"{words} {symbol}"
+    return f"{words} {symbol[:-1]}/{_grouped(unit.formula)}$" if dimensionless else f"{words} {symbol}"
 
 
 def _grouped(unit: str) -> str:

@@ -19,6 +19,8 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogLocator, MaxNLocator
 from scipy.ndimage import distance_transform_edt
 
+from rigid.output.units import without_units
+
 from ..plots.style import STYLE, blank, power_of_ten
 from .plane import NO_HOOP, NO_PULSE, SYMBOLS, Plane, Region
 from .refine import Map
@@ -131,16 +133,8 @@ def label(axes: Axes, mask: Any, text: int) -> None:
     i, j = np.unravel_index(int(np.argmax(room)), room.shape)
     if room[i, j] < 0.012 * len(room):
         return
-    axes.text(
-        float(place[0]),
-        float(place[1]),
-        str(text),
-        ha="center",
-        va="center",
-        fontsize=11,
-        weight="bold",
-        path_effects=HALO,
-    )
+    x, y = (float(p * step + step / 2) / len(mask) for p in (j, i))
+    axes.text(x, y, str(text), ha="center", va="center", fontsize=11, weight="bold", path_effects=HALO)
 
 
 def points(atlas: Drawn, axes: Axes) -> None:
@@ -171,14 +165,14 @@ def frame(atlas: Drawn, axes: Axes) -> None:
 def fixed(atlas: Drawn) -> str:
     """What the map does not vary."""
     scene, keys = atlas.plane.scene, atlas.plane.keys
-    hoop, friction, release = scene.hoop, scene.friction, scene.release
+    hoop, friction, release = scene.hoop, scene.friction, without_units(scene.release, scene)
     said = [
         ("hoop.k", f"$k = {hoop.k:g}$"),
         ("hoop.r", f"$r = {hoop.r:g}$"),
         ("hoop.mass_ratio", f"$m_h/m = {hoop.mass_ratio:g}$"),
         ("release.phi0_deg", rf"from $\varphi_0 = {release.phi0_deg:.4g}°$"),
-        ("release.omega0", rf"$\omega_0 = {release.omega0 * scene.time_unit:.4g}$"),
-        ("release.slip0", f"$v_0 = {release.slip0 / scene.velocity_unit:.4g}$"),
+        ("release.omega0", rf"$\omega_0 = {release.omega0:.4g}$"),
+        ("release.slip0", f"$v_0 = {release.slip0:.4g}$"),
     ]
     told = [text for key, text in said if key not in keys and not text.endswith("= 0$")]
     varied = {"friction.mu", "friction.mu_s"} & set(keys)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Kind, Scene, SceneError, load_scene, scene_names, simulate_batch
+from rigid.output.units import without_units
 
 Array = NDArray[np.float64]
 
@@ -106,15 +107,14 @@ class Plane:
     def hoops(self, x: Array, y: Array) -> dict[str, Array]:
         """The table that :func:`rigid.simulate_batch` takes, for values of the two quantities."""
         scene, values = self.scene, dict(zip(self.keys, (x, y), strict=True))
-        friction, release = scene.friction, scene.release
-        omega0, slip0 = release.omega0 * scene.time_unit, release.slip0 / scene.velocity_unit
+        friction, release = scene.friction, without_units(scene.release, scene)
         told = {
             "k": values.get("hoop.k", scene.hoop.k),
             "r": values.get("hoop.r", scene.hoop.r),
             "mass_ratio": values.get("hoop.mass_ratio", scene.hoop.mass_ratio),
             "phi0": np.deg2rad(values["release.phi0_deg"]) if "release.phi0_deg" in values else release.phi0,
-            "omega0": values.get("release.omega0", omega0),
-            "slip0": values.get("release.slip0", slip0),
+            "omega0": values.get("release.omega0", release.omega0),
+            "slip0": values.get("release.slip0", release.slip0),
             "restitution": values.get("landing.restitution", scene.landing.restitution),
         }
         ratio = friction.mu_s / friction.mu if friction.mu > 0 else 1.0

@@ -17,6 +17,7 @@ from flexible import History
 from flexible.models.select import Hoop
 from flexible.models.state import State
 from flexible.output.body import whole
+from rigid.output.units import Energy
 
 Array = NDArray[np.float64]
 
@@ -25,27 +26,27 @@ Array = NDArray[np.float64]
 class HopEnergies:
     """Energies of one hop, in the unit of the scene."""
 
-    stored_in_ring: float
+    stored_in_ring: Energy[float]
     """Strain of the ring at the instant at which ring and floor store most within the last slow period on the floor."""
-    stored_in_floor: float
+    stored_in_floor: Energy[float]
     """Springs of the contact then."""
-    mass_centre: float
+    mass_centre: Energy[float]
     """From then to the lift-off: gain of the mass centre's vertical motion and height, the work of N on it."""
-    rolling: float
+    rolling: Energy[float]
     """Gain of its horizontal motion and of the rotation of the whole."""
-    vibration: float
+    vibration: Energy[float]
     """What vibration has at lift-off: strain, and kinetic energy beyond that of a rigid motion."""
-    vibration_before: float
+    vibration_before: Energy[float]
     """Kinetic energy of vibration at the first instant."""
-    friction: float
+    friction: Energy[float]
     """Lost to friction between the two."""
-    damping: float
+    damping: Energy[float]
     """Lost to the contact's damper."""
-    numerical: float
+    numerical: Energy[float]
     """Lost to the integrator's error, by its own estimate."""
-    upward: float
+    upward: Energy[float]
     """Energy of the mass centre's upward motion at lift-off: with this it would rise against gravity."""
-    landing: float
+    landing: Energy[float]
     """Lost to friction and damper within a slow period after coming down, and before the next flight."""
 
     @property

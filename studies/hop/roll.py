@@ -13,10 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from flexible import FlexibleMotion, History, simulate
+from flexible import FlexibleMotion, simulate
 from flexible.output.body import lowest
 from rigid import Run, Scene
 from rigid import simulate as rigid_motion
+from rigid.output.units import Length, Number, Time, in_units, without_units
 
 from ..running.files import StudyError
 from .energies import HopEnergies, Roll, hop_energies
@@ -35,17 +36,17 @@ a case comes out the same on a busy machine."""
 class Flight:
     """A time without contact, in the units of the scene."""
 
-    t: float
+    t: Time[float]
     """Lift-off: the rim's lowest point passes the floor."""
-    phi: float
+    phi: Number[float]
     """Where the disk is then."""
-    duration: float
+    duration: Time[float]
     """Until it passes it again, or to the end of the motion."""
-    height: float
+    height: Length[float]
     """Of the rim's lowest point, the largest on the way."""
-    prominence: float
+    prominence: Number[float]
     """See :meth:`studies.hop.rule.Scales.prominence`."""
-    swept: float
+    swept: Number[float]
     """The largest angle that the disk has come down from its release by then: tells the first pass of the bottom."""
     energies: HopEnergies | None = None
     """Of flights that may count as a hop."""
@@ -68,11 +69,7 @@ class RollingMotion(FlexibleMotion):
             **{name: told[name] for name in ("scene", "ended", "completed", "energy_ledger", "steps")},
             "t_end": self.t_end,
             "swept": self.swept,
-            "scales": {
-                "depth": self.scales.depth * self.scene.hoop.R,
-                "sag": self.scales.sag * self.scene.hoop.R,
-                "period": self.scales.period * self.scene.time_unit,
-            },
+            "scales": dataclasses.asdict(in_units(self.scales, self.scene)),
             "flights": [dataclasses.asdict(flight) for flight in self.flights],
         }
 
@@ -106,27 +103,15 @@ def steps_of(motion: FlexibleMotion) -> Roll:
     """The steps of a flexible motion as one run, in the solver's units."""
     history = motion.history
     assert history is not None
-    scene = motion.scene
-    units = {
-        **dict.fromkeys(("t",), scene.time_unit),
-        **dict.fromkeys(("normal_force", "friction_force"), scene.force_unit),
-        **dict.fromkeys(("x_C", "y_C"), scene.hoop.R),
-        **dict.fromkeys(
-            ("kinetic", "gravity", "ring_strain", "contact_spring", *_TOTALS),
-            scene.energy_unit,
-        ),
-    }
-    columns = {}
+    told = without_units(history, motion.scene)
+    totals = {}
     lengths = [len(kept.states) for kept in motion.kept]
-    for entry in dataclasses.fields(History):
-        column = getattr(history, entry.name) / units.get(entry.name, 1.0)
-        if entry.name in _TOTALS:  # of each swing: from the beginning on
-            swings = np.split(column, np.cumsum(lengths)[:-1])
-            carried = np.concatenate([[0.0], np.cumsum([swing[-1] for swing in swings])])
-            column = np.concatenate([swing + before for swing, before in zip(swings, carried, strict=False)])
-        columns[entry.name] = column
+    for name in _TOTALS:  # of each swing: from the beginning on
+        swings = np.split(getattr(told, name), np.cumsum(lengths)[:-1])
+        carried = np.concatenate([[0.0], np.cumsum([swing[-1] for swing in swings])])
+        totals[name] = np.concatenate([swing + before for swing, before in zip(swings, carried, strict=False)])
     states = [state for kept in motion.kept for state in kept.states]
-    return Roll(motion.kept[0].hoop, states, History(**columns))
+    return Roll(motion.kept[0].hoop, states, dataclasses.replace(told, **totals))
 
 
 _TOTALS = ("friction_loss", "damping_loss", "numerical_loss")
@@ -143,17 +128,8 @@ def _with_flights(values: dict[str, Any], steps: Roll) -> RollingMotion:
     for first, last in spans(history.normal_force == 0):
         found = _flight(steps, first, last, scales)
         if found.prominence >= DECADE[0] and first > 0:
-            energies = hop_energies(steps, first, last, slow)
-            found = dataclasses.replace(found, energies=_scaled(energies, scene.energy_unit))
-        flights.append(
-            dataclasses.replace(
-                found,
-                t=found.t * scene.time_unit,
-                duration=found.duration * scene.time_unit,
-                height=found.height * scene.hoop.R,
-                swept=float(swept[first]),
-            )
-        )
+            found = dataclasses.replace(found, energies=hop_energies(steps, first, last, slow))
+        flights.append(in_units(dataclasses.replace(found, swept=float(swept[first])), scene))
     return RollingMotion(**values, flights=tuple(flights), scales=scales, swept=float(swept[-1]))
 
 
@@ -182,7 +158,3 @@ def _passes(gap: dict[int, float], on: int, off: int) -> float:
     """Share of the step between an instant on the floor and one off it that lies off it."""
     rise = gap[off] - gap[on]
     return min(max(gap[off] / rise, 0.0), 1.0) if rise > 0 else 0.0
-
-
-def _scaled(energies: HopEnergies, unit: float) -> HopEnergies:
-    return HopEnergies(**{name: value * unit for name, value in dataclasses.asdict(energies).items()})

@@ -13,6 +13,7 @@ from math import inf, pi
 import numpy as np
 
 from rigid import Scene
+from rigid.output.units import Length, Time
 
 HEIGHT_OVER_DEPTH = 10.0
 HEIGHT_OVER_SAG = 0.01
@@ -27,11 +28,11 @@ DECADE = (10**-0.5, 10**0.5)
 class Scales:
     """What a flight is measured by; lengths in R, times in sqrt(R/g)."""
 
-    depth: float
+    depth: Length[float]
     """To which a rigid hoop's patch is pressed in by the weight of disk and hoop."""
-    sag: float
+    sag: Length[float]
     """Of the hoop's centre, in the equilibrium from which it is released; the patch's depth is in it."""
-    period: float
+    period: Time[float]
     """Of the slowest vibration of the ring about the weld; 0 of a ring without mass."""
 
     def prominence(self, height: float, duration: float) -> float:

@@ -9,6 +9,7 @@ from flexible import rigid_limit
 from flexible.contact.laws.listing import LAWS
 from flexible.solve import LEAD
 from rigid import Kind, Motion, Pulse, Run, Scene, simulate
+from rigid.output.units import without_units
 
 from ..running.files import StudyError
 from .body import Body, body_of
@@ -122,5 +123,5 @@ def passage(scene: Scene) -> Passage:
 
 def _state(motion: Motion, t: float, turn: float) -> tuple[float, float, float]:
     """(phidot, psi, slip velocity) of the rigid motion at a time, dimensionless."""
-    now, scene = motion.at(t), motion.scene
-    return float(now.omega) * scene.time_unit, float(now.phi) - turn, float(now.slip_velocity) / scene.velocity_unit
+    now = without_units(motion.at(t), motion.scene)
+    return float(now.omega), float(now.phi) - turn, float(now.slip_velocity)

@@ -14,7 +14,7 @@ from rigid.kernel.announce import running_clock
 
 from .files import plain
 from .history import Columns, through
-from .measures import measures, phase_sequence
+from .measures import MEASURES, measures, phase_sequence
 from .solvers import build, solver, version
 
 SHARE = 0.1
@@ -244,7 +244,7 @@ def _pair(case: Case, rtol: float, most: float = inf) -> tuple[dict[str, Any], f
     errors = tuple(_errors(old, new) for old, new in zip(coarse["pulses"], fine["pulses"], strict=True))
     excess = 0.0
     for name, rigid, expected in case.against:
-        unit = case.scene.energy_unit if name == "friction_loss" else 1.0
+        unit = MEASURES[name].unit.of(case.scene)
         allowed = max(SHARE * max(abs(fine["pulses"][0][name] - rigid), expected), NEGLIGIBLE * unit)
         excess = max(excess, errors[0][name] / allowed)
     return fine | {"numerical_error": errors}, excess

@@ -10,22 +10,12 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Motion, Pulse, Scene
+from flexible import History
+from rigid import Motion, Pulse, Scene, States
+from rigid.output.units import units_of
 
 Array = NDArray[np.float64]
 Columns = dict[str, Array]
-
-ENERGIES = (
-    "energy",
-    "kinetic",
-    "gravity",
-    "ring_strain",
-    "contact_spring",
-    "friction_loss",
-    "damping_loss",
-    "numerical_loss",
-)
-"""Columns that are energies."""
 
 TOTALS = ("normal_impulse", "friction_impulse", "friction_loss", "damping_loss", "numerical_loss")
 """Columns that a solver gathers from its start; through a pulse they count from the pulse's start."""
@@ -66,18 +56,8 @@ def whole(motion: Motion) -> Columns:
 
 def dimensionless(columns: Columns, scene: Scene) -> Columns:
     """Columns in the paper's scaling, whatever the units of the scene; angles and shares stay as they are."""
-    units = {
-        "t": scene.time_unit,
-        "omega": 1 / scene.time_unit,
-        "alpha": 1 / scene.time_unit**2,
-        "normal_impulse": scene.impulse_unit,
-        "friction_impulse": scene.impulse_unit,
-        **dict.fromkeys(("x_C", "y_C", "patch_length"), scene.hoop.R),
-        **dict.fromkeys(("slip_velocity", "approach_velocity"), scene.velocity_unit),
-        **dict.fromkeys(("normal_force", "friction_force"), scene.force_unit),
-        **dict.fromkeys(ENERGIES, scene.energy_unit),
-    }
-    return {name: values / units.get(name, 1.0) for name, values in columns.items()}
+    units = units_of(States) | units_of(History)
+    return {name: values / units[name].of(scene) for name, values in columns.items()}
 
 
 def own_steps(motion: Motion) -> Columns | None:

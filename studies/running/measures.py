@@ -8,26 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import Enum
 
 from rigid import Kind, Motion, Phase, Pulse, Scene
-
-
-class Unit(Enum):
-    """The unit of a quantity: in the paper's scaling, and in SI when R, m or g are given."""
-
-    NUMBER = "", ""
-    TIME = "sqrt(R/g)", "s"
-    VELOCITY = "sqrt(gR)", "m/s"
-    FORCE = "mg", "N"
-    IMPULSE = "m sqrt(gR)", "N s"
-    ENERGY = "mgR", "J"
-
-    def label(self, scene: Scene) -> str:
-        """What to print behind a number of this unit in the units of ``scene``."""
-        hoop = scene.hoop
-        paper, si = self.value
-        return paper if hoop.R == hoop.m == hoop.g == 1 else si
+from rigid.output.units import Unit
 
 
 @dataclass(frozen=True, slots=True)

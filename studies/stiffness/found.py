@@ -13,6 +13,7 @@ from rigid import Scene, scene_to_dict
 from rigid.output import summary
 
 from ..running.case import Outcome
+from ..running.measures import MEASURES
 from .coefficient import Coefficient, coefficient
 from .ladder import Ladder
 from .limits import CONFIDENCE, Limit
@@ -128,7 +129,7 @@ class StiffnessStudy:
         from ..plots.distance import Distance
 
         limit, through = self.limits[name], self.rungs_through
-        unit = self.scene.energy_unit if name == "friction_loss" else 1.0
+        unit = MEASURES[name].unit.of(self.scene)
         stiffness = np.array([rung.stiffness for rung in through])
         predicted = None
         softest, stiffest = max(through[0].contact_stiffness, self.separate), through[-1].contact_stiffness

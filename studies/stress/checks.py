@@ -13,7 +13,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid import Kind, Motion, Release, Run, Scene, scene_to_dict, simulate
+from rigid import Kind, Motion, Release, Scene, scene_to_dict, simulate
+from rigid.output.units import in_units
 
 Margins = dict[str, float]
 
@@ -52,11 +53,7 @@ def mirrored(scene: Scene) -> Scene:
 def in_si(scene: Scene) -> Scene:
     """The same scene in metres, kilograms, seconds."""
     si = scene.replace(hoop={"R": METRE, "m": KILOGRAM, "g": GRAVITY})
-    release, run = scene.release, scene.run
-    return si.replace(
-        release={"omega0": release.omega0 / si.time_unit, "slip0": release.slip0 * si.velocity_unit},
-        run=run if run.t_end is None else Run(t_end=run.t_end * si.time_unit),
-    )
+    return si.replace(release=in_units(scene.release, si), run=in_units(scene.run, si))
 
 
 def flights(motion: Motion) -> int:

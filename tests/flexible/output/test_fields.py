@@ -18,7 +18,7 @@ from meshes import SeriesError, read
 from meshes.draw import style
 from rigid import load_scene
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 
 
 def scene(name="paper-3.3-light", **changes):

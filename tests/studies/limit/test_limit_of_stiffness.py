@@ -108,7 +108,7 @@ ON_DEMAND = pytest.mark.skipif(not os.environ.get("HOOP_EVERY"), reason="HOOP_EV
 def test_the_limit_of_every_hoop(k, mass_ratio, law, mu_s):
     """The default ladder, nine rungs over six decades; ten hoops take two minutes on two cores, all eighteen four.
 
-    HOOP_EVERY=1 python -m pytest -m slow tests/studies/test_limit_of_stiffness.py
+    HOOP_EVERY=1 python -m pytest -m slow tests/studies/limit/test_limit_of_stiffness.py
     """
     with pool(cores()) as place:
         limits_hold(stiffness_study(scene_of(k, mass_ratio, law, mu_s), pool=place))

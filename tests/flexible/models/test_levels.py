@@ -19,7 +19,6 @@ from flexible.ring.nodal import inertia
 from flexible.time.adaptive import march
 from flexible.time.events import Ends
 from flexible.time.step import MarchError
-from flexible.units import dimensionless
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
 
 WALL = 1 - 1 / 1.02
@@ -41,7 +40,7 @@ def scene_b(stiffness=1e8, **solve):
 def measures(hoop, rtol):
     """J_N, J_F and friction loss of scene B, in R0 = g = m = 1."""
     scene = scene_b()
-    inner = dimensionless(scene)
+    inner = scene.to_dimensionless()
     start = undeformed(hoop, Pose(2.9, 4.0 * scene.time_unit, 0.0, 0.0, 0.0, Kind.ROLL))
     _, records, _, ended = march(hoop, start, Ends(t=inner.run.t_end), rtol)
     assert not ended
@@ -56,7 +55,7 @@ def measures(hoop, rtol):
 @pytest.fixture(scope="module")
 def soft_ring():
     """The ring of scene B, and two smooth displacements of it of a third of the wall."""
-    ring = ring_of(dimensionless(scene_b()))
+    ring = ring_of(scene_b().to_dimensionless())
     rng = np.random.default_rng(0)
     fields = []
     for _ in range(2):
@@ -117,11 +116,11 @@ def test_equilibria_of_the_levels():
 def test_equilibrium_of_a_soft_ring():
     """E b R/(m g) = 1e6: the sag is several walls, and forces balance; softer than it can carry is said to be so."""
     pose = Pose(2.2, 1.0, 0.0, 1.3, -0.2, Kind.ROLL)
-    state = equilibrium(ExactHoop(dimensionless(scene_b(1e6))), pose)
+    state = equilibrium(ExactHoop(scene_b(1e6).to_dimensionless()), pose)
     assert state.pos[1] < -4 * WALL
     assert (state.res.normal, state.res.friction) == pytest.approx((1.3, -0.2), abs=1e-9)
     with pytest.raises(MarchError, match="no equilibrium"):
-        equilibrium(ExactHoop(dimensionless(scene_b(1e4))), pose)
+        equilibrium(ExactHoop(scene_b(1e4).to_dimensionless()), pose)
 
 
 def test_reduced_against_all_nodes_in_a_pulse():
@@ -136,7 +135,7 @@ def test_reduced_against_all_nodes_in_a_pulse():
 @pytest.mark.slow
 def test_scene_b_reduced_against_all_nodes():
     """J_N, J_F and loss within 1e-3 of J_N, R0 = g = m = 1; three codes give J_N = 2.149 +- 0.003."""
-    scene = dimensionless(scene_b())
+    scene = scene_b().to_dimensionless()
     reduced, full = (measures(kind(scene), 2e-4) for kind in (ReducedHoop, FullHoop))
     assert np.abs(full - reduced).max() < 1e-3 * full[0]
     assert reduced[0] == pytest.approx(2.149, abs=3e-3)
@@ -148,7 +147,7 @@ def test_linear_against_exact():
     """The linear ring's error is of the order of its rotations, N R^2/(E I): a tenth for ten times the stiffness."""
     apart = []
     for stiffness in (2e7, 2e8):
-        inner = dimensionless(scene_b(stiffness))
+        inner = scene_b(stiffness).to_dimensionless()
         poses = Pose(2.6, 4.0, 0.0, 5.0, -0.5, Kind.ROLL)
         linear, exact = (equilibrium(kind(inner), poses).pos[1] for kind in (FullHoop, ExactHoop))
         apart.append(abs(linear / exact - 1))
@@ -166,7 +165,7 @@ def test_level_of_a_scene():
 
 def test_a_linear_ring_that_goes_too_far_says_so():
     """A rim that turns by more than FAR is named with its angle; the exact ring has no such limit."""
-    scene = dimensionless(scene_b(1e7, rtol=1e-2, level="reduced"))
+    scene = scene_b(1e7, rtol=1e-2, level="reduced").to_dimensionless()
     motion = flexible.simulate(scene)
     assert "too far for a linear ring" in motion.ended
     assert "too far" not in flexible.simulate(HOOP.replace(release={"phi0": 2.4, "omega0": 1.5})).ended

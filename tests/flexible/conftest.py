@@ -1,0 +1,1 @@
+"""Makes what these tests share (``scenes``) importable from the rooms below."""
