@@ -204,11 +204,19 @@ class Listing:
             self.later = Later(self.fold.period * scene.time_unit, 2 * pi * self.fold.whole)
             first = where - int(row[at.R_RECORDS])
         self.end, self.parts = end, (records[:where], records[first:where], records[where + 1 :])
+
+    @cached_property
+    def starting(self) -> list[list[Row]]:
+        """Of each of the parts, the records of phases that go somewhere."""
         phases = [row for row in self.parts[0] + self.parts[2] if row[0] not in (at.TURN, at.PULSE)]
-        kept = {id(row) for row in merged(phases, end)}
-        self.starting = [[row for row in part if id(row) in kept] for part in self.parts]
+        kept = {id(row) for row in merged(phases, self.end)}
+        return [[row for row in part if id(row) in kept] for part in self.parts]
+
+    @cached_property
+    def starts(self) -> tuple[tuple[float, ...], ...]:
+        """The records from which any instant can be computed."""
         before, _, after = self.starting
-        self.starts = tuple(map(tuple, [*before, *map(self._moved_back, after)]))
+        return tuple(map(tuple, [*before, *map(self._moved_back, after)]))
 
     @cached_property
     def phases(self) -> Sequence[Phase]:
