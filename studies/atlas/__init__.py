@@ -4,4 +4,5 @@
 ``refine``   which points are run, and which lie between neighbours that agree
 ``study``    the map
 ``figures``  its picture
+``summary``  what is told of it
 """

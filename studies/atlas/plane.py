@@ -207,3 +207,19 @@ def words(sequence: int, kinds: tuple[Kind, ...]) -> str:
     if sequence == NO_HOOP:
         return "no hoop: mu_s < mu"
     return ", ".join(map(str, kinds)) if kinds else "no pulse"
+
+
+def parse_range(text: str) -> tuple[str, float, float]:
+    """KEY=A:B as a key and two numbers.
+
+    Raises
+    ------
+    SceneError
+        It is none.
+    """
+    key, _, ends = text.partition("=")
+    try:
+        low, high = map(float, ends.split(":"))
+    except ValueError:
+        raise SceneError(f"--over {text} is not possible: it is KEY=A:B, as hoop.k=0.02:0.9.") from None
+    return key.strip(), low, high

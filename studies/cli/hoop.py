@@ -19,7 +19,6 @@ import click
 from rigid import Motion, Scene, SceneError, load_scene
 
 from ..running.files import StudyError, folder, to_json, trouble
-from .atlas import atlas
 from .bench import bench, stress, validate
 from .hop import hop
 from .limit import limit
@@ -180,7 +179,6 @@ def compile_(shared: bool) -> None:
 
 study.add_command(limit)
 study.add_command(hop)
-study.add_command(atlas)
 hoop.add_command(study)
 hoop.add_command(view)
 
