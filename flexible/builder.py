@@ -17,10 +17,12 @@ from rigid.output.units import in_units
 
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range
-from .models.state import Record, State
-from .motion import FlexibleMotion, FlexiblePulse, History, Kept, Ledger
+from .models.state import State
+from .motion import FlexibleMotion, FlexiblePulse, History, Kept, Ledger, March
+from .packed import pack
 from .segment import Segment
 from .time.adaptive import LIMITS, Limits, march
+from .time.course import Course, Marched
 from .time.events import Ends
 from .time.methods import METHODS
 
@@ -55,7 +57,7 @@ class Sampler:
 
     def stored(self, motion: FlexibleMotion) -> Stored:
         """What a file keeps of the motion: the records of its flexible segments and the rigid motions between them,
-        not the states of the ring."""
+        where each march stands, and the states of the ring if the motion has them."""
         arrays: dict[str, NDArray[Any]] = {}
         pieces = []
         for number, piece in enumerate(self.pieces):
@@ -69,12 +71,24 @@ class Sampler:
                 found, told["rigid"], told["scene"] = rigid.arrays, rigid.told, scene_to_dict(piece.motion.scene)
             arrays |= {f"{number}.{name}": column for name, column in found.items()}
             pieces.append(told)
+        marches = []
+        for number, (marched, turned) in enumerate(motion.marches):
+            course = marched.course
+            arrays |= {f"march{number}.{name}": a for name, a in pack([marched.state, course.state]).items()}
+            if motion.kept:
+                arrays |= {f"kept{number}.{name}": a for name, a in pack(motion.kept[number].states).items()}
+            marches.append({
+                "attempts": marched.attempts, "ended": marched.ended, "turned": turned,
+                "course": {name: getattr(course, name) for name in ("step", "attempts", "turns", "stalls", "length")},
+                "books": dataclasses.asdict(course.books),
+            })  # fmt: skip
         lists = {name: [dataclasses.asdict(item) for item in getattr(motion, name)] for name in ("phases", "turns")}
         pulses = [dataclasses.asdict(replace(pulse, sample=None)) for pulse in motion.pulses]
         told = {
             **lists, "pulses": pulses, "pieces": pieces, "ledger": dataclasses.asdict(motion.ledger),
             "ended": motion.ended, "completed": motion.completed, "steps": motion.steps,
             "history": motion.history is not None,
+            "marches": marches, "kept": bool(motion.kept),
         }  # fmt: skip
         return Stored("flexible", told, arrays)
 
@@ -116,6 +130,8 @@ class Builder:
         self.most_steps: int | None = None
         self.range: Range
         self.kept: list[Kept] | None = None
+        self.marches: list[March] = []
+        self.earlier: FlexibleMotion | None = None
         self.completed = True
         self.t = 0.0
         self.x_C = 0.0
@@ -164,8 +180,9 @@ class Builder:
         self.x_C += float(ends.x_C[1])
         self.t += until
 
-    def add_flexible(self, records: list[Record], attempts: int) -> Segment:
+    def _add_flexible(self, marched: Marched) -> Segment:
         """A flexible segment that begins now."""
+        records = marched.records
         segment = Segment(records, self.hoop)
         held = segment.held()
         self._meet(float(held[0]))
@@ -181,27 +198,66 @@ class Builder:
         self.turns += segment.turns()
         self.pieces.append(Piece(segment.t_start, segment.t_end, segment=segment))
         self.t, self.x_C = last.t, last.x_C
-        self.steps += attempts
+        self.steps += marched.attempts
         return segment
 
     def march(
         self, hoop: FlexibleHoop, state: State, ends: Ends, rtol: float, progress: Callable[[State], None] | None
-    ) -> tuple[State, list[Record], int, str]:
-        """A march, watching the ring's range, and the states if they are to be kept."""
+    ) -> tuple[State, Segment, str]:
+        """March, or go over a march of the earlier motion that this one goes on from; its last one is taken up.
+
+        Returns
+        -------
+        state : State
+            At the end.
+        segment : Segment
+        trouble : str
+            Why it stopped early, if it did.
+        """
 
         def watch(now: State) -> None:
             self.range(now)
             if progress is not None:
                 progress(now)
 
-        states: list[State] = []
-        limits = LIMITS if self.most_steps is None else Limits(most=max(self.most_steps - self.steps, 1))
-        keep = None if self.kept is None else states.append
-        method = METHODS[self.scene.solve.integrator]
-        result = march(hoop, state, ends, rtol, limits, watch, keep, method)
+        number, states = len(self.marches), list[State]()
+        earlier, last = self._earlier(number, state)
+        if earlier is not None and self.kept is not None and self.earlier is not None:
+            states = list(self.earlier.kept[number].states)
+        if earlier is not None and not last:
+            marched = earlier.marched
+            self.range.records += earlier.turned
+        else:
+            most = LIMITS.most if self.most_steps is None else max(self.most_steps - self.steps, 1)
+            limits, method = Limits(most=most, before=self.steps), METHODS[self.scene.solve.integrator]
+            start: State | Course = state
+            if earlier is not None:
+                start = earlier.marched.course
+                del states[start.length :]
+                self.range.records += [turned for turned in earlier.turned if turned[0] <= start.state.t]
+            keep = None if self.kept is None else states.append
+            marched = march(hoop, start, ends, rtol, limits, watch, keep, method)
         if self.kept is not None:
             self.kept.append(Kept(hoop, tuple(states)))
-        return result
+        first = marched.records[0].t
+        self.marches.append(March(marched, tuple(turned for turned in self.range.records if turned[0] > first)))
+        return marched.state, self._add_flexible(marched), marched.ended
+
+    def _earlier(self, number: int, state: State) -> tuple[March | None, bool]:
+        """The march of that number in the motion to go on from, and whether it is its last one.
+
+        A last one that the end of its run had begin elsewhere (the rigid pulse, cut, was shorter) is none.
+        """
+        known = self.earlier.marches if self.earlier is not None else ()
+        if number >= len(known):
+            return None, False
+        last, first = number == len(known) - 1, known[number].marched.records[0]
+        began, now = (first.t, first.phi, first.omega), (state.t, state.pos[2], state.vel[2])
+        if np.allclose(began, now, rtol=0 if last else 1e-6, atol=0 if last else 1e-6):  # machines differ in round-off
+            return known[number], last
+        if not last:
+            raise ValueError("The motion to resume does not come from this scene.")
+        return None, False
 
     def motion(self, scene: Scene, ended: str, history: bool) -> FlexibleMotion:
         """The motion in the units of ``scene``."""
@@ -222,6 +278,7 @@ class Builder:
             steps=self.steps,
             history=in_units(history_of(self.pieces), scene) if history else None,
             kept=tuple(self.kept or ()),
+            marches=tuple(self.marches),
         )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from .models.full import FullHoop
     from .models.reduced import ReducedHoop
     from .models.state import State
+    from .time.course import Marched
 
 Array = NDArray[np.float64]
 
@@ -126,17 +127,26 @@ class Kept:
         return f"Kept({len(self.states)} states)"
 
 
+class March(NamedTuple):
+    """A march of one flexible segment, as far as it went, to be taken up again."""
+
+    marched: Marched
+    turned: tuple[tuple[float, float, float], ...]  # see :class:`flexible.models.select.Range`
+
+
 @dataclass(frozen=True, kw_only=True, repr=False)
 class FlexibleMotion(Motion):
     """The motion of the flexible hoop: the common vocabulary, the energy ledger, the steps if they were asked for.
 
     With the steps come the states of the ring (``kept``, one per flexible segment), of which fields are made.
+    ``marches`` is what :func:`flexible.simulate` goes on from.
     """
 
     ledger: Ledger
     steps: int
     history: History | None = None
     kept: tuple[Kept, ...] = ()
+    marches: tuple[March, ...] = dataclasses.field(default=(), compare=False)
 
     def _lines(self) -> list[tuple[str, str]]:
         scene, books = self.scene, self.ledger

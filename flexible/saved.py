@@ -11,14 +11,19 @@ from rigid.output.units import in_units
 from rigid.solve import unstored
 
 from .builder import Piece, Sampler, history_of
-from .motion import FlexibleMotion, FlexiblePulse, Ledger
+from .models.select import hoop_of
+from .models.state import Books
+from .motion import FlexibleMotion, FlexiblePulse, Kept, Ledger, March
+from .packed import unpack
 from .segment import Segment
+from .time.course import Course, Marched
 
 
 def load_motion(path: str | PathLike[str]) -> Motion:
     """A motion that was saved by ``motion.save``, of the flexible or of the rigid hoop, the same to the last bit.
 
-    The states of the ring, of which fields are made, are not in the file.
+    The states of the ring, of which fields are made, are in the file if the motion had kept them; with
+    ``simulate(scene, resume=motion)`` it goes on.
 
     Raises
     ------
@@ -43,17 +48,37 @@ def _flexible(stored: Stored, scene: Scene) -> Motion:
         sample=sample,
         ledger=Ledger(**told["ledger"]),
         steps=told["steps"],
+        kept=_kept(stored, scene),
+        marches=tuple(_march(number, march, stored, pieces) for number, march in enumerate(told["marches"])),
         history=in_units(history_of(pieces), scene) if told["history"] else None,
     )
 
 
 def _piece(number: int, told: dict[str, Any], stored: Stored, hoop: Any) -> Piece:
-    start = f"{number}."
-    arrays = {name.removeprefix(start): column for name, column in stored.arrays.items() if name.startswith(start)}
+    arrays = _named(f"{number}.", stored)
     where = {name: told[name] for name in ("t_start", "t_end", "origin", "x_C")}
     if "columns" in told:
         return Piece(**where, segment=Segment.of({name: arrays[name] for name in told["columns"]}, hoop))
     return Piece(**where, motion=unstored(Stored("rigid", told["rigid"], arrays), scene_from_dict(told["scene"])))
+
+
+def _named(start: str, stored: Stored) -> dict[str, Any]:
+    return {name.removeprefix(start): column for name, column in stored.arrays.items() if name.startswith(start)}
+
+
+def _march(number: int, told: dict[str, Any], stored: Stored, pieces: tuple[Piece, ...]) -> March:
+    records = [piece.segment for piece in pieces if piece.segment is not None][number].records()
+    end, state = unpack(_named(f"march{number}.", stored))
+    course = Course(state=state, books=Books(**told["books"]), records=records, **told["course"])
+    marched = Marched(end, records, told["attempts"], told["ended"], course)
+    return March(marched, tuple((t, turned, phi) for t, turned, phi in told["turned"]))
+
+
+def _kept(stored: Stored, scene: Scene) -> tuple[Kept, ...]:
+    if not stored.told["kept"]:
+        return ()
+    hoop = hoop_of(scene.to_dimensionless())
+    return tuple(Kept(hoop, unpack(_named(f"kept{i}.", stored))) for i in range(len(stored.told["marches"])))
 
 
 def _phase(told: dict[str, Any]) -> Phase:

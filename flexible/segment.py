@@ -63,6 +63,12 @@ class Segment:
         segment.columns = {name: columns[name] for name in segment.columns}
         return segment
 
+    def records(self) -> list[Record]:
+        """The records again."""
+        rows = zip(*(column.tolist() for column in self.columns.values()), strict=True)
+        records = [Record(**dict(zip(self.columns, row, strict=True))) for row in rows]
+        return [dataclasses.replace(each, mode=int(each.mode)) for each in records]
+
     def __getitem__(self, name: str) -> Array:
         return self.columns[name]
 

@@ -57,7 +57,12 @@ class _Progress:
 
 
 def simulate(
-    scene: SceneLike, *, history: bool = False, progress: Progress | None = None, most_steps: int | None = None
+    scene: SceneLike,
+    *,
+    history: bool = False,
+    progress: Progress | None = None,
+    most_steps: int | None = None,
+    resume: FlexibleMotion | None = None,
 ) -> FlexibleMotion:
     """Move the flexible hoop through a scene.
 
@@ -71,6 +76,9 @@ def simulate(
         Called with the fraction done, 0 to 1.
     most_steps : int, optional
         Of all flexible segments together, after which the motion ends incomplete; by default 50 000 in each.
+    resume : FlexibleMotion, optional
+        An earlier motion of the same scene, however it ended, from which to go on, as far as ``scene.run`` says: it
+        becomes what it would have been without a stop, to the last bit.
 
     Returns
     -------
@@ -81,6 +89,8 @@ def simulate(
     ------
     SceneError
         No such scene, one that cannot be, or a point mass without inertia, which cannot ride on a flexible hoop.
+    ValueError
+        A motion to resume that is of another scene, or whose states are asked for and were not kept.
     """
     scene = rigid.as_scene(scene)
     if scene.hoop.k == 0 and scene.hoop.mass_ratio == 0:
@@ -93,10 +103,20 @@ def simulate(
     builder.range = Range(hoop)
     builder.kept = [] if history else None
     builder.most_steps = most_steps
+    builder.earlier = None if resume is None else _resumable(resume, scene, history)
     run = _through_pulses if scene.solve.resolve == "pulses" else _throughout
     ended = run(inner, hoop, builder, _Progress(progress))
     complaint = builder.range.complaint()
     return builder.motion(scene, f"{ended}; {complaint}" if complaint else ended, history)
+
+
+def _resumable(earlier: FlexibleMotion, scene: Scene, history: bool) -> FlexibleMotion:
+    """A motion that a run of a scene can go on from."""
+    if dataclasses.replace(earlier.scene, run=scene.run) != scene:
+        raise ValueError("The motion to resume is of another scene: all but how far to run must be the same.")
+    if history and earlier.marches and not earlier.kept:
+        raise ValueError("The motion to resume did not keep its states: simulate(scene, history=True) does.")
+    return earlier
 
 
 def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _Progress) -> str:
@@ -130,8 +150,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         span = (float(state.pos[2]), pulse.phi_end)
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, _swept(span))
-        state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
-        segment = builder.add_flexible(records, attempts)
+        state, segment, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
         if not (trouble or cut) and sign * (float(state.pos[2]) - pulse.phi_end) < 0:
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get through the pulse"
         if trouble:
@@ -234,8 +253,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
         if run.until == "pulse" and pulses:  # before the first whole pulse there may be the rest of one
             first, last = pulses[-1].phi_start, pulses[-1].phi_end
             ends = ends._replace(high=min(ends.high, last)) if last > first else ends._replace(low=max(ends.low, last))
-        state, records, attempts, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
-        segment = builder.add_flexible(records, attempts)
+        state, segment, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
         _add_pulses(
             builder, segment, pulses, over=not trouble and scene.run.t_end is not None and ends.t - state.t < 1e-12
         )

@@ -56,8 +56,13 @@ class Range:
     def __init__(self, hoop: Hoop) -> None:
         self.hoop = hoop
         self.linear = not isinstance(hoop, ExactHoop | ChainHoop)
-        self.furthest = 0.0
-        self.phi = 0.0
+        #: time, rotation and angle phi of every instant at which it had turned further than before
+        self.records: list[tuple[float, float, float]] = []
+
+    @property
+    def furthest(self) -> float:
+        """The largest rotation."""
+        return self.records[-1][1] if self.records else 0.0
 
     def __call__(self, state: State) -> None:
         if not self.linear or np.abs(state.u).max(initial=0.0) < _STIFF:
@@ -69,13 +74,14 @@ class Range:
         along = state.u[:, 1] * c - state.u[:, 0] * s
         turned = abs(float(along.mean() - (outward[-1] - outward[0]) / (theta[-1] - theta[0])))
         if turned > self.furthest:
-            self.furthest, self.phi = turned, float(state.pos[2])
+            self.records.append((state.t, turned, float(state.pos[2])))
 
     def complaint(self) -> str:
         """A sentence if the linear ring went too far, otherwise empty."""
         if self.furthest <= FAR:
             return ""
+        _, furthest, phi = self.records[-1]
         return (
-            f"the rim at the floor turned by {self.furthest:.2g} at phi = {self.phi:.4g}, too far for a linear ring"
+            f"the rim at the floor turned by {furthest:.2g} at phi = {phi:.4g}, too far for a linear ring"
             " (solve.level = 'chain' has no such limit)"
         )

@@ -7,10 +7,12 @@ for each level of fidelity.
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import copy
 from dataclasses import replace
 from typing import NamedTuple
 
-from ..models.state import Books, Model, Record, State, record
+from ..models.state import Books, Model, State, record
+from .course import Course, Marched
 from .events import MODE_ENDS, TURN, Ends, locate, passed, watches
 from .methods import ESDIRK3, Method
 from .step import MarchError, Step, attempt, restart
@@ -62,6 +64,7 @@ class Limits(NamedTuple):
     first: float = 1e-4  # length of the first step, sqrt(R/g)
     longest: float = 0.05
     most: int = 50_000  # steps, those tried in vain too
+    before: int = 0  # steps tried in marches before this one
 
 
 LIMITS = Limits()
@@ -69,46 +72,46 @@ LIMITS = Limits()
 
 def march(
     model: Model,
-    state: State,
+    start: State | Course,
     ends: Ends,
     rtol: float,
     limits: Limits = LIMITS,
     progress: Callable[[State], None] | None = None,
     keep: Callable[[State], None] | None = None,
     method: Method = ESDIRK3,
-) -> tuple[State, list[Record], int, str]:
+) -> Marched:
     """March to the first of the ends, which is located.
 
-    ``progress`` is told every state that was reached; ``keep`` is given the state behind every record.
-
-    Returns
-    -------
-    state : State
-    records : list of Record
-        One per accepted step, events included.
-    attempts : int
-        Steps tried.
-    ended : str
-        Empty when one of the ends was reached, otherwise why the march stopped early.
+    ``start`` may be the course of an earlier march. ``progress`` is told every state that was reached; ``keep`` is
+    given the state behind every new record.
     """
-    books = Books()
-    records: list[Record] = []
+    taken_up = isinstance(start, Course)
+    course = start if isinstance(start, Course) else Course(_free(model, start), limits.first, 0, 0, 0, Books(), [], 0)
+    state, h, books, records = course.state, course.step, course.totals(), course.behind()
+    attempts, turns, stalls = course.attempts, course.turns, course.stalls
+    cut = False  # whether a step was made shorter by the end
+
+    def stands() -> Course:
+        return Course(state, h, attempts, turns, stalls, copy(books), records, len(records))
 
     def note(state: State) -> None:
         records.append(record(model, state, books))
         if keep is not None:
             keep(state)
 
-    state = _free(model, state)
-    note(state)
-    attempts, turns, stalls = 0, 0, 0
+    def over(ended: str = "") -> Marched:
+        return Marched(state, records, attempts, ended, course)
+
+    if not taken_up:
+        note(state)
     if _over(state, ends, turns):
-        return state, records, attempts, ""
+        return over()
     power = 1 / method.estimates
-    h = limits.first
     while attempts < limits.most:
         if h < SHORTEST:
-            return state, records, attempts, _stuck(state, "no step however short could be solved")
+            return over(_stuck(state, "no step however short could be solved"))
+        cut = cut or h > ends.t - state.t
+        course = course if cut else stands()
         attempts += 1
         asked = min(h, ends.t - state.t)
         trial = attempt(model, state, asked, method)
@@ -126,13 +129,7 @@ def march(
             continue
         trial, event = step.trial, step.event
         attempts += step.attempts
-        books.normal_impulse += trial.impulses[0]
-        books.friction_impulse += trial.impulses[1]
-        stored = trial.state.res.bristle_energy - state.res.bristle_energy
-        books.friction_loss -= trial.friction_work + stored
-        books.damping_loss += trial.damped
-        books.numerical_loss += trial.numerical
-        books.off_floor += trial.off_floor
+        _enter(books, state, trial)
         stalls = stalls + 1 if trial.state.t - state.t < SHORTEST else 0
         turns += event == TURN
         state = _free(model, trial.state)
@@ -140,17 +137,14 @@ def march(
         if progress is not None:
             progress(state)
         if _over(state, ends, turns):
-            return state, records, attempts, ""
+            return over()
         if stalls > MOST_STALLS:
-            return state, records, attempts, _stuck(state, "stick and slip follow each other without end")
+            return over(_stuck(state, "stick and slip follow each other without end"))
         if event == MODE_ENDS:
-            mode = model.law.successor(state)
-            if model.law.sticks(mode):  # to the last digit, which a step that was cut short may not have
-                state = replace(state, slip_velocity=0.0)
             try:
-                state = restart(model, state, mode)
+                state = _in_its_next_mode(model, state)
             except MarchError as error:
-                return state, records, attempts, str(error)
+                return over(str(error))
             # what the ring and the patch let go of in the jump of the friction force is lost to friction
             before, after = records[-1], record(model, state, books)
             released = before.ring_strain + before.contact_spring - after.ring_strain - after.contact_spring
@@ -159,7 +153,27 @@ def march(
             h = max(min(asked, grown) / 8, AFRESH)
         else:
             h = grown
-    return state, records, attempts, f"stopped at t = {state.t:.6g} after {limits.most} steps"
+    course = course if cut else stands()
+    return over(f"stopped at t = {state.t:.6g} after {limits.before + attempts} steps")
+
+
+def _in_its_next_mode(model: Model, state: State) -> State:
+    """The state behind the end of its mode."""
+    mode = model.law.successor(state)
+    if model.law.sticks(mode):  # to the last digit, which a step that was cut short may not have
+        state = replace(state, slip_velocity=0.0)
+    return restart(model, state, mode)
+
+
+def _enter(books: Books, before: State, step: Step) -> None:
+    """Add a step to the totals."""
+    books.normal_impulse += step.impulses[0]
+    books.friction_impulse += step.impulses[1]
+    stored = step.state.res.bristle_energy - before.res.bristle_energy
+    books.friction_loss -= step.friction_work + stored
+    books.damping_loss += step.damped
+    books.numerical_loss += step.numerical
+    books.off_floor += step.off_floor
 
 
 def _over(state: State, ends: Ends, turns: int) -> bool:

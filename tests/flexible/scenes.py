@@ -36,7 +36,7 @@ def steps_of(hoop, state, t_end, step, method=ESDIRK3):
     states = [state]
     count = round((t_end - state.t) / step)
     length = (t_end - state.t) / count * (1 + 1e-12)
-    last, records, _, ended = march(
+    last, records, _, ended, _ = march(
         hoop, state, Ends(t=t_end), 0.5, Limits(length, length), states.append, method=method
     )
     assert not ended, ended

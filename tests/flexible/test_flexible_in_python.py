@@ -57,7 +57,7 @@ def test_a_few_lines_say_what_it_is(motion):
 
 
 def test_a_motion_comes_back_from_its_file(tmp_path, motion):
-    """To the last bit, in units of its own too; of the ring's states there is nothing in the file."""
+    """To the last bit, in units of its own too; the ring's states are in the file if the motion has them."""
     units = {"hoop": {"R": 0.4, "m": 0.2, "g": 9.81}, "run": {"turns": 1}}
     for number, found in enumerate((motion, simulate(SCENE.replace(**units)))):
         path = tmp_path / f"motion{number}"
@@ -72,7 +72,7 @@ def test_a_motion_comes_back_from_its_file(tmp_path, motion):
         for name in ("phi", "x_C", "slip_velocity", "normal_force", "friction_force", "energy", "alpha"):
             assert (getattr(again.at(t), name) == getattr(found.at(t), name)).all()
         assert (again.history is None) == (found.history is None)
-        assert again.kept == ()
+        assert [len(kept.states) for kept in again.kept] == [len(kept.states) for kept in found.kept]
         with pytest.raises(MotionFileError, match=r"flexible\.load_motion reads it"):
             rigid.load_motion(path)
     steps, read = motion.history.to_dataframe(), load_motion(tmp_path / "motion0").history.to_dataframe()

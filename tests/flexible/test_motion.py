@@ -131,7 +131,7 @@ def test_static_sag():
     depth = -state.pos[1]
     assert 4 / 3 * 1e6 * depth * sqrt(2 * depth) == pytest.approx(weight, rel=3e-3)
     # and it stays at rest
-    _, records, _, ended = march(hoop, restart(hoop, state, 0), Ends(t=0.5), 1e-4)
+    _, records, _, ended, _ = march(hoop, restart(hoop, state, 0), Ends(t=0.5), 1e-4)
     assert not ended
     forces = np.array([r.normal_force for r in records])
     assert np.abs(forces - weight).max() < 1e-6 * weight
@@ -182,7 +182,7 @@ def test_hand_over_does_not_ring():
     swing = []
     for chosen in (scene, scene.replace(solve={"start": "undeformed"})):
         start = hand_over(hoop, rigid.simulate(chosen), 0.0)
-        _, records, _, _ = march(hoop, start, Ends(t=0.05), 1e-5)
+        _, records, _, _, _ = march(hoop, start, Ends(t=0.05), 1e-5)
         t = np.array([r.t for r in records])
         swing.append(np.abs(np.array([r.normal_force for r in records]) - motion.at(t).normal_force).max())
     assert swing[0] < 0.03
@@ -247,7 +247,7 @@ def test_damping_is_not_a_rolling_resistance():
         damped = scene.replace(contact={"damping": ratio})
         hoop = ReducedHoop(damped)
         start = hand_over(hoop, rigid.simulate(damped), 0.0)
-        last, records, _, ended = march(hoop, start, Ends(t=0.1), 1e-4)
+        last, records, _, ended, _ = march(hoop, start, Ends(t=0.1), 1e-4)
         assert not ended
         assert last.res.normal > 0
         ends.append([last.pos[2], records[-1].damping_loss, energy(records[0])])

@@ -101,7 +101,7 @@ def run_hoop(scene: Scene, hoop: Any) -> Measured:
     state = hand_over(hoop, simulate(scene), 0.0)
     end = scene.run.t_end
     assert end is not None
-    _, records, _, trouble = march(hoop, state, Ends(t=end), scene.solve.rtol)
+    _, records, _, trouble, _ = march(hoop, state, Ends(t=end), scene.solve.rtol)
     if trouble:
         raise RuntimeError(trouble)
     last = records[-1]

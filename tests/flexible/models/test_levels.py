@@ -42,7 +42,7 @@ def measures(hoop, rtol):
     scene = scene_b()
     inner = scene.to_dimensionless()
     start = undeformed(hoop, Pose(2.9, 4.0 * scene.time_unit, 0.0, 0.0, 0.0, Kind.ROLL))
-    _, records, _, ended = march(hoop, start, Ends(t=inner.run.t_end), rtol)
+    _, records, _, ended, _ = march(hoop, start, Ends(t=inner.run.t_end), rtol)
     assert not ended
     last = records[-1]
     return np.array([

@@ -81,7 +81,7 @@ def test_no_step_passes_its_event_where_shorter_ones_fail(failing, monkeypatch):
 
     fails.longest = None
     monkeypatch.setattr(flexible.time.adaptive, "attempt", fails)
-    _, records, _, ended = march(hoop, start, Ends(t=0.5), 1e-3, Limits(most=400))
+    _, records, _, ended, _ = march(hoop, start, Ends(t=0.5), 1e-3, Limits(most=400))
     assert fails.longest is not None  # it did come to an end
     assert records[-1].t <= 0.5 + 1e-12
     for record in records:
@@ -199,7 +199,7 @@ def test_order_across_the_start_of_slip():
     steps = 0.1 / np.array([50, 100, 200, 1600])
     ends = []
     for step in steps:
-        last, records, _, ended = march(hoop, start, Ends(t=0.1), 0.5, Limits(step, step))
+        last, records, _, ended, _ = march(hoop, start, Ends(t=0.1), 0.5, Limits(step, step))
         assert not ended
         breaks = [b.t for a, b in itertools.pairwise(records) if a.mode == STICK != b.mode]
         assert breaks

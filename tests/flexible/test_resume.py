@@ -1,0 +1,92 @@
+"""A motion cut anywhere and taken up again is the undisturbed one, to the last bit."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+import numpy as np
+import pytest
+from scenes import HOOP
+
+from flexible import FlexibleMotion, load_motion, simulate
+from rigid import Scene
+
+SCENES = {
+    "pulses": HOOP.replace(run={"turns": 2}, contact={"damping": 1.0}),
+    "throughout": HOOP.replace(
+        run={"turns": 1}, ring={"bending_stiffness": 100.0}, contact={"stiffness": 1e7, "damping": 1.0},
+        solve={"resolve": "all", "rtol": 3e-3},
+    ),
+    "brush": HOOP.replace(contact={"law": "brush", "damping": 1.0, "stiffness": 1e7}),
+    "chain": HOOP.replace(
+        ring={"bending_stiffness": 30.0}, contact={"stiffness": 1e6, "damping": 1.0},
+        solve={"level": "chain", "rtol": 1e-2},
+    ),
+}  # fmt: skip
+WHOLE: dict[str, FlexibleMotion] = {}
+
+
+def whole(name: str) -> FlexibleMotion:
+    if name not in WHOLE:
+        WHOLE[name] = simulate(SCENES[name], history=True)
+    return WHOLE[name]
+
+
+def told(motion: FlexibleMotion) -> dict[str, Any]:
+    return {**motion.to_dict(), "scene": None}
+
+
+def assert_same(one: FlexibleMotion, other: FlexibleMotion) -> None:
+    """Bit for bit: lists, ledger, every step and every state of the ring; NaN is NaN."""
+    assert repr(told(one)) == repr(told(other))
+    assert one.history is not None
+    assert other.history is not None
+    for field in dataclasses.fields(one.history):
+        np.testing.assert_array_equal(getattr(one.history, field.name), getattr(other.history, field.name), field.name)
+    for mine, others in zip(one.kept, other.kept, strict=True):
+        for a, b in zip(mine.states, others.states, strict=True):
+            np.testing.assert_array_equal(a.pos, b.pos)
+            np.testing.assert_array_equal(a.u, b.u)
+            assert a.res == b.res
+
+
+@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("share", [0.03, 0.5, 0.9])
+def test_a_run_that_was_stopped_by_its_steps(name: str, share: float) -> None:
+    most = max(int(share * whole(name).steps), 1)
+    part = simulate(SCENES[name], history=True, most_steps=most)
+    assert not part.completed
+    assert_same(simulate(SCENES[name], history=True, resume=part), whole(name))
+
+
+@pytest.mark.parametrize("name", ["pulses", "throughout"])
+@pytest.mark.parametrize("share", [0.2, 0.55, 0.8])
+def test_a_run_that_came_to_its_time(name: str, share: float) -> None:
+    """The step that its end made shorter is taken again."""
+    early: Scene = SCENES[name].replace(run={"t_end": share * whole(name).t_end})
+    part = simulate(early, history=True)
+    assert part.completed
+    assert_same(simulate(SCENES[name], history=True, resume=part), whole(name))
+
+
+def test_a_run_that_came_to_its_end_is_itself() -> None:
+    assert_same(simulate(SCENES["pulses"], history=True, resume=whole("pulses")), whole("pulses"))
+
+
+@pytest.mark.parametrize("name", ["pulses", "chain"])
+def test_through_a_file(name: str, tmp_path: Any) -> None:
+    part = simulate(SCENES[name], history=True, most_steps=whole(name).steps // 2)
+    part.save(tmp_path / "part.npz")
+    loaded = load_motion(tmp_path / "part.npz")
+    assert isinstance(loaded, FlexibleMotion)
+    assert_same(loaded, part)
+    assert_same(simulate(SCENES[name], history=True, resume=loaded), whole(name))
+
+
+def test_what_cannot_be_resumed_is_refused() -> None:
+    part = simulate(SCENES["pulses"], most_steps=20)
+    with pytest.raises(ValueError, match="of another scene"):
+        simulate(SCENES["brush"], resume=part)
+    with pytest.raises(ValueError, match="did not keep its states"):
+        simulate(SCENES["pulses"], history=True, resume=part)

@@ -1,0 +1,53 @@
+"""The notebooks run, and say what they said when they were stored."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from studies.notebooks.__main__ import BOOKS, HERE, run
+
+pytestmark = pytest.mark.slow
+nbformat = pytest.importorskip("nbformat")
+pytest.importorskip("nbclient")
+
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+\.\d+(?:e[-+]?\d+)?")
+
+
+def printed(book: Any) -> list[str]:
+    return [
+        o.text for cell in book.cells if cell.cell_type == "code" for o in cell.outputs if o.output_type == "stream"
+    ]
+
+
+def pictures(book: Any) -> int:
+    outputs = [o for cell in book.cells if cell.cell_type == "code" for o in cell.outputs]
+    return sum("image/png" in o.get("data", {}) for o in outputs)
+
+
+def test_every_notebook_is_listed() -> None:
+    assert {path.stem for path in HERE.glob("*.ipynb")} == set(BOOKS)
+
+
+@pytest.mark.parametrize("name", BOOKS)
+def test_a_notebook_runs_as_it_is_stored(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Measures are good to 0.1 %, the tolerance of the runs being 1e-4 at most; what is small prints as small.
+
+    How often a chattering hoop hops is no number to hold a machine to: of that notebook what is there is compared.
+    """
+    monkeypatch.delenv("MPLBACKEND", raising=False)
+    path: Path = HERE / f"{name}.ipynb"
+    stored = nbformat.read(path, as_version=4)
+    found = run(path)
+    assert pictures(found) == pictures(stored) > 0
+    told, before = printed(found), printed(stored)
+    assert len(told) == len(before) > 0
+    if name == "hop":
+        return
+    for new, old in zip(told, before, strict=True):
+        assert NUMBER.sub("#", new).split() == NUMBER.sub("#", old).split()
+        for a, b in zip(map(float, NUMBER.findall(new)), map(float, NUMBER.findall(old)), strict=True):
+            assert a == pytest.approx(b, rel=1e-3, abs=1e-4)

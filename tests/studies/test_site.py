@@ -1,0 +1,43 @@
+"""The site has a page for every package with all that its face has, and no link of its own leads nowhere."""
+
+from __future__ import annotations
+
+import importlib
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from studies.site import PACKAGES
+
+pytest.importorskip("pdoc")
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Built in a process of its own: it writes into the modules' docstrings."""
+    out = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "studies.site", str(out)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == str(out / "index.html")
+    return out
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_everything_of_a_face_is_there(site: Path, package: str) -> None:
+    page = (site / f"{package}.html").read_text(encoding="utf-8")
+    names = importlib.import_module(package).__all__
+    assert not {name for name in names if f'id="{name}"' not in page}
+    theory = ROOT / package / "README.md"
+    if theory.exists():
+        assert theory.read_text(encoding="utf-8").splitlines()[0].lstrip("# ") in page
+
+
+def test_links_lead_somewhere(site: Path) -> None:
+    for page in site.glob("*.html"):
+        text = page.read_text(encoding="utf-8")
+        for target in re.findall(r'(?:src|href)="([^"#:$]+?)(?:#[^"]*)?"', text):
+            assert (site / target).exists(), (page.name, target)
