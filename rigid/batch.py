@@ -16,8 +16,9 @@ from numpy.typing import ArrayLike, NDArray
 from .allowed import SceneError
 from .kernel import layout as at
 from .kernel.compile import compiled, kernel
-from .kernel.layout import MORE, ORDER, RECORDS, SERIES, STATE, STEPS, WIDTH, WORK_BOUND, T
-from .motion import Array
+from .kernel.layout import HOPS, MORE, ORDER, RECORDS, SERIES, STATE, STEPS, WIDTH, WORK_BOUND, T
+from .lists import phases_of
+from .motion import Array, Kind
 from .output import summary
 from .output.units import without_units
 from .phases.choice import entry_run, release_from
@@ -26,6 +27,7 @@ from .record.pulse import cut_pulse
 from .record.rows import (  # fmt: skip
     CODE,
     END_VALUES,
+    HOP_COUNT,
     PHASE_COUNT,
     PULSE_COUNT,
     PULSE_VALUES,
@@ -73,6 +75,7 @@ def entry_batch(pars, release, low, high, work, state, events, rows):
         gather(state, events, scene, rows)
         rows.ends[scene, CODE] = code
         rows.ends[scene, T_STOP] = state[T]
+        rows.ends[scene, HOP_COUNT] = state[HOPS]
 
 
 @dataclass(frozen=True, repr=False)
@@ -90,6 +93,8 @@ class Batch:
     """Phases as they were entered, (n,): one that lasts no time counts too."""
     turn_count: NDArray[np.int64]
     pulse_count: NDArray[np.int64]
+    hop_count: NDArray[np.int64]
+    """Flights that ended on the floor, (n,)."""
     turn_t: Array
     """Turns: time, angle, slip velocity, energy, each (n, turns)."""
     turn_phi: Array
@@ -109,6 +114,8 @@ class Batch:
     energetic_restitution: Array
     cut: Array
     """1 for a pulse in which the run begins or ends, 0 for a whole one."""
+    sequence: Array
+    """What the contact does in each pulse, (n, pulses), as a number; :meth:`phases` says it in words."""
 
     def __len__(self) -> int:
         return len(self.code)
@@ -127,23 +134,18 @@ class Batch:
 
         A scene without a pulse has one row, of pulse 0, whose measures are NaN.
         """
-        import pandas
+        from .output.frame import pulses_of_scenes
 
         measures = ("t_start", "t_stop", "phi_start", "phi_stop", *PULSE_MEASURES, "impulse_ratio", "cut")
-        columns = {name: getattr(self, name) for name in measures}
-        there = ~np.isnan(self.t_start)
-        without = ~there.any(axis=1)
-        scene, pulse = np.nonzero(there)
-        scene, pulse = np.append(scene, np.flatnonzero(without)), np.append(pulse, np.full(without.sum(), -1))
-        order = np.lexsort((pulse, scene))
-        scene, pulse = scene[order], pulse[order]
-        nothing = np.full((len(self), 1), np.nan)  # which the pulse -1 is
-        table = {name: np.append(column, nothing, axis=1)[scene, pulse] for name, column in columns.items()}
+        counts = {name: getattr(self, name) for name in ("phase_count", "turn_count", "pulse_count", "t_end")}
+        ended = [reason(int(code)) for code in self.code]
+        table = pulses_of_scenes({name: getattr(self, name) for name in measures}, {**counts, "ended": ended})
         table["cut"] = table["cut"] == 1
-        table |= {name: getattr(self, name)[scene] for name in ("phase_count", "turn_count", "pulse_count", "t_end")}
-        table["ended"] = [self.ended(int(i)) for i in scene]
-        index = pandas.MultiIndex.from_arrays([scene, pulse + 1], names=["scene", "pulse"])
-        return pandas.DataFrame(table, index=index)
+        return table
+
+    def phases(self, scene: int, pulse: int = 0) -> tuple[Kind, ...]:
+        """What the contact does in a pulse of a scene, in its order; nothing where there is no such pulse."""
+        return phases_of(self.sequence[scene, pulse])
 
     def __repr__(self) -> str:
         return summary.text(self._title(), self._lines())
@@ -228,7 +230,7 @@ def simulate_batch(
     return Batch(
         rows.ends[:, CODE].astype(int),
         rows.ends[:, T_STOP],
-        *(rows.ends[:, i].astype(int) for i in (PHASE_COUNT, TURN_COUNT, PULSE_COUNT)),
+        *(rows.ends[:, i].astype(int) for i in (PHASE_COUNT, TURN_COUNT, PULSE_COUNT, HOP_COUNT)),
         *(rows.turns[:, :, i] for i in range(TURN_VALUES)),
         *(rows.pulses[:, :, i] for i in range(PULSE_VALUES)),
     )
@@ -250,19 +252,9 @@ def _table(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
     rows = []
     for scene in map(as_scene, scenes):
         hoop, friction, release = scene.hoop, scene.friction, without_units(scene.release, scene)
-        rows.append(
-            (
-                hoop.k,
-                hoop.r,
-                hoop.mass_ratio,
-                friction.mu_s,
-                friction.mu,
-                release.phi0,
-                release.omega0,
-                release.slip0,
-                scene.landing.restitution,
-            )
-        )
+        hoop_and_friction = (hoop.k, hoop.r, hoop.mass_ratio, friction.mu_s, friction.mu)
+        bounce = scene.landing.restitution
+        rows.append((*hoop_and_friction, release.phi0, release.omega0, release.slip0, bounce))
     return np.array(rows, dtype=float).reshape(len(rows), len(QUANTITIES))
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import pi
 from typing import Any, Generic, TypeVar, overload
 
@@ -19,6 +20,17 @@ KINDS = {
     at.ROLL: Kind.ROLL, at.SKID: Kind.SKID, at.SPIN: Kind.SPIN,
     at.FLIGHT: Kind.FLIGHT, at.SKIM: Kind.SKIM, at.IMPACT: Kind.IMPACT,
 }  # fmt: skip
+
+
+def phases_of(sequence: float) -> tuple[Kind, ...]:
+    """The phases of a pulse from the digits that the kernel notes them in; nothing of NaN."""
+    found: list[Kind] = []
+    rest = int(sequence) if sequence == sequence else 0
+    while rest:
+        rest, digit = divmod(rest, at.SEQUENCE_BASE)
+        found.append(KINDS[digit])
+    return tuple(reversed(found))
+
 
 T = TypeVar("T")
 Row = list[float]
@@ -85,6 +97,40 @@ class Repeated(Lazy[T]):
         return self.later(self.before[len(self.before) - self.length + place], times + 1)
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class Deferred(Lazy[T]):
+    """The sequence that ``make`` makes when it is first looked at."""
+
+    make: Callable[[], Sequence[T]]
+    made: list[Sequence[T]] = field(default_factory=list, init=False)
+
+    @property
+    def items(self) -> Sequence[T]:
+        """The sequence itself."""
+        if not self.made:
+            self.made.append(self.make())
+        return self.made[0]
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    def item(self, index: int) -> T:
+        return self.items[index]
+
+    def __iter__(self) -> Iterator[T]:
+        return iter(self.items)
+
+    def __repr__(self) -> str:
+        return repr(self.items)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _itself, (self.items,)
+
+
+def _itself(items: Sequence[T]) -> Sequence[T]:
+    return items
+
+
 @dataclass(frozen=True, slots=True)
 class Start:
     """Where a phase begins, and the one before it ends."""
@@ -143,17 +189,11 @@ class Listing:
     """Phases, turns and pulses of the records of a run, and the starts from which any instant can be computed.
 
     ``starts`` are records of phases, those after a repetition moved back by it; ``fold`` says what is repeated.
-    ``sample``, made of these two, is any instant of the motion.
+    ``sample`` is any instant of the motion, for the pulses to draw themselves.
     """
 
-    def __init__(
-        self,
-        records: list[Row],
-        end: Row,
-        scene: Scene,
-        sampler: Callable[[tuple[tuple[float, ...], ...], Fold | None], Sample],
-    ) -> None:
-        self.scene = scene
+    def __init__(self, records: list[Row], end: Row, scene: Scene, sample: Sample) -> None:
+        self.scene, self.sample = scene, sample
         where = next((i for i, row in enumerate(records) if row[0] == at.REPEAT), len(records))
         self.fold: Fold | None = None
         self.later = Later(0.0, 0.0)
@@ -163,16 +203,37 @@ class Listing:
             self.fold = Fold(row[at.R_T], row[at.R_PERIOD], row[at.R_WAY], row[at.R_WHOLE], int(row[at.R_COUNT]))
             self.later = Later(self.fold.period * scene.time_unit, 2 * pi * self.fold.whole)
             first = where - int(row[at.R_RECORDS])
-        parts = records[:where], records[first:where], records[where + 1 :]
-        phases = [row for row in parts[0] + parts[2] if row[0] not in (at.TURN, at.PULSE)]
-        kept = {id(row) for row in merged(phases, end)}
-        before, once, after = ([row for row in part if id(row) in kept] for part in parts)
-        edges = self._list(before, once, [*after, end], (*KINDS, at.END), self._start)
-        self.phases: Sequence[Phase] = Spans(edges) if self.fold else Spans(edges)[:]
-        self.starts = tuple(map(tuple, [*before, *map(self._moved_back, after)]))
-        self.sample = sampler(self.starts, self.fold)
-        self.turns = self._list(*parts, (at.TURN,), self._turn)
-        self.pulses = self._list(*parts, (at.PULSE,), self._pulse)
+        self.end, self.parts = end, (records[:where], records[first:where], records[where + 1 :])
+
+    @cached_property
+    def starting(self) -> list[list[Row]]:
+        """Of each of the parts, the records of phases that go somewhere."""
+        phases = [row for row in self.parts[0] + self.parts[2] if row[0] not in (at.TURN, at.PULSE)]
+        kept = {id(row) for row in merged(phases, self.end)}
+        return [[row for row in part if id(row) in kept] for part in self.parts]
+
+    @cached_property
+    def starts(self) -> tuple[tuple[float, ...], ...]:
+        """The records from which any instant can be computed."""
+        before, _, after = self.starting
+        return tuple(map(tuple, [*before, *map(self._moved_back, after)]))
+
+    @cached_property
+    def phases(self) -> Sequence[Phase]:
+        """Every phase."""
+        before, once, after = self.starting
+        edges = self._list(before, once, [*after, self.end], (*KINDS, at.END), self._start)
+        return Spans(edges) if self.fold else Spans(edges)[:]
+
+    @cached_property
+    def turns(self) -> Sequence[Turn]:
+        """Every turn."""
+        return self._list(*self.parts, (at.TURN,), self._turn)
+
+    @cached_property
+    def pulses(self) -> Sequence[Pulse]:
+        """Every pulse."""
+        return self._list(*self.parts, (at.PULSE,), self._pulse)
 
     def _list(
         self, before: list[Row], once: list[Row], after: list[Row], tags: tuple[int, ...], make: Callable[[Row], T]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from math import inf, pi
 from os import PathLike
 from typing import Any, NamedTuple
@@ -13,7 +14,7 @@ from numpy.typing import NDArray
 
 from .kernel import layout as at
 from .kernel.compile import compiled
-from .lists import Fold, Listing, Row
+from .lists import Deferred, Listing, Row
 from .motion import Array, Motion, Side, States
 from .output.file import Stored, read
 from .output.units import in_units, without_units
@@ -165,16 +166,20 @@ class Log(NamedTuple):
 
 
 def _motion(scene: Scene, log: Log) -> Motion:
-    """The motion of a scene from what its run left."""
-    code, records, final = log
-    par = tuple(parameters(scene))
-    end = [float(at.END), *final[: at.MOVING]]
-    listed = Listing(records, end, scene, lambda starts, fold: Sampler(par, starts, fold, scene, log))
+    """The motion of a scene from what its run left; its lists are made when they are looked at."""
+    code, _, final = log
+    sample = Sampler(scene, log)
     period = final[at.PERIOD] * scene.time_unit if 0 < final[at.PERIOD] < inf else None
     return Motion(
-        scene, listed.phases, listed.turns, listed.pulses, _ended(code, scene, period, final), listed.sample, period,
+        scene,
+        Deferred(lambda: sample.listing.phases),
+        Deferred(lambda: sample.listing.turns),
+        Deferred(lambda: sample.listing.pulses),
+        _ended(code, scene, period, final),
+        sample,
+        period,
         code != at.WORK_BOUND,
-    )  # fmt: skip
+    )
 
 
 def _ended(code: int, scene: Scene, period: float | None, final: list[float]) -> str:
@@ -208,13 +213,19 @@ def load_motion(path: str | PathLike[str]) -> Motion:
 
 @dataclass(frozen=True)
 class Sampler:
-    """Evaluates a motion at given times from the starting states of its phases; a plain value."""
+    """Lists a motion and evaluates it at given times, from what its run left; a plain value."""
 
-    par: tuple[float, ...]
-    starts: tuple[tuple[float, ...], ...]
-    fold: Fold | None
     scene: Scene
-    log: Log = field(compare=False)
+    log: Log
+
+    @cached_property
+    def listing(self) -> Listing:
+        """Phases, turns and pulses."""
+        _, records, final = self.log
+        return Listing(records, [float(at.END), *final[: at.MOVING]], self.scene, self)
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {"scene": self.scene, "log": self.log}
 
     def stored(self, motion: Motion) -> Stored:
         """What a file keeps of the motion."""
@@ -226,21 +237,22 @@ class Sampler:
         scene = self.scene
         order = np.argsort(t, axis=None, kind="stable")
         told = t.ravel()[order]
-        starts = np.array([row[1 + at.T] for row in self.starts])
+        starts = np.array([row[1 + at.T] for row in self.listing.starts])
         # compared as the phases state their times: a division could put an instant on the wrong side of a boundary
         owner = np.searchsorted(starts * scene.time_unit, told, side) - 1
         once, again = told / scene.time_unit, np.zeros(len(told))
-        if self.fold is not None:
-            once, again = self.fold.back(once)
+        fold = self.listing.fold
+        if fold is not None:
+            once, again = fold.back(once)
             owner = np.where(again > 0, np.searchsorted(starts, once, side) - 1, owner)
         owner = np.maximum(owner, 0)
         once = np.maximum(once, starts[owner])
         within = np.argsort(once, kind="stable")
         rows = np.empty((len(told), instant.COLUMNS))
         rows[within] = self._rows(once[within], owner[within])
-        if self.fold is not None:
-            rows[:, 0] += again * 2 * pi * self.fold.whole
-            rows[:, 2] += again * self.fold.way
+        if fold is not None:
+            rows[:, 0] += again * 2 * pi * fold.whole
+            rows[:, 2] += again * fold.way
         table = np.empty_like(rows)
         table[order] = rows
         columns = [column.reshape(t.shape) for column in table.T]
@@ -252,19 +264,20 @@ class Sampler:
     def _rows(self, times: Array, owner: NDArray[np.int64]) -> Array:
         """A row of the kernel's columns for each time, in the phase of the number ``owner``."""
         width = instant.COLUMNS
-        padded = [list(row) + [0.0] * (at.WIDTH - len(row)) for row in self.starts]
+        constants = parameters(self.scene)
+        padded = [list(row) + [0.0] * (at.WIDTH - len(row)) for row in self.listing.starts]
         flat = [number for row in padded for number in row]
         if _interpreted_steps < PATIENCE and len(times) < PATIENCE:
             out: Any = [0.0] * (len(times) * width)
             work: Any = [[0.0] * (at.ORDER + 1) for _ in range(at.SERIES)]
             events = [0.0] * (16 * at.WIDTH)
             state = [0.0] * at.STATE
-            instant.entry_sample(list(self.par), flat, owner.tolist(), times.tolist(), out, work, state, events)
+            instant.entry_sample(constants, flat, owner.tolist(), times.tolist(), out, work, state, events)
             return np.array(out, dtype=float).reshape(len(times), width)
         out = np.zeros(len(times) * width)
         work = np.zeros((at.SERIES, at.ORDER + 1))
         compiled()["entry_sample"](
-            np.array(self.par),
+            np.array(constants),
             np.array(flat),
             owner,
             times,

@@ -7,6 +7,7 @@
 
 ``stiffness``  the flexible hoop against the rigid one as stiffness grows: ladder, rates, limit, figures, page
 ``limit``      that limit solved, from the inner problems (``inner``) of the rigid hoop's events
+``atlas``      a map of a million rigid hoops over two quantities
 ``hop``        the paper's footnote: which hoops, released at rest, leave the floor, and where
 ``sweep``      the product of scene keys over processes or a Dask cluster
 ``paper``      every number and figure of the paper again
@@ -29,6 +30,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     __version__: str
 
+    from .atlas.study import Atlas, atlas_of
     from .limit.study import LimitStudy, limit_study
     from .running.files import StudyError
     from .running.measures import MEASURES, Measure, Unit, measure, measures
@@ -40,6 +42,8 @@ if TYPE_CHECKING:
     from .sweep import Sweep, Table, load_sweep, run_sweep, sweep_from_dict
 
 _HOMES = {
+    "Atlas": "atlas.study",
+    "atlas_of": "atlas.study",
     "LimitStudy": "limit.study",
     "limit_study": "limit.study",
     "MEASURES": "running.measures",
@@ -80,6 +84,7 @@ def __dir__() -> list[str]:
 
 __all__ = [
     "MEASURES",
+    "Atlas",
     "Ladder",
     "Limit",
     "LimitStudy",
@@ -91,6 +96,7 @@ __all__ = [
     "Table",
     "Unit",
     "__version__",
+    "atlas_of",
     "limit_of",
     "limit_study",
     "load_sweep",

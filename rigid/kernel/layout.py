@@ -23,7 +23,10 @@ LOSSLESS_TURNS, SLIDES_DONE, LAST_ENERGY, LAST_TURNS, PHASE_T, SLIP_SCALE, PULL,
 # many turns, pulses and records there were (see rigid.record.cycle). RECORDED counts all records, RECORDS those in
 # the log.
 A_EVENT, A_T, A_ANGLE, A_WHOLE, A_OMEGA, A_XDOT, A_X, A_TURNS, A_PULSES, A_RECORDED, RECORDED = range(40, 51)
-STATE = 51
+# The phases of the open pulse, as digits to the base of SEQUENCE_BASE.
+P_SEQUENCE = 51
+STATE = 52
+SEQUENCE_BASE = 8
 
 # What a phase works in: Taylor coefficients of as many quantities, for names see rigid.phases.slipping; a rolling phase
 # keeps its polynomials there.
@@ -38,7 +41,7 @@ CHOOSE, ROLL, SKID, SPIN, FLIGHT, SKIM, IMPACT = range(7)
 # PULSE its measures, a REPEAT what comes again and how often.
 WIDTH = 18
 TURN_ENERGY = 12  # where in a TURN
-PULSE_CUT = 16  # where in a PULSE: whether the run begins or ends inside it
+PULSE_CUT, PULSE_SEQUENCE = 16, 17  # where in a PULSE: whether the run begins or ends inside it; its phases
 TURN, PULSE, END, REPEAT = 10, 11, 12, 13
 # where in a REPEAT: time and place up to which the motion has gone, its period, the way and the whole turns that it
 # advances in one, how often it is repeated, and how many turns, pulses and records one period has

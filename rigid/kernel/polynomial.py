@@ -32,6 +32,22 @@ def value(c, n, x):
 
 
 @kernel
+def least(c, sign, first, n, x):
+    """A bound from below of ``sign`` (c[first] + c[first + 1] z + ... + c[n] z^(n - first)) over 0 <= z <= x: the least
+    of the partial sums S_k at x.
+
+    The polynomial at z = x y is the mean sum S_k (y^k - y^(k + 1)) + S_n y^n of them.
+    """
+    total = low = sign * c[first]
+    power = sign
+    for i in range(first + 1, n + 1):
+        power *= x
+        total += power * c[i]
+        low = min(low, total)
+    return low
+
+
+@kernel
 def value_and_slope(c, n, x):
     """A polynomial and its derivative, in the manner of :func:`value`."""
     x2 = x * x
@@ -160,10 +176,7 @@ def first_crossing(c, n, length, sign):
     lead = 0
     while lead < n and c[lead] == 0.0:
         lead += 1
-    tail = 0.0
-    for i in range(n, lead, -1):
-        tail = tail * length + abs(c[i])
-    if sign * c[lead] > tail * length:
+    if least(c, sign, lead, n, length) > 0.0:
         return -1.0
     if sign * c[lead] < 0:
         return 0.0

@@ -82,8 +82,11 @@ def peak_force(gyr, work, length):
     x0, slope0 = 0.0, 0.0
     for k in range(3):
         x = 0.5 * length * k
-        y, dy = value_and_slope(b, ORDER, x)
-        z, dz = value_and_slope(d, ORDER, x)
+        y, dy = b[0], b[1]
+        z, dz = d[0], d[1]
+        if k > 0:
+            y, dy = value_and_slope(b, ORDER, x)
+            z, dz = value_and_slope(d, ORDER, x)
         top = max(top, gyr * y / z)
         slope = dy * z - y * dz
         if k > 0 and slope0 > 0 and slope < 0:
@@ -181,7 +184,7 @@ def next_event(par, state, work, length, at_edge):
     om, n1, tt = work[S_OMEGA], work[S_N1], work[S_T]
     length, event = end_of_slip(work, length, 1.0 if state[MODE] == SKID else -1.0)
     left = par[T_END] - state[T]
-    if left < value(tt, ORDER, length):
+    if left < inf and left < value(tt, ORDER, length):
         tt[0] = -left
         x = first_crossing(tt, ORDER, length, -1.0)
         tt[0] = 0.0

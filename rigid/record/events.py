@@ -9,6 +9,7 @@ from ..kernel.layout import (  # fmt: skip
     LAST_KIND,
     MODE,
     MOVING,
+    P_OPEN,
     PHASE_T,
     RECORDED,
     RECORDS,
@@ -21,7 +22,7 @@ from ..kernel.layout import (  # fmt: skip
     YDOT,
     T,
 )
-from .pulse import energy, velocity_of_g
+from .pulse import energy, note_phase, velocity_of_g
 
 ROOM = 8  # records that one turn of a loop may add
 
@@ -42,6 +43,8 @@ def begin(par, state, kind, events):
     """Enter a phase; one that goes on with the same kind is no new phase."""
     state[MODE] = kind
     state[XDOT], state[YDOT] = velocity_of_g(par, state)
+    if state[P_OPEN] != 0.0:
+        note_phase(state, kind)
     if state[LAST_KIND] != kind or kind == IMPACT:
         record(state, kind, events)
         state[LAST_KIND] = kind

@@ -18,6 +18,8 @@ from ..kernel.layout import (  # fmt: skip
     ECC,
     GAP,
     GYR,
+    IMPACT,
+    LAST_KIND,
     OMEGA,
     ONE_MINUS_E,
     P_ANGLE,
@@ -27,17 +29,21 @@ from ..kernel.layout import (  # fmt: skip
     P_H,
     P_OPEN,
     P_PEAK,
+    P_SEQUENCE,
     P_T,
     P_T_BOTTOM,
     P_TOP,
     P_WHOLE,
     P_XDOT,
     P_YDOT,
+    PHASE_T,
     PULSE,
     PULSE_CUT,
+    PULSE_SEQUENCE,
     PULSES_DONE,
     RECORDED,
     RECORDS,
+    SEQUENCE_BASE,
     SLIP,
     TOP,
     UN,
@@ -48,6 +54,7 @@ from ..kernel.layout import (  # fmt: skip
     T,
 )
 
+MOST_PHASES = float(SEQUENCE_BASE) ** 15  # of a pulse, in the digits that a float holds: what follows is not listed
 EDGE = 1e-12  # of N over M g: round-off at the edge of a pulse
 
 
@@ -108,7 +115,19 @@ def open_pulse(par, state):
     )
     state[P_XDOT], state[P_YDOT] = velocity_of_g(par, state)
     state[P_H] = h
+    state[P_SEQUENCE] = state[LAST_KIND]
     state[P_ENERGY] = energy(par, state)
+
+
+@kernel
+def note_phase(state, kind):
+    """The pulse goes on in a phase of another kind; a phase that lasted no time, and is no impact, was none."""
+    last = state[P_SEQUENCE] % SEQUENCE_BASE
+    if state[T] == state[PHASE_T] and last != IMPACT:
+        state[P_SEQUENCE] = (state[P_SEQUENCE] - last) / SEQUENCE_BASE
+        last = state[P_SEQUENCE] % SEQUENCE_BASE
+    if last != kind and state[P_SEQUENCE] < MOST_PHASES:
+        state[P_SEQUENCE] = state[P_SEQUENCE] * SEQUENCE_BASE + kind
 
 
 @kernel
@@ -176,5 +195,10 @@ def write_pulse(par, state, events):
         events[r + 14] = (normal - compression) / compression if compression > 0 else 0.0
         events[r + 15] = sqrt(work_out / -work_in) if work_in < 0 else 0.0
     events[r + PULSE_CUT] = state[P_CUT]
+    events[r + PULSE_SEQUENCE] = state[P_SEQUENCE]
+    last = state[P_SEQUENCE] % SEQUENCE_BASE
+    if state[T] == state[PHASE_T] and last != IMPACT and state[P_SEQUENCE] > last:
+        # N falls below the weight where the phase changes: the next one is not of the pulse
+        events[r + PULSE_SEQUENCE] = (state[P_SEQUENCE] - last) / SEQUENCE_BASE
     state[RECORDS] += 1
     state[RECORDED] += 1

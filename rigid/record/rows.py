@@ -14,6 +14,7 @@ from ..kernel.compile import kernel
 from ..kernel.layout import (  # fmt: skip
     PULSE,
     PULSE_CUT,
+    PULSE_SEQUENCE,
     R_COUNT,
     R_PERIOD,
     R_PULSES,
@@ -27,14 +28,14 @@ from ..kernel.layout import (  # fmt: skip
     WIDTH,
 )
 
-CODE, T_STOP, PHASE_COUNT, TURN_COUNT, PULSE_COUNT = range(5)  # columns of ``Rows.ends``
-END_VALUES = 5
+CODE, T_STOP, PHASE_COUNT, TURN_COUNT, PULSE_COUNT, HOP_COUNT = range(6)  # columns of ``Rows.ends``
+END_VALUES = 6
 TURN_VALUES = 4  # t, phi, slip velocity, energy
-PULSE_VALUES = 12  # t, phi at both ends; J_N, J_F, loss, peak; three restitutions; whether it is cut
+PULSE_VALUES = 13  # t, phi at both ends; J_N, J_F, loss, peak; three restitutions; whether it is cut; its phases
 
 
 class Rows(NamedTuple):
-    """How each of n scenes ended, (n, 5), its turns, (n, turns, 4), and its pulses, (n, pulses, 12)."""
+    """How each of n scenes ended, (n, 6), its turns, (n, turns, 4), and its pulses, (n, pulses, 13)."""
 
     ends: NDArray[float64]
     turns: NDArray[float64]
@@ -72,6 +73,7 @@ def gather(state, events, scene, rows):
                 for i in range(7):
                     pulses[scene, n_pulses, 4 + i] = events[r + 9 + i]
                 pulses[scene, n_pulses, 11] = events[r + PULSE_CUT]
+                pulses[scene, n_pulses, 12] = events[r + PULSE_SEQUENCE]
             ends[scene, PULSE_COUNT] += 1
         elif events[r] == REPEAT:
             count = events[r + R_COUNT]

@@ -38,7 +38,13 @@ def worst(k: float, turns: Sequence[Sequence[float]]) -> float:
 
 def _ours(k: float) -> Callable[[], Any]:
     scene = scene_of(k)
-    return lambda: simulate(scene)
+
+    def run() -> rigid.Motion:
+        motion = simulate(scene)
+        len(motion.turns)  # its lists are made when they are looked at; the others return their turns too
+        return motion
+
+    return run
 
 
 def _judge_motion(k: float) -> Callable[[rigid.Motion], float]:
@@ -118,22 +124,25 @@ def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[floa
     rows = race(contestants(quick), 3 if quick else 7, progress)
     _remember()
     count = 1_000 if quick else 10_000
-    entry = Contestant(
-        "hoop-pulse", f"batch of {count}, all cores", f"k = {DISKS[0]:g}", batch_of(count),
-        _judge_batch(many_disks(count)), clock="wall",
-    )  # fmt: skip
-    batch = race([entry], 3 if quick else 5)[0]
-    batch.seconds = [seconds / count for seconds in batch.seconds]
-    batch.note = "per scene"
-    rows.append(batch)
+    judge, name = _judge_batch(many_disks(count)), f"k = {DISKS[0]:g}"
+    entries = [
+        Contestant("hoop-pulse", f"batch of {count}, all cores", name, batch_of(count), judge, clock="wall"),
+        # what other work on the machine does not change
+        Contestant("hoop-pulse", f"batch of {count}, one core", name, batch_of(count, 1), judge),
+    ]
+    batches = race(entries, 3 if quick else 5)
+    for batch in batches:
+        batch.seconds = [seconds / count for seconds in batch.seconds]
+        batch.note = "per scene"
+    rows += batches
     if peers_too and peers.installed("exudyn"):
         rows += race(_exudyn(), 1)
     if peers_too:
         rows += [_absent(name) for name in ("exudyn", "pydrake") if not peers.installed(name)]
         if peers.installed("pydrake"):
-            note = "no setting of its contact was found that comes within 10 degrees of the first turn"
+            note = "one coefficient where this hoop has two: its pulse is in `hoop study limit --peers`, with mu_s = mu"
             rows.append(Row("pydrake", "-", "-", [], note=note))
-    return Result(rows, _claims(rows, batch))
+    return Result(rows, _claims(rows, *batches))
 
 
 def _exudyn() -> list[Contestant]:
@@ -158,7 +167,7 @@ def _find(rows: list[Row], solver: str, setting: str, scene: str) -> Row:
     return next(row for row in rows if (row.solver, row.setting, row.scene) == (solver, setting, scene))
 
 
-def _claims(rows: list[Row], batch: Row) -> list[Claim]:
+def _claims(rows: list[Row], batch: Row, on_one: Row) -> list[Claim]:
     """Ratios of the least times, which other work on the machine disturbs least."""
     name = f"k = {DISKS[0]:g}"
     ours = _find(rows, "hoop-pulse", "one call, compiled", name)
@@ -166,7 +175,7 @@ def _claims(rows: list[Row], batch: Row) -> list[Claim]:
     claims = [
         Claim("rigid: faster than scipy DOP853 at rtol 1e-10, k = 0.1", theirs.least / ours.least, 100),
         Claim("rigid: our error over scipy's there", ours.error / theirs.error, 1, at_most=True),
-        Claim("rigid: faster per scene in a batch, all cores", theirs.least / batch.least, 500),
+        Claim("rigid: faster per scene in a batch, processor time", theirs.least / on_one.least, 200),
         Claim("rigid: peak memory of the batch, MB", batch.peak_memory, 300, at_most=True),
     ]
     small = [row for row in rows if row.scene == f"k = {DISKS[-1]:g}" and row.setting == "one call, compiled"]

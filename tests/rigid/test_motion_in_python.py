@@ -154,3 +154,40 @@ def test_pictures_and_tables_are_loaded_where_they_are_used():
         "assert not set(sys.modules) & {'matplotlib', 'pandas', 'scipy', 'numba'}"
     )
     subprocess.run([sys.executable, "-c", line], cwd=ROOT, check=True)
+
+
+def test_a_batch_tells_the_phases_of_each_pulse():
+    """Those of the motion that last within the pulse, and the impacts inside it: jams and landings."""
+    rng = np.random.default_rng(20091)
+    n = 150
+    mu = rng.uniform(0.02, 1.0, n)
+    hoops = {
+        "k": 10 ** rng.uniform(-4, -0.05, n), "r": rng.uniform(1, 1.3, n), "mass_ratio": rng.choice([0, 0.1, 1.0], n),
+        "mu": mu, "mu_s": mu * rng.uniform(1, 1.5, n), "phi0": rng.uniform(0.05, 2.0, n),
+        "omega0": rng.normal(size=n) * rng.choice([0, 2], n), "slip0": rng.normal(size=n) * rng.choice([0, 2], n),
+    }  # fmt: skip
+    batch = simulate_batch(hoops, turns=2, pulses=2)
+    seen = set()
+    for i in range(n):
+        value = {name: float(column[i]) for name, column in hoops.items()}
+        motion = simulate(
+            Scene(
+                Hoop(value["k"], value["r"], value["mass_ratio"]),
+                Friction(value["mu_s"], value["mu"]),
+                Release(value["phi0"], value["omega0"], value["slip0"]),
+                Run(turns=2),
+            )
+        )
+        assert batch.hop_count[i] == sum(phase.kind == "flight" for phase in motion.phases)
+        for j, pulse in enumerate(motion.pulses[:2]):
+            start, end = pulse.t_start, pulse.t_end
+            within = tuple(
+                phase.kind
+                for phase in motion.phases
+                if (phase.t_start < end and phase.t_end > start) or start < phase.t_start == phase.t_end <= end
+            )
+            assert batch.phases(i, j) == within
+            seen.add(within)
+        assert all(batch.phases(i, j) == () for j in range(len(motion.pulses), 2))
+    assert len(seen) > 10
+    assert any("impact" in phases for phases in seen)

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from math import exp, factorial
+
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from rigid.kernel.polynomial import bernstein, first_positive, value, value_and_slope
+from rigid.kernel.polynomial import bernstein, first_crossing, first_positive, least, value, value_and_slope
 
 #: the margin of a rolling hoop: 0.1679, 0.4301 and a pair 0.012 beside 0.549, where it all but touches zero
 MARGIN = [
@@ -69,3 +73,22 @@ def test_horner_in_four_strands(degree):
     exact = np.polynomial.Polynomial(c)
     assert value(c, degree, x) == pytest.approx(exact(x), rel=1e-13)
     assert value_and_slope(c, degree, x) == pytest.approx((exact(x), exact.deriv()(x)), rel=1e-12)
+
+
+@given(st.lists(st.floats(-10, 10), min_size=2, max_size=12), st.floats(0.0, 3.0), st.sampled_from([1.0, -1.0]))
+def test_the_least_partial_sum_is_a_bound(coefficients, length, sign):
+    """Nowhere on the interval is a polynomial below it, up to the round-off of its terms."""
+    n = len(coefficients) - 1
+    bound = least(coefficients, sign, 0, n, length)
+    x = np.linspace(0.0, length, 200)
+    terms = np.abs(coefficients) @ np.power.outer(length, np.arange(n + 1))
+    assert np.min(sign * np.polynomial.polynomial.polyval(x, coefficients)) >= bound - 1e-14 * (1 + terms)
+
+
+def test_the_bound_rules_out_what_falls_by_half():
+    """exp(-x) stays positive, and its partial sums at 0.9 do: no search is needed. They do not at 2."""
+    series = [(-1.0) ** k / factorial(k) for k in range(25)]
+    assert 0 < least(series, 1.0, 0, 24, 0.9) <= exp(-0.9)
+    assert least(series, 1.0, 1, 24, 0.9) < 0 < least(series, -1.0, 1, 24, 0.9)
+    assert least(series, 1.0, 0, 24, 2.0) < 0
+    assert first_crossing(series, 24, 2.0, 1.0) == -1.0

@@ -1,0 +1,167 @@
+"""The atlas: what is filled is what would have been run, boundaries lie where closed forms put them."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+from command_line import is_one_sentence
+
+from rigid import Release, SceneError, load_scene, rolling_k, simulate
+from rigid.lists import phases_of
+from studies import Atlas, atlas_of
+from studies.atlas.plane import NO_HOOP, SYMBOLS, plane
+from studies.atlas.refine import WITHIN
+from studies.atlas.study import SHADE
+
+SIDE = 64
+
+
+@pytest.fixture(scope="module")
+def drawn() -> Atlas:
+    """k = 0.02 to 0.9, mu = 0.02 to 1."""
+    return atlas_of(side=SIDE)
+
+
+def test_what_is_filled_is_what_runs_give(drawn: Atlas):
+    """Every hoop of the grid run: no other sequence, and no value off by more than two shades.
+
+    A cell is filled when its centre is within one shade of the mean of its corners; a smooth function is then within
+    about that everywhere in it, and twice that is allowed.
+    """
+    share = np.linspace(0, 1, SIDE + 1)
+    across, up = (axis.ravel() for axis in np.meshgrid(share, share))
+    chosen = drawn.plane
+    seen = chosen.run(chosen.across.at(across), chosen.up.at(up))
+    assert np.array_equal(seen.sequence.reshape(drawn.sequence.shape), drawn.sequence)
+    assert 0 < drawn.found.computed.mean() < 0.6  # it did fill
+    for run, filled in zip((seen.share, seen.loss, seen.peak), drawn.found.values, strict=True):
+        assert np.nanmax(np.abs(run.reshape(filled.shape) - filled)) <= 2 * SHADE * np.ptp(run)
+    computed = drawn.found.computed
+    assert np.array_equal(drawn.found.values[0][computed], seen.share.reshape(computed.shape)[computed])
+
+
+def test_rolling_throughout_begins_where_the_closed_form_has_it(drawn: Atlas):
+    """The last slip of the pulse ends at the k of section 3.2, to a part of a square."""
+    rows = WITHIN * SIDE
+    row = int((0.3 - 0.02) / 0.98 * rows)
+    mu = 0.02 + 0.98 * (row + 0.5) / rows
+    rolls = drawn.found.squares[row] == 1  # a single phase, rolling
+    assert phases_of(1.0) == ("roll",)
+    edge = 0.02 + 0.88 * (int(np.flatnonzero(~rolls).max()) + 1) / rows
+    exact = rolling_k(mu * 0.35 / 0.3, Release(phi0_deg=10))
+    # the part on one side of the edge is judged by its centre
+    assert abs(edge - exact) <= 0.88 / rows
+
+
+@pytest.mark.parametrize("name", ["paper-3.1", "paper-3.2-k0.25", "paper-3.2-k0.5", "paper-3.2-k0.75"])
+def test_the_papers_scenes_are_where_their_sequence_is(drawn: Atlas, name: str):
+    places = {f"paper-{place[0]}": place[1:] for place in drawn.plane.scenes_of_the_paper()}
+    x, y = places[name]
+    scene = load_scene(name)
+    assert (x, y) == (scene.hoop.k, scene.friction.mu)
+    motion = simulate(scene)
+    pulse = motion.pulses[0]
+    inside = [str(p.kind) for p in motion.phases if p.t_end > pulse.t_start and p.t_start < pulse.t_end]
+    rows = WITHIN * SIDE
+    part = drawn.found.squares[int((y - 0.02) / 0.98 * rows), int((x - 0.02) / 0.88 * rows)]
+    assert [region.phases for region in drawn.regions if region.sequence == part] == [", ".join(inside)]
+
+
+def test_scenes_of_another_hoop_are_not_marked(drawn: Atlas):
+    """3.3-massless has r = 1.02, 3.4 a hoop with mass; in their own plane the latter are there."""
+    marked = {name for name, _, _ in drawn.plane.scenes_of_the_paper()}
+    assert marked == {"3.1", "3.2-k0.25", "3.2-k0.5", "3.2-k0.5385", "3.2-k0.75"}
+    other = plane(load_scene("paper-3.3-heavier"), {"hoop.mass_ratio": (0.01, 5.0), "friction.mu": (0.02, 1.1)})
+    assert {name for name, _, _ in other.scenes_of_the_paper()} == {
+        "3.3-heavier", "3.3-light", "3.3-same-density", "3.4-rough", "3.4-slippery",
+    }  # fmt: skip
+
+
+def test_regions_are_all_of_the_map(drawn: Atlas):
+    assert sum(region.share for region in drawn.regions) == pytest.approx(1.0)
+    assert [r.share for r in drawn.regions] == sorted((r.share for r in drawn.regions), reverse=True)
+    for region in drawn.regions:
+        assert np.mean(drawn.found.squares == region.sequence) == pytest.approx(region.share)
+
+
+def test_the_ratio_of_the_coefficients_is_the_scenes():
+    scene = load_scene("paper-3.1")
+    for key in ("friction.mu", "friction.mu_s"):
+        hoops = plane(scene, {"hoop.k": (0.1, 0.5), key: (0.1, 0.5)}).hoops(np.array([0.2, 0.3]), np.array([0.2, 0.4]))
+        assert hoops["mu_s"] / hoops["mu"] == pytest.approx(0.35 / 0.3)
+        assert hoops["phi0"] == pytest.approx(np.deg2rad(10))
+
+
+def test_no_hoop_has_less_static_than_kinetic_friction():
+    found = atlas_of("paper-3.1", {"friction.mu_s": (0.0, 1.0), "friction.mu": (0.0, 1.0)}, side=16)
+    mu_s, mu = np.meshgrid(found.x, found.y)
+    assert np.array_equal(found.sequence == NO_HOOP, mu_s < mu)
+    assert np.isnan(found.impulse_share[mu_s < mu]).all()
+
+
+def test_hoops_that_hop_are_told():
+    """From rest no hoop hops; with enough spin each does, before its disk is down."""
+    found = atlas_of("paper-3.1", {"release.omega0": (0.0, 4.0), "friction.mu": (0.1, 0.5)}, side=16)
+    assert not found.found.hops[:, 0].any()
+    assert found.found.hops[:, -1].all()
+    for column, expected in ((0, False), (-1, True)):
+        scene = load_scene("paper-3.1").replace(
+            release={"omega0": float(found.x[column])}, friction={"mu": 0.1, "mu_s": 0.35 / 3}, run={"until": "pulse"}
+        )
+        assert any(phase.kind == "flight" for phase in simulate(scene).phases) is expected
+
+
+def test_a_range_of_two_decades_is_logarithmic():
+    chosen = plane(load_scene("paper-3.1"), {"hoop.k": (1e-5, 0.1), "friction.mu": (0.1, 0.5)})
+    assert chosen.across.at(np.array([0.0, 0.5, 1.0])) == pytest.approx([1e-5, 1e-3, 0.1], rel=1e-14)
+    assert chosen.across.share(np.array([1e-5, 1e-3, 0.1])) == pytest.approx([0.0, 0.5, 1.0])
+    assert chosen.up.at(np.array([0.5])) == pytest.approx([0.3])
+
+
+@pytest.mark.parametrize(
+    ("over", "said"),
+    [
+        ({"hoop.k": (0.1, 0.2)}, "two different keys"),
+        ({"hoop.k": (0.1, 0.2), "ring.depth": (0.1, 0.2)}, "ring.depth is not a key"),
+        ({"hoop.k": (0.2, 0.1), "friction.mu": (0.1, 0.2)}, "runs up"),
+        ({"hoop.k": (0.1, 1.5), "friction.mu": (0.1, 0.2)}, "hoop.k = 1.5 is not possible"),
+        ({"hoop.k": (0.1, 0.5), "friction.mu": (-0.1, 0.2)}, "is not possible"),
+        ({"hoop.k": (0.1, float("nan")), "friction.mu": (0.1, 0.2)}, "from a number to a number"),
+    ],
+)
+def test_what_is_no_plane_is_refused_in_a_sentence(over: dict[str, tuple[float, float]], said: str):
+    with pytest.raises(SceneError, match=said) as refused:
+        atlas_of("paper-3.1", over)
+    assert str(refused.value).endswith((".", "below 1", "1e9"))
+
+
+def test_the_command(hoop, tmp_path):
+    status, out, err = hoop("study", "atlas", "--side", 16, "--json", "--out", tmp_path / "map")
+    assert status == 0, err
+    told = json.loads(out)
+    assert told["hoops"] == 17**2
+    assert told["over"] == {"hoop.k": [0.02, 0.9], "friction.mu": [0.02, 1.0]}
+    assert json.loads((tmp_path / "map" / "atlas.json").read_text())["regions"] == told["regions"]
+    assert (tmp_path / "map" / "atlas.png").stat().st_size > 10_000
+    with np.load(tmp_path / "map" / "atlas.npz") as kept:
+        assert kept["sequence"].shape == kept["impulse_share"].shape == (17, 17)
+        assert (kept["hoop.k"][-1], kept["friction.mu"][-1]) == (0.9, 1.0)
+        numbers = {int(number): phases for number, phases in kept["sequences"]}
+        assert set(np.unique(kept["sequence_within_squares"])) == set(numbers)
+    assert sorted(path.name for path in (tmp_path / "map").iterdir()) == ["atlas.json", "atlas.npz", "atlas.png"]
+
+
+@pytest.mark.parametrize("over", ["hoop.k=0.1", "hoop.k=a:b", "hoop.k=0.1:0.2:0.3", "hoop.k=0.1:0.2"])
+def test_the_command_refuses_in_a_sentence(hoop, tmp_path, over: str):
+    status, out, err = hoop("study", "atlas", "--over", over, "--out", tmp_path / "map")
+    assert (status, out) == (2, "")
+    assert is_one_sentence(err)
+    assert not (tmp_path / "map").exists()
+
+
+def test_the_help_names_every_key(hoop):
+    status, out, _ = hoop("study", "atlas", "-h")
+    assert status == 0
+    assert all(key in " ".join(out.split()) for key in SYMBOLS)
