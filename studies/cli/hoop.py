@@ -19,6 +19,7 @@ import click
 from rigid import SceneError, load_scene
 
 from ..running.files import StudyError, trouble
+from .atlas import atlas
 from .bench import bench, stress, validate
 from .completion import completion
 from .hop import hop
@@ -156,6 +157,7 @@ def compile_(shared: bool) -> None:
 
 
 study.add_command(limit)
+study.add_command(atlas)
 study.add_command(hop)
 hoop.add_command(study)
 hoop.add_command(view)
