@@ -17,6 +17,7 @@ from pathlib import Path
 ROOT = Path(__file__).parent.parent
 PACKAGES = ("rigid", "meshes", "flexible", "studies")
 TEXT_OF_ITS_OWN = re.compile(r"\]\((?:\.\./)?(rigid|meshes|flexible|studies)/README\.md(#[^)]*)?\)")
+FILE = re.compile(r"\]\(([^):#]+)\)")
 PICTURES = re.compile(r"(\]\(|src=\")(?:\.\./)?\.images/")
 
 
@@ -58,6 +59,11 @@ def build(out: Path) -> Path:
     pages = {name: pdoc.doc.Module(import_module(name)) for name in PACKAGES}
     first = out / "index.html"
     first.write_text(pdoc.render.html_module(pdoc.doc.Module(front), pages), encoding="utf-8")
+    for file in {ROOT / name for name in FILE.findall(front.__doc__ or "")}:
+        if file.is_file():  # notebooks, the changelog
+            target = out / file.relative_to(ROOT)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(file, target)
     shutil.copytree(ROOT / ".images", out / "images", dirs_exist_ok=True)
     return first
 
