@@ -35,6 +35,7 @@ BRUSH = "hoop study stiffness paper-3.3-massless --law brush --json"
 UNDAMPED = "hoop study stiffness paper-3.3-massless --damping 0 --json"
 PULSE = "hoop flexible paper-3.3-light --out first-pulse --fields"
 FILM = "hoop view first-pulse --gif first-pulse.gif --field hoop_stress --frames 90"
+ATLAS = "hoop study atlas --json --out atlas"
 RIGID = "hoop bench rigid --peers --json --out bench"
 FLEXIBLE = "hoop bench flexible --peers --json --out bench"
 SCALING = "hoop bench scaling --json --out bench"
@@ -60,6 +61,7 @@ PICTURES = (
     Picture("impulses.png", (STUDY,), "study/impulses.png"),
     Picture("distance.png", (STUDY,), "study/distance.png"),
     Picture("first-pulse.gif", (PULSE, FILM), "first-pulse.gif"),
+    Picture("atlas.png", (ATLAS,), "atlas/atlas.png"),
     Picture("bench-rigid.png", (RIGID,), "bench/bench-rigid.png"),
     Picture("bench-flexible.png", (FLEXIBLE,), "bench/bench-flexible.png"),
     Picture("bench-scaling.png", (SCALING,), "bench/bench-scaling.png"),
