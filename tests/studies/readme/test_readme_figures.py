@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from studies import StudyError
 from studies.readme import again
 from studies.readme import stated as readme
-from studies.running.files import StudyError
 
 TEXT = (again.ROOT / "README.md").read_text(encoding="utf-8")
 
