@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, part
 
 Array = NDArray[np.float64]
 FRAME = 3
@@ -75,16 +75,12 @@ class Factors(NamedTuple):
 def no_blocks(sections: int) -> Any:
     """All zero, for this number of sections, ends included."""
     return Blocks(
-        np.zeros((sections, 3, 3)),
-        np.zeros((sections - 1, 3, 3)),
-        np.zeros((sections - 1, 3, 3)),
-        np.zeros((sections, 3, 6)),
-        np.zeros((sections, 6, 3)),
-        np.zeros((6, 6)),
-    )
+        np.zeros((sections, 3, 3)), np.zeros((sections - 1, 3, 3)), np.zeros((sections - 1, 3, 3)),
+        np.zeros((sections, 3, 6)), np.zeros((sections, 6, 3)), np.zeros((6, 6)),
+    )  # fmt: skip
 
 
-@jit
+@part
 def nothing_factored() -> Any:
     """Factors of a matrix of no sections."""
     return Factors(
@@ -93,7 +89,7 @@ def nothing_factored() -> Any:
     )  # fmt: skip
 
 
-@jit
+@part
 def _invert(matrix: Any, at: int, inverse: Any, to: int) -> None:
     """Inverse of a 3 x 3 block."""
     a, b, c = matrix[at, 0, 0], matrix[at, 0, 1], matrix[at, 0, 2]
@@ -102,19 +98,12 @@ def _invert(matrix: Any, at: int, inverse: Any, to: int) -> None:
     first, second, third = e * k - f * h, f * g - d * k, d * h - e * g
     scale = 1 / (a * first + b * second + c * third)
     inverse[to, 0, 0], inverse[to, 1, 0], inverse[to, 2, 0] = first * scale, second * scale, third * scale
-    inverse[to, 0, 1], inverse[to, 1, 1], inverse[to, 2, 1] = (
-        (c * h - b * k) * scale,
-        (a * k - c * g) * scale,
-        (b * g - a * h) * scale,
-    )
-    inverse[to, 0, 2], inverse[to, 1, 2], inverse[to, 2, 2] = (
-        (b * f - c * e) * scale,
-        (c * d - a * f) * scale,
-        (a * e - b * d) * scale,
-    )
+    inverse[to, 0, 1], inverse[to, 0, 2] = (c * h - b * k) * scale, (b * f - c * e) * scale
+    inverse[to, 1, 1], inverse[to, 1, 2] = (a * k - c * g) * scale, (c * d - a * f) * scale
+    inverse[to, 2, 1], inverse[to, 2, 2] = (b * g - a * h) * scale, (a * e - b * d) * scale
 
 
-@jit
+@part
 def _times(left: Any, right: Any, to: Any, columns: int) -> None:
     """Product of a 3 x 3 block with the first columns of another."""
     for a in range(3):
@@ -123,16 +112,16 @@ def _times(left: Any, right: Any, to: Any, columns: int) -> None:
             to[a, b] = x * right[0, b] + y * right[1, b] + z * right[2, b]
 
 
-@jit
-def _take(left: Any, right: Any, of: Any, columns: int) -> None:
-    """Take the product of the rows of one block with the first columns of another from a third."""
-    for a in range(left.shape[0]):
+@part
+def _take(left: Any, right: Any, of: Any, rows: int, columns: int) -> None:
+    """Take the product of the first rows of one block with the first columns of another from a third."""
+    for a in range(rows):
         x, y, z = left[a, 0], left[a, 1], left[a, 2]
         for b in range(columns):
             of[a, b] -= x * right[0, b] + y * right[1, b] + z * right[2, b]
 
 
-@jit
+@part
 def _fades(border: Any, below: Any) -> bool:
     """Whether a section feels nothing any more of the kept one that it borders on."""
     for a in range(3):
@@ -142,7 +131,7 @@ def _fades(border: Any, below: Any) -> bool:
     return True
 
 
-@jit
+@part
 def _eliminate(blocks: Any, i: int, here: int, there: int, factors: Any) -> None:
     """Eliminate one section: what it leaves for later, and what it adds to the next one and to the border."""
     diagonal, columns, rows, corner = blocks.diagonal, blocks.columns, blocks.rows, blocks.corner
@@ -153,22 +142,22 @@ def _eliminate(blocks: Any, i: int, here: int, there: int, factors: Any) -> None
     width = 2 * FRAME
     if _fades(columns[here], rows[here]):
         width = FRAME
-        beside[i, :, FRAME:] = 0.0
-        below[i, FRAME:, :] = 0.0
     for a in range(3):
         for b in range(3):
             back[i, a, b] = return_way[at, a, b]
         for b in range(width):
             below[i, b, a] = rows[here, b, a]
+        for b in range(width, 2 * FRAME):
+            beside[i, a, b] = below[i, b, a] = 0.0
     _times(inverse[i], forth[at], ahead[i], 3)
     _times(inverse[i], columns[here], beside[i], width)
-    _take(back[i], ahead[i], diagonal[there], 3)
-    _take(back[i], beside[i], columns[there], width)
-    _take(below[i, :width], ahead[i], rows[there], 3)
-    _take(below[i, :width], beside[i], corner, width)
+    _take(back[i], ahead[i], diagonal[there], 3, 3)
+    _take(back[i], beside[i], columns[there], 3, width)
+    _take(below[i], ahead[i], rows[there], width, 3)
+    _take(below[i], beside[i], corner, width, width)
 
 
-@jit
+@part
 def _turns(keeps: Any) -> tuple[Any, int]:
     """Order of elimination, and the kept section that all runs begin at; section 1 must be kept."""
     n = keeps.shape[0] - 2
@@ -187,7 +176,46 @@ def _turns(keeps: Any) -> tuple[Any, int]:
     return order[:count], far
 
 
-@jit
+@part
+def _border(blocks: Any, here: int, by: Any, of: Any, at: int) -> None:
+    """A section borders on the kept one by these off-diagonal blocks: of its forces by that one, and the other way."""
+    for a in range(3):
+        for b in range(3):
+            blocks.columns[here, a, FRAME + b] = by[at, a, b]
+            blocks.rows[here, FRAME + a, b] = of[at, a, b]
+
+
+@part
+def _core(blocks: Any, kept: Any, place: int, size: int) -> Any:
+    """Frame and kept sections, that at ``place`` among them in the border, in a matrix of ``size`` rows."""
+    n = blocks.diagonal.shape[0] - 2
+    core = np.zeros((size, size))
+    diagonal, up, down = blocks.diagonal, blocks.up, blocks.down
+    columns, rows, corner = blocks.columns, blocks.rows, blocks.corner
+    f = FRAME + 3 * place
+    for a in range(3):
+        for b in range(3):
+            core[a, b] += corner[a, b]
+            core[a, f + b] += corner[a, FRAME + b]
+            core[f + a, b] += corner[FRAME + a, b]
+            core[f + a, f + b] += corner[FRAME + a, FRAME + b]
+            for k in range(kept.shape[0]):
+                i, at = kept[k], FRAME + 3 * k
+                core[at + a, at + b] += diagonal[i, a, b]
+                core[at + a, b] += columns[i, a, b]
+                core[a, at + b] += rows[i, a, b]
+                core[at + a, f + b] += columns[i, a, FRAME + b]
+                core[f + a, at + b] += rows[i, FRAME + a, b]
+                if k > 0 and kept[k - 1] == i - 1:
+                    core[at + a, at - 3 + b] += down[i - 1, a, b]
+                    core[at - 3 + a, at + b] += up[i - 1, a, b]
+                if i == n:
+                    core[at + a, FRAME + b] += up[n, a, b]
+                    core[FRAME + a, at + b] += down[n, a, b]
+    return core
+
+
+@part
 def factor(blocks: Any, keeps: Any, rest: int) -> Any:
     """Eliminate all sections but those flagged; ``rest`` unknowns of the core are left to the caller.
 
@@ -201,41 +229,17 @@ def factor(blocks: Any, keeps: Any, rest: int) -> Any:
     for i in range(m):
         here, there = order[i, 0], order[i, 1]
         if there > here and here == far + 1:
-            blocks.columns[here, :, FRAME:] = blocks.down[far]
-            blocks.rows[here, FRAME:, :] = blocks.up[far]
+            _border(blocks, here, blocks.down, blocks.up, far)
         elif here == n:
-            blocks.columns[here, :, FRAME:] = blocks.up[n]
-            blocks.rows[here, FRAME:, :] = blocks.down[n]
+            _border(blocks, here, blocks.up, blocks.down, n)
         _eliminate(blocks, i, here, there, (inverse, ahead, beside, back, below))
     kept = np.flatnonzero(keeps)
-    core = np.zeros((FRAME + 3 * kept.shape[0] + rest, FRAME + 3 * kept.shape[0] + rest))
-    core[:FRAME, :FRAME] = blocks.corner[:FRAME, :FRAME]
-    place = 0
-    for k in range(kept.shape[0]):
-        i, at = kept[k], FRAME + 3 * k
-        core[at : at + 3, at : at + 3] = blocks.diagonal[i]
-        core[at : at + 3, :FRAME] = blocks.columns[i, :, :FRAME]
-        core[:FRAME, at : at + 3] = blocks.rows[i, :FRAME, :]
-        if k > 0 and kept[k - 1] == i - 1:
-            core[at : at + 3, at - 3 : at] = blocks.down[i - 1]
-            core[at - 3 : at, at : at + 3] = blocks.up[i - 1]
-        if i == n:
-            core[at : at + 3, FRAME : FRAME + 3] += blocks.up[n]
-            core[FRAME : FRAME + 3, at : at + 3] += blocks.down[n]
-        if i == far:
-            place = k
-    f = slice(FRAME + 3 * place, FRAME + 3 * place + 3)
-    for k in range(kept.shape[0]):
-        here = slice(FRAME + 3 * k, FRAME + 3 * k + 3)
-        core[here, f] += blocks.columns[kept[k], :, FRAME:]
-        core[f, here] += blocks.rows[kept[k], FRAME:, :]
-    core[f, f] += blocks.corner[FRAME:, FRAME:]
-    core[:FRAME, f] += blocks.corner[:FRAME, FRAME:]
-    core[f, :FRAME] += blocks.corner[FRAME:, :FRAME]
+    place = keeps[:far].sum()
+    core = _core(blocks, kept, place, FRAME + 3 * kept.shape[0] + rest)
     return Factors(order, inverse, ahead, beside, back, below, kept, place, core)
 
 
-@jit
+@part
 def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]:
     """Solve for one right-hand side: frame (3,), sections (n + 2, 3), rest (r,); the solution as (3 + 3 n,) and (r,).
 
@@ -276,8 +280,8 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]
     for k in range(kept.shape[0]):
         for a in range(3):
             x[kept[k], a] = found[FRAME + 3 * k + a]
-    border[:FRAME] = found[:FRAME]
-    border[FRAME:] = x[kept[far]]
+    for a in range(3):
+        border[a], border[FRAME + a] = found[a], x[kept[far], a]
     for j in range(m):
         i = m - 1 - j
         here, there = order[i, 0], order[i, 1]
@@ -289,8 +293,8 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]
                 value -= beside[i, a, b] * border[b]
             x[here, a] = value
     vector = np.empty(FRAME + 3 * (x.shape[0] - 2))
-    vector[:FRAME] = found[:FRAME]
-    for i in range(1, x.shape[0] - 1):
-        for a in range(3):
+    for a in range(3):
+        vector[a] = found[a]
+        for i in range(1, x.shape[0] - 1):
             vector[3 * i + a] = x[i, a]
     return vector, found[after:].copy()

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, part
 
 Array = NDArray[np.float64]
 
@@ -77,12 +77,15 @@ def chord(rod: Any, q: Any, p: int) -> tuple[float, float, float, float, float, 
     return x1 / now, x2 / now, now, longer, q[p, 2] - alpha, q[p + 1, 2] - alpha
 
 
-@jit
-def _row(local: Any, i: int, e: float, tau_1: float, tau_2: float) -> float:
-    return float(local[i, 0] * e + local[i, 1] * tau_1 + local[i, 2] * tau_2)
+@part
+def _product(local: Any, e: float, tau_1: float, tau_2: float) -> tuple[float, float, float]:
+    s0 = local[0, 0] * e + local[0, 1] * tau_1 + local[0, 2] * tau_2
+    s1 = local[1, 0] * e + local[1, 1] * tau_1 + local[1, 2] * tau_2
+    s2 = local[2, 0] * e + local[2, 1] * tau_1 + local[2, 2] * tau_2
+    return s0, s1, s2
 
 
-@jit
+@part
 def directions(t1: float, t2: float, now: float, by: Any) -> None:
     """Derivatives (3, 6) of the strains of a part by the coordinates of its sections."""
     s1, s2 = t1 / now, t2 / now
@@ -92,13 +95,11 @@ def directions(t1: float, t2: float, now: float, by: Any) -> None:
         by[i, 2], by[i, 5] = 2.0 - i, i - 1.0
 
 
-@jit
+@part
 def _stiffen(t1: float, t2: float, pull: float, turn: float, local: Any, by: Any, tangent: Any) -> None:
     """Second derivatives (6, 6) of a part's energy, of the stress ``pull`` and ``turn`` over the chord's length."""
     for k in range(6):
-        s0 = _row(local, 0, by[0, k], by[1, k], by[2, k])
-        s1 = _row(local, 1, by[0, k], by[1, k], by[2, k])
-        s2 = _row(local, 2, by[0, k], by[1, k], by[2, k])
+        s0, s1, s2 = _product(local, by[0, k], by[1, k], by[2, k])
         for m in range(6):
             tangent[m, k] = by[0, m] * s0 + by[1, m] * s1 + by[2, m] * s2
     g11 = pull * t2 * t2 - 2 * turn * t1 * t2
@@ -113,18 +114,19 @@ def _stiffen(t1: float, t2: float, pull: float, turn: float, local: Any, by: Any
             tangent[a + 1, b + 1] += sign * g22
 
 
-@jit
+@part
 def _stress(rod: Any, q: Any, p: int, e: float, tau_1: float, tau_2: float) -> tuple[float, float, float]:
     """Force along the chord and the moments at both ends of a part with these strains."""
     local, last = rod.local[p], rod.local.shape[0] - 1
-    s0, s1, s2 = _row(local, 0, e, tau_1, tau_2), _row(local, 1, e, tau_1, tau_2), _row(local, 2, e, tau_1, tau_2)
+    s0, s1, s2 = _product(local, e, tau_1, tau_2)
     if p == 0 or p == last:
         a = rod.across
         _, _, _, x, y, z = chord(rod, q, last - p)
         if p == 0:
-            s0 += _row(a, 0, x, y, z)
-            s1 += _row(a, 1, x, y, z)
-            s2 += _row(a, 2, x, y, z)
+            a0, a1, a2 = _product(a, x, y, z)
+            s0 += a0
+            s1 += a1
+            s2 += a2
         else:
             s0 += a[0, 0] * x + a[1, 0] * y + a[2, 0] * z
             s1 += a[0, 1] * x + a[1, 1] * y + a[2, 1] * z
@@ -178,7 +180,9 @@ def elastic_tangent(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None
         t1, t2, now, e, tau_1, tau_2 = chord(rod, q, p)
         s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
         directions(t1, t2, now, by)
-        local[:] = rod.local[p]
+        for i in range(3):
+            for j in range(3):
+                local[i, j] = rod.local[p, i, j]
         for i in range(1, 3):
             sign = 2.0 * i - 3
             local[0, i] += sign * rod.pulled[p] * (tau_2 - tau_1)
@@ -196,7 +200,7 @@ def elastic_tangent(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None
     _add_across(rod, q, up[last], down[last])
 
 
-@jit
+@part
 def strain_energy(rod: Any, q: Any) -> float:
     """Strain energy of the chain, see :func:`elastic`."""
     energy = 0.0
@@ -207,7 +211,7 @@ def strain_energy(rod: Any, q: Any) -> float:
     return energy
 
 
-@jit
+@part
 def _add_across(rod: Any, q: Any, up: Any, down: Any) -> None:
     """What the last section feels of the first, and the first of the last."""
     last = rod.local.shape[0] - 1

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, part
 
 from .corotated import chord, directions
 
@@ -35,7 +35,7 @@ class RimNodes(NamedTuple):
     root: Array
 
 
-@jit
+@part
 def rim_point(rod: Any, q: Any, at: int, xi: float, root: Any, moved: Any, by: Any) -> float:
     """Displacement of a point of the rim, its derivatives, and the rotation of the ring there.
 
@@ -63,7 +63,7 @@ def rim_point(rod: Any, q: Any, at: int, xi: float, root: Any, moved: Any, by: A
     return turn
 
 
-@jit
+@part
 def _follow_root(rod: Any, q: Any, at: int, xi: float, turn: float, root: Any, moved: Any, by: Any) -> None:
     """Add what a point near the weld moves besides, turned with the ring."""
     c, s = cos(turn), sin(turn)
@@ -91,7 +91,7 @@ def _follow_root(rod: Any, q: Any, at: int, xi: float, turn: float, root: Any, m
         by[1, 8] += xi * add1
 
 
-@jit
+@part
 def _follow_part(rod: Any, q: Any, at: int, xi: float, moved: Any, by: Any) -> None:
     """Add what a point moves with the sections around it."""
     width = rod.theta[at + 1] - rod.theta[at]
@@ -125,7 +125,7 @@ def _follow_part(rod: Any, q: Any, at: int, xi: float, moved: Any, by: Any) -> N
             by[1, k - 1 + 3 * near] += weight * (sideward * out1 - inward * out2)
 
 
-@jit
+@part
 def bending(rod: Any, q: Any, i: int) -> float:
     """dphi/dtheta at a section; none at the weld."""
     if i == 0 or i == rod.theta.shape[0] - 1:
@@ -133,7 +133,7 @@ def bending(rod: Any, q: Any, i: int) -> float:
     return rod.curve[i, 0] * q[i - 1, 2] + rod.curve[i, 1] * q[i, 2] + rod.curve[i, 2] * q[i + 1, 2]
 
 
-@jit
+@part
 def rim_curvature(rod: Any, q: Any, at: int, xi: float, f1: float, f2: float, second: Any) -> None:
     """Add second derivatives, (12, 12), of a point's displacement times a force on it, ``root`` left out."""
     if at < 0:

@@ -11,10 +11,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, part
 
 from ..contact.forces import forces_in_newton
+from ..contact.newton import move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, pulling
+from ..contact.vectors import largest
 from .bordered import FRAME, Factors, factor, nothing_factored, solve
 from .rim import follow
 from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
@@ -34,26 +36,13 @@ class Solved(NamedTuple):
     contact: Any
 
 
-@jit
-def _largest(values: Any) -> float:
-    """Largest absolute value, infinite if any is not a number."""
-    most = 0.0
-    for value in values.flat:
-        if not np.isfinite(value):
-            return np.inf
-        most = max(most, abs(value))
-    return most
-
-
-@jit
+@part
 def _round_off(chain: Any, contact: Any, pos: Any, acc: Any, u: Any, scale: float, damper: Any) -> float:
-    """Size of the rounding errors: of the gap's, of the damping factor's, of the slip's, of strain and inertia."""
-    res, rod = contact.res, chain.rod
-    gap = 4e-16 * scale * (abs(pos[1]) + np.abs(u).max())
-    floor = (damper.relaxation + 1) * (gap + 1e-14 * res.elastic)
-    floor += 1e-15 * max(damper.drag, res.steepness) * (abs(res.way) + abs(damper.way_0))
-    floor += 4e-16 * np.abs(rod.local[rod.local.shape[0] // 2]).max() * np.abs(pos[FRAME:]).max()
-    return floor + 4e-16 * chain.body.ring_mass * np.abs(acc[FRAME:]).max()
+    """Size of the rounding errors: of the contact's, of strain and inertia."""
+    local = chain.rod.local
+    floor = round_off(contact, pos[1], u, scale, damper)
+    floor += 4e-16 * largest(local[local.shape[0] // 2]) * largest(pos[FRAME:])
+    return floor + 4e-16 * chain.body.ring_mass * largest(acc[FRAME:])
 
 
 @jit
@@ -72,30 +61,30 @@ def solve_stage(
     start : tuple
         What the nodes move beyond the sections, (m, 2), to begin with; tolerance on forces.
     """
-    pos_pred, vel_pred, beta = predictor.pos, predictor.vel, predictor.beta
     beyond, tolerance = start
     nodes, rod = facing.nodes, chain.rod
     m = nodes.part.shape[0]
     keeps, place = kept_by(rod.theta.shape[0], nodes.part)
     inner = FRAME + 3 * keeps.sum()
     d = predictor.guess.copy()
-    u = follow(rod, sections(pos_pred + d), nodes)[0] + beyond
-    update, update_u = np.zeros(d.shape), np.zeros(u.shape)
+    u = follow(rod, sections(reached(predictor, d)[0]), nodes)[0]
+    for k in range(m):
+        u[k, 0] += beyond[k, 0]
+        u[k, 1] += beyond[k, 1]
+    update, update_u = np.zeros(d.shape[0]), np.zeros(2 * m)
     iterations, damping, last = -1, 1.0, np.inf
     way, reach = 0.0, np.inf
     factors = nothing_factored()
     chained, stale = factors.core, True
-    softest = np.abs(facing.missing).max()
+    softest = largest(facing.missing)
     damper = pulling(damper, True)
     for iteration in range(MOST_ITERATIONS):
-        pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
+        pos, vel, acc = reached(predictor, d)
         contact = forces_in_newton(pos[:FRAME], u, facing.rim, law, mode, before, damper, iteration == 0)
         res = contact.res
-        # across the bend of a smoothed friction Newton would go to and fro for ever
-        if res.elastic > 0 and abs(res.way - way) > 1.5 * reach:
-            share = reach / abs(res.way - way)
-            d += damping * (1 - share) * update
-            u += damping * (1 - share) * update_u
+        share = share_before_bend(res, way, reach)
+        if share < 1:
+            move(d, u, damping * (1 - share), update, update_u)
             damping *= share
             continue
         way, reach = res.way, res.reach
@@ -104,13 +93,12 @@ def solve_stage(
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
         push(touch, contact, place, frame, force)
         rest = astray_of(touch, contact.nodal, scale)
-        worst, astray = max(_largest(frame), _largest(force[1:-1])), _largest(rest)
+        worst, astray = max(largest(frame), largest(force[1:-1])), largest(rest)
         small = tolerance * (1 + abs(res.normal)) + _round_off(chain, contact, pos, acc, u, scale, damper)
         if not np.isfinite(worst + astray + small):
             break
         if max(worst, astray) > GROWS * last and damping > 1e-9:  # beyond a bend, the damper's onset for one
-            d += 0.9 * damping * update
-            u += 0.9 * damping * update_u
+            move(d, u, 0.9 * damping, update, update_u)
             damping *= 0.1
             continue
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
@@ -121,20 +109,20 @@ def solve_stage(
             break
         worst = max(worst, astray)
         if stale or (iteration > 1 and worst > STALE * last):
-            factors = factor(tangent(chain, pos, vel, acc, beta), keeps, 2 * m)
+            factors = factor(tangent(chain, pos, vel, acc, predictor.beta), keeps, 2 * m)
             chained, stale = factors.core.copy(), False
-        factors.core[:] = chained
-        add_forces(factors.core, touch, contact.nodal, contact.tangent)
+        for i in range(chained.shape[0]):
+            for k in range(chained.shape[0]):
+                factors.core[i, k] = chained[i, k]
+        add_forces(factors.core, touch, contact.nodal, contact.tangent, scale)
         add_bending(factors.core, rod, q, nodes, place, contact.nodal)
-        add_rim(factors.core, touch, contact.nodal, contact.tangent, scale)
-        update, step_u = solve(factors, frame, force, rest)
-        if not np.isfinite(_largest(update) + _largest(step_u)):
+        add_rim(factors.core, touch, contact.nodal, scale)
+        update, update_u = solve(factors, frame, force, rest)
+        if not np.isfinite(largest(update) + largest(update_u)):
             break
-        update_u = step_u.reshape(m, 2)
         damping = 0.5 if iteration > 3 and worst > last else 1.0
         last = worst
-        d -= damping * update
-        u -= damping * update_u
+        move(d, u, -damping, update, update_u)
     if contact.outside:
         iterations = -2
     return Solved(iterations, d, u, factors, contact)

@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, part
 
 from .bordered import FRAME
 from .rim import RimNodes, follow, rim_curvature, rim_point
@@ -65,19 +65,22 @@ class Touch(NamedTuple):
 def turned(missing: Any, rows: Any, columns: Any) -> Any:
     """Q S Q^T for rotations of the nodes."""
     result = np.empty(missing.shape)
-    cr, sr, cc, sc = np.cos(rows), np.sin(rows), np.cos(columns), np.sin(columns)
+    cc, sc = np.empty(columns.shape[0]), np.empty(columns.shape[0])
+    for j in range(columns.shape[0]):
+        cc[j], sc[j] = cos(columns[j]), sin(columns[j])
     for i in range(rows.shape[0]):
+        cr, sr = cos(rows[i]), sin(rows[i])
         for j in range(columns.shape[0]):
             a, b = missing[2 * i, 2 * j], missing[2 * i, 2 * j + 1]
             c, d = missing[2 * i + 1, 2 * j], missing[2 * i + 1, 2 * j + 1]
-            e, f = cr[i] * a - sr[i] * c, cr[i] * b - sr[i] * d
-            g, h = sr[i] * a + cr[i] * c, sr[i] * b + cr[i] * d
+            e, f = cr * a - sr * c, cr * b - sr * d
+            g, h = sr * a + cr * c, sr * b + cr * d
             result[2 * i, 2 * j], result[2 * i, 2 * j + 1] = e * cc[j] - f * sc[j], e * sc[j] + f * cc[j]
             result[2 * i + 1, 2 * j], result[2 * i + 1, 2 * j + 1] = g * cc[j] - h * sc[j], g * sc[j] + h * cc[j]
     return result
 
 
-@jit
+@part
 def _above(rod: Any, q: Any, phi: float, height: float) -> Any:
     """Gap of the rim at the sections."""
     gap = np.empty(rod.theta.shape[0])
@@ -123,7 +126,7 @@ def lowest(rod: Any, q: Any, nodes: Any, theta: Any, phi: float, height: float) 
     return low, high
 
 
-@jit
+@part
 def kept_by(count: int, part: Any) -> tuple[Any, Any]:
     """Flags of the sections that nodes follow and of the first one, and where each stands in the core.
 
@@ -145,7 +148,7 @@ def kept_by(count: int, part: Any) -> tuple[Any, Any]:
     return keeps, place
 
 
-@jit
+@part
 def touch_of(rod: Any, q: Any, facing: Facing, place: Any, size: int, u: Any) -> Touch:
     """The rim at the floor, for sections at ``q`` and nodes at ``u``; ``place`` of the sections in the core."""
     part, xi = facing.nodes.part, facing.nodes.xi
@@ -170,10 +173,13 @@ def touch_of(rod: Any, q: Any, facing: Facing, place: Any, size: int, u: Any) ->
                 turning[k, place[i] + 2] = 1 - xi[k]
             elif slot == 2:
                 turning[k, place[i] + 2] = xi[k]
-    return Touch(follows, turning, u - moved, turned(facing.missing, turn, turn))
+    lever = np.empty((m, 2))
+    for k in range(m):
+        lever[k, 0], lever[k, 1] = u[k, 0] - moved[k, 0], u[k, 1] - moved[k, 1]
+    return Touch(follows, turning, lever, turned(facing.missing, turn, turn))
 
 
-@jit
+@part
 def push(touch: Touch, contact: Any, place: Any, frame: Any, force: Any) -> None:
     """Take the floor's forces from those of frame and sections: on the nodes, and at the lever that they have."""
     m = touch.lever.shape[0]
@@ -191,7 +197,7 @@ def push(touch: Touch, contact: Any, place: Any, frame: Any, force: Any) -> None
                 force[i, a] -= touch.turning[k, at] * moment
 
 
-@jit
+@part
 def astray_of(touch: Touch, nodal: Any, scale: float) -> Any:
     """How far the nodes are from where their forces bring them, u - U - Q S Q^T f, (2 m,)."""
     m = nodal.shape[0]
@@ -204,22 +210,41 @@ def astray_of(touch: Touch, nodal: Any, scale: float) -> Any:
     return rest
 
 
-@jit
-def add_forces(core: Any, touch: Touch, nodal: Any, tangent: Any) -> None:
-    """Derivatives of what :func:`push` takes, but for the bending of the rim's way."""
+@part
+def _take_products(core: Any, by: Any, tangent: Any) -> None:
+    """Take ``by``, (c, 2 m), times the derivatives of the nodes' forces by frame and nodes."""
+    nodal = by.shape[1]
+    inner = core.shape[0] - nodal
+    for i in range(by.shape[0]):
+        for k in range(nodal):
+            weight = by[i, k]
+            if weight == 0:  # most sections move but a few of the nodes
+                continue
+            for j in range(FRAME):
+                core[i, j] -= weight * tangent[FRAME + k, j]
+            for j in range(nodal):
+                core[i, inner + j] -= weight * tangent[FRAME + k, FRAME + j]
+
+
+@part
+def add_forces(core: Any, touch: Touch, nodal: Any, tangent: Any, scale: float) -> None:
+    """Derivatives of what :func:`push` and :func:`astray_of` take, through the floor's forces and their levers."""
     m = nodal.shape[0]
     inner = core.shape[0] - 2 * m
-    t_uu, t_ux = tangent[FRAME:, FRAME:].copy(), tangent[FRAME:, :FRAME].copy()
-    acting = touch.follow.copy()
+    acting = np.empty((core.shape[0], 2 * m))
     for k in range(m):
         for a in range(inner):
-            acting[2 * k, a] -= touch.lever[k, 1] * touch.turning[k, a]
-            acting[2 * k + 1, a] += touch.lever[k, 0] * touch.turning[k, a]
-    columns = acting.T.copy()
-    core[:FRAME, :FRAME] -= tangent[:FRAME, :FRAME]
-    core[:FRAME, inner:] = -tangent[:FRAME, FRAME:]
-    core[:inner, :FRAME] -= columns @ t_ux
-    core[:inner, inner:] -= columns @ t_uu
+            acting[a, 2 * k] = touch.follow[2 * k, a] - touch.lever[k, 1] * touch.turning[k, a]
+            acting[a, 2 * k + 1] = touch.follow[2 * k + 1, a] + touch.lever[k, 0] * touch.turning[k, a]
+    for i in range(2 * m):
+        for k in range(2 * m):
+            acting[inner + i, k] = scale * touch.yields[i, k]
+    for i in range(FRAME):
+        for j in range(FRAME):
+            core[i, j] -= tangent[i, j]
+        for j in range(2 * m):
+            core[i, inner + j] -= tangent[i, FRAME + j]
+    _take_products(core, acting, tangent)
     for k in range(m):
         f1, f2 = nodal[k, 0], nodal[k, 1]
         for a in range(inner):
@@ -231,7 +256,7 @@ def add_forces(core: Any, touch: Touch, nodal: Any, tangent: Any) -> None:
                     core[a, b] += turn * (f2 * touch.follow[2 * k, b] - f1 * touch.follow[2 * k + 1, b])
 
 
-@jit
+@part
 def add_bending(core: Any, rod: Any, q: Any, nodes: Any, place: Any, nodal: Any) -> None:
     """Derivatives of what the nodes' ways pull at the sections under constant forces."""
     second = np.zeros((12, 12))
@@ -249,14 +274,12 @@ def add_bending(core: Any, rod: Any, q: Any, nodes: Any, place: Any, nodal: Any)
                 core[place[one] + 2, place[two] + 2] -= second[3 * i + 2, 3 * j + 2]
 
 
-@jit
-def add_rim(core: Any, touch: Touch, nodal: Any, tangent: Any, scale: float) -> None:
-    """Derivatives of :func:`astray_of`."""
+@part
+def add_rim(core: Any, touch: Touch, nodal: Any, scale: float) -> None:
+    """Derivatives of :func:`astray_of` under constant forces."""
     m = nodal.shape[0]
     inner = core.shape[0] - 2 * m
-    pulled = touch.yields.copy()
-    core[inner:, :FRAME] = -scale * (pulled @ tangent[FRAME:, :FRAME].copy())
-    core[inner:, inner:] -= scale * (pulled @ tangent[FRAME:, FRAME:].copy())
+    pulled = touch.yields
     by_turn = np.empty((2 * m, m))
     for i in range(2 * m):
         core[inner + i, inner + i] += scale
@@ -265,4 +288,12 @@ def add_rim(core: Any, touch: Touch, nodal: Any, tangent: Any, scale: float) -> 
     for k in range(m):
         by_turn[2 * k, k] += touch.lever[k, 1]
         by_turn[2 * k + 1, k] -= touch.lever[k, 0]
-    core[inner:, FRAME:inner] = scale * (by_turn @ touch.turning - touch.follow)[:, FRAME:]
+    for i in range(2 * m):
+        for a in range(FRAME, inner):
+            core[inner + i, a] -= scale * touch.follow[i, a]
+    for k in range(m):
+        for a in range(FRAME, inner):
+            turn = scale * touch.turning[k, a]
+            if turn != 0:
+                for i in range(2 * m):
+                    core[inner + i, a] += by_turn[i, k] * turn

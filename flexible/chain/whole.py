@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, written_out
 
+from ..contact.vectors import times
 from .bordered import FRAME, no_blocks, solve
 from .corotated import elastic, elastic_tangent, strain_energy
 from .inertia import energies, inertia, inertia_tangent, momenta
@@ -34,7 +35,7 @@ def balance(chain: Any, pos: Any, vel: Any, acc: Any) -> Any:
     return q, frame, force
 
 
-@jit
+@written_out
 def tangent(chain: Any, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     """Derivatives of the forces of :func:`balance` by an increment."""
     q = sections(pos)
@@ -59,4 +60,5 @@ def passed_on(factors: Any, chain: Any, pos: Any, error: Any, beta: float) -> An
     frame, force = np.empty(FRAME), np.empty(q.shape)
     momenta(chain, pos, q, error, sections(error), frame, force)
     rest = np.zeros(factors.core.shape[0] - FRAME - 3 * factors.kept.shape[0])
-    return solve(factors, frame / beta**2, force / beta**2, rest)[0]
+    rate = solve(factors, frame, force, rest)[0]
+    return times(1 / beta**2, rate)

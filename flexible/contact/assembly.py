@@ -10,14 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, part
 
 from .points.normal import sum_by_gaps
 
 X, Y = 0, 1
 
 
-@jit
+@part
 def spread(vector: Any, kind: int, s: float, c: float) -> Any:
     """From a basis to the unknowns."""
     nodes = vector.shape[0] - 2
@@ -29,7 +29,7 @@ def spread(vector: Any, kind: int, s: float, c: float) -> Any:
     return result
 
 
-@jit
+@part
 def add_spread(tangent: Any, matrix: Any, row_kind: int, column_kind: int, s: float, c: float, factor: float) -> None:
     """Add ``factor`` times a matrix between two bases to the tangent of the unknowns."""
     r1, r2 = (s, c) if row_kind == X else (c, -s)
@@ -60,7 +60,7 @@ def add_spread(tangent: Any, matrix: Any, row_kind: int, column_kind: int, s: fl
                     tangent[row + 1, column + 1] += r2 * c2 * value
 
 
-@jit
+@part
 def _scatter(k_yy: Any, k_xy: Any, k_xx: Any, block: Any, first: int) -> None:
     """Add an element's products to the tangents, and clear them."""
     for q in range(5):
@@ -70,23 +70,23 @@ def _scatter(k_yy: Any, k_xy: Any, k_xx: Any, block: Any, first: int) -> None:
             k_yy[row, column] += block[0, q, w]
             k_xy[row, column] += block[1, q, w]
             k_xx[row, column] += block[2, q, w]
-    block[:] = 0.0
+            block[0, q, w] = block[1, q, w] = block[2, q, w] = 0.0
 
 
-@jit
-def add_outer(tangent: Any, left: Any, right: Any) -> None:
-    """Add the product of a column and a row."""
+@part
+def add_outer(tangent: Any, factor: float, left: Any, right: Any) -> None:
+    """Add so many times the product of a column and a row."""
     for i in range(left.shape[0]):
         for j in range(right.shape[0]):
-            tangent[i, j] += left[i] * right[j]
+            tangent[i, j] += factor * left[i] * right[j]
 
 
-@jit
+@part
 def _row(q: int, first: int) -> int:
     return q if q < 2 else first + q
 
 
-@jit
+@part
 def directions(points: Any) -> tuple[Any, Any]:
     """What moves each point's abscissa and gap: by V or h, by phi, by the three nodes of its element."""
     total = points.gap.shape[0]
@@ -98,7 +98,7 @@ def directions(points: Any) -> tuple[Any, Any]:
     return along, up
 
 
-@jit
+@part
 def tangents(points: Any, foundation: Any, forces: Any, along: Any, up: Any, nodes: int) -> tuple[Any, Any, Any]:
     """Derivatives of elastic normal forces by gaps, of tangential ones by gaps and by abscissas, in those bases."""
     size = 2 + nodes
@@ -150,7 +150,7 @@ def tangents(points: Any, foundation: Any, forces: Any, along: Any, up: Any, nod
     return k_yy, k_xy, k_xx
 
 
-@jit
+@part
 def gathered(points: Any, values: Any, directions: Any, nodes: int) -> Any:
     """Sum of each point's value times its direction, in the basis (V or h, phi, nodes)."""
     total = np.zeros(2 + nodes)
@@ -163,4 +163,7 @@ def gathered(points: Any, values: Any, directions: Any, nodes: int) -> Any:
 @jit
 def slip_by_gaps(points: Any, ways: Any, foundation: Any, slip: float, elastic: float, up: Any, nodes: int) -> Any:
     """Derivative of the mean slip by the gaps, through the normal forces that weigh it."""
-    return gathered(points, sum_by_gaps((ways - slip) / elastic, foundation), up, nodes)
+    factors = np.empty(ways.shape[0])
+    for i in range(ways.shape[0]):
+        factors[i] = (ways[i] - slip) / elastic
+    return gathered(points, sum_by_gaps(factors, foundation), up, nodes)

@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, part, written_out
 
 from .assembly import X, Y, add_outer, add_spread, directions, gathered, slip_by_gaps, spread, tangents
 from .laws.listing import tractions
@@ -32,9 +32,10 @@ from .points.data import Before, Bristles, Contact, Damper, Load, Parameters, Re
 from .points.detection import gather, least_gap
 from .points.normal import force_by_gaps, press
 from .points.rim import gap_at, lift, sideways, upward, vertex_angle
+from .vectors import add, dot, plus, times
 
 
-@jit
+@part
 def _load(foundation: Any, damper: Damper) -> Load:
     """The normal force as a whole, and what the damper makes of it."""
     elastic = foundation.force.sum()
@@ -47,7 +48,7 @@ def _load(foundation: Any, damper: Damper) -> Load:
     return Load(elastic, eta, eta_rate)
 
 
-@jit
+@part
 def _way_over_the_floor(pose: Any, u: Any, rim: Rim, before: Before) -> float:
     """Way in the step of the rim's node that comes nearest to the floor, where none touches: with it a patch begins."""
     old, u_old = before.pose, before.u
@@ -65,7 +66,7 @@ def _way_over_the_floor(pose: Any, u: Any, rim: Rim, before: Before) -> float:
     return way
 
 
-@jit
+@part
 def _nothing(nodes: int, outside: bool, way: float) -> Contact:
     """Off the floor."""
     size = 3 + 2 * nodes
@@ -74,7 +75,7 @@ def _nothing(nodes: int, outside: bool, way: float) -> Contact:
     return Contact(np.zeros(3), np.zeros((nodes, 2)), np.zeros((size, size)), zero, none, outside)
 
 
-@jit
+@part
 def _add_shared(points: Any, foundation: Any, forces: Any, shared: Any, elastic: float) -> None:
     """Share a force of the whole patch over its points like the pressure."""
     for i in range(points.gap.shape[0]):
@@ -82,7 +83,7 @@ def _add_shared(points: Any, foundation: Any, forces: Any, shared: Any, elastic:
     force_by_gaps(forces.by_gap, shared.force / elastic, foundation)
 
 
-@jit
+@part
 def _add_turning(tangent: Any, force: Any, points: Any, pressed: Any, pulled: Any) -> None:
     """The directions themselves turn with phi: add that to the tangent, for vertical and horizontal point forces."""
     turning = 0.0
@@ -97,7 +98,7 @@ def _add_turning(tangent: Any, force: Any, points: Any, pressed: Any, pulled: An
         tangent[row + 1, 2] -= force[row]
 
 
-@jit
+@part
 def _ends(points: Any) -> tuple[float, float]:
     """Angles psi of the first and the last point that touch, 0 if none does."""
     low, high, active = 0.0, 0.0, 0
@@ -110,7 +111,7 @@ def _ends(points: Any) -> tuple[float, float]:
     return low, high
 
 
-@jit
+@part
 def _stored(points: Any, carried: Any, pull: Any, keeps: Any) -> Bristles:
     """What of the points outlasts the step."""
     size = keeps.sum()
@@ -125,7 +126,7 @@ def _stored(points: Any, carried: Any, pull: Any, keeps: Any) -> Bristles:
     return Bristles(number, stretch, held, sliding)
 
 
-@jit
+@part
 def _work_of_those_that_left(
     points: Any, before: Before, slip: Slip, moved: float, dphi: float, law: Parameters, stuck: float
 ) -> float:
@@ -190,8 +191,8 @@ def contact_forces(
     if elastic == 0:
         way = _way_over_the_floor(pose, u, rim, before)
     else:
-        moved = (foundation.force * points.move).sum() / elastic
-        way = moved + dphi * (foundation.force * points.lifted).sum() / elastic
+        moved = dot(foundation.force, points.move) / elastic
+        way = moved + dphi * dot(foundation.force, points.lifted) / elastic
     slip = Slip(way, damper.way_0, damper.velocity_0 + damper.rate * (way - damper.way_0), damper.rate, damper.drag)
     carried = carry(points, before.bristles, dphi, damper, slip, moved)
     answer = tractions(points, foundation, carried, mode, load, slip, law)
@@ -203,41 +204,45 @@ def contact_forces(
     along, up = directions(points)
     s, c = sin(phi), cos(phi)
     pushes = spread(gathered(points, foundation.force, up, nodes), Y, s, c)
-    force = spread(gathered(points, forces.force, along, nodes), X, s, c) + eta * pushes
+    force = spread(gathered(points, forces.force, along, nodes), X, s, c)
+    add(force, eta, pushes)
     k_yy, k_xy, k_xx = tangents(points, foundation, forces, along, up, nodes)
     tangent = np.zeros((size, size))
     add_spread(tangent, k_yy, Y, Y, s, c, eta)
     add_spread(tangent, k_xy, X, Y, s, c, 1.0)
     add_spread(tangent, k_xx, X, X, s, c, 1.0)
+    elastic_by = spread(k_yy[0], Y, s, c)
     # eta and what is shared change with all unknowns at once
     if load.eta_rate != 0:
-        elastic_by = spread(k_yy[0], Y, s, c)
-        add_outer(tangent, pushes, load.eta_rate * elastic_by)
-        add_outer(tangent, spread(gathered(points, forces.share, along, nodes), X, s, c), load.eta_rate * elastic_by)
+        add_outer(tangent, load.eta_rate, pushes, elastic_by)
+        add_outer(tangent, load.eta_rate, spread(gathered(points, forces.share, along, nodes), X, s, c), elastic_by)
     if shared.acts:
-        elastic_by = spread(k_yy[0], Y, s, c)
-        spreading = spread(gathered(points, foundation.force / elastic, along, nodes), X, s, c)
+        spreading = spread(gathered(points, times(1 / elastic, foundation.force), along, nodes), X, s, c)
         slip_by = spreading.copy()
-        slip_by[2] += dphi * (foundation.force * points.sine).sum() / elastic
-        ways = points.move + dphi * points.lifted
-        slip_by += spread(slip_by_gaps(points, ways, foundation, way, elastic, up, nodes), Y, s, c)
-        shared_by = shared.by_way * slip_by + (shared.by_elastic - shared.force / elastic) * elastic_by
-        add_outer(tangent, spreading, shared_by)
-    _add_turning(tangent, force, points, eta * foundation.force, forces.force)
+        slip_by[2] += dphi * dot(foundation.force, points.sine) / elastic
+        ways = plus(points.move, dphi, points.lifted)
+        add(slip_by, 1.0, spread(slip_by_gaps(points, ways, foundation, way, elastic, up, nodes), Y, s, c))
+        add_outer(tangent, shared.by_way, spreading, slip_by)
+        add_outer(tangent, shared.by_elastic - shared.force / elastic, spreading, elastic_by)
+    _add_turning(tangent, force, points, times(eta, foundation.force), forces.force)
 
     low, high = _ends(points)
     stuck = answer.stuck / foundation.length if foundation.length > 0 else 0.0
-    beyond = ((carried.pull + pull) * (carried.way - carried.mean)).sum() / 2
-    beyond += _work_of_those_that_left(points, before, slip, moved, dphi, law, answer.stuck)
+    beyond = _work_of_those_that_left(points, before, slip, moved, dphi, law, answer.stuck)
+    for i in range(pull.shape[0]):
+        beyond += (carried.pull[i] + pull[i]) * (carried.way[i] - carried.mean[i]) / 2
     res = Resultants(
         force[1], force[0], foundation.energy, answer.energy, foundation.length, stuck, way, low, high, elastic, eta,
         shared.damping, beyond, -shared.by_way, shared.reach, answer.feet,
     )  # fmt: skip
     bristles = _stored(points, carried, pull, answer.keeps)
-    return Contact(force[:3].copy(), force[3:].copy().reshape(nodes, 2), tangent, res, bristles, outside)
+    nodal = np.empty((nodes, 2))
+    for i in range(nodes):
+        nodal[i, 0], nodal[i, 1] = force[3 + 2 * i], force[4 + 2 * i]
+    return Contact(force[:3].copy(), nodal, tangent, res, bristles, outside)
 
 
-@jit
+@part
 def _too_low(pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, damper: Damper, res: Resultants) -> float:
     """How much farther down the rim is than where its patch is about as deep as before the step; 0 where it is well.
 
@@ -252,7 +257,7 @@ def _too_low(pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, dampe
     return 1.5 * res.elastic / (law.eps_n * res.length) * (1 - (damper.elastic_0 / res.elastic) ** (2 / 3))
 
 
-@jit
+@written_out
 def forces_in_newton(
     pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper, begins: bool
 ) -> Contact:  # fmt: skip
@@ -267,7 +272,8 @@ def forces_in_newton(
         raised = _too_low(pose, u, rim, law, before, damper, contact.res)
         if raised == 0:
             break
-        u[:, 0] += raised * cos(pose[2])
-        u[:, 1] -= raised * sin(pose[2])
+        for i in range(u.shape[0]):
+            u[i, 0] += raised * cos(pose[2])
+            u[i, 1] -= raised * sin(pose[2])
         contact = contact_forces(pose, u, rim, law, mode, before, damper)
     return contact

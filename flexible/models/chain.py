@@ -17,9 +17,10 @@ from ..chain.stage import solve_stage
 from ..chain.touch import Facing, lowest, turned
 from ..chain.whole import balance, held, passed_on, sections
 from ..contact.points.data import Before, Damper, Rim
+from ..contact.vectors import largest
 from ..ring.fem import ring_of
 from .rim_contact import RimContact
-from .stage import Predictor, Stage, largest
+from .stage import Predictor, Stage
 from .state import State
 
 Array = NDArray[np.float64]

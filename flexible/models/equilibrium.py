@@ -17,8 +17,8 @@ from ..contact.forces import contact_forces
 from ..contact.laws.listing import sharing
 from ..contact.points.data import NOTHING, UNDAMPED, Before, Rim, no_bristles
 from ..contact.points.rim import gap_at, upward
+from ..contact.vectors import largest
 from ..ring.nodal import factored
-from .stage import largest
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]

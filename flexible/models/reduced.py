@@ -9,16 +9,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Scene
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, part
 
 from ..contact.points.data import Before, Bristles, Damper, Parameters, Resultants
 from ..contact.points.data import Rim as NearFloor
 from ..contact.points.rim import below_floor
+from ..contact.vectors import largest, plus
 from ..ring.frame import Frame, energies, inertia
 from ..ring.reduction import ReducedRing, Rim, is_known, reduce, residual, window_dofs
 from .equilibrium import RestingModes
 from .rim_contact import RimContact, window_around
-from .stage import Predictor, Stage, Window, filtered_error, largest, solve_stage
+from .stage import Predictor, Stage, Window, filtered_error, solve_stage
 from .state import State
 
 Array = NDArray[np.float64]
@@ -78,7 +79,7 @@ def _moved(arrays: Arrays, old: Start, window: tuple[int, int]) -> Any:
     return moved
 
 
-@jit
+@part
 def _near_floor(arrays: Arrays, window: tuple[int, int]) -> Window:
     """What the ring answers in a window."""
     dofs = window_dofs(arrays.vertex.shape[0], window)
@@ -97,7 +98,7 @@ def solved(
     arrays: Arrays, old: Start, mode: int, damper: Damper, predictor: Predictor, near: Any, first: bool
 ) -> Stage:
     """See :class:`flexible.models.state.Model`; not ok as well where the window's compliance is not known."""
-    expected = predictor.pos + predictor.guess
+    expected = plus(predictor.pos, 1.0, predictor.guess)
     low, high = old.res.low, old.res.high
     if old.res.normal == 0:  # a bent rim comes down anywhere
         moved = np.zeros(arrays.rim.shapes.shape[0])

@@ -10,10 +10,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import part, written_out
 
 from ..contact.forces import forces_in_newton
+from ..contact.newton import move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
+from ..contact.vectors import largest, plus
 from ..ring.frame import Frame, inertia
 
 MOST_POINTS = 5000  # to a patch, two hundred times as wide as under the weight: 1e7 weights are no solution
@@ -61,38 +63,27 @@ class Solved(NamedTuple):
     contact: Contact
 
 
-@jit
-def _round_off(contact: Contact, height: float, u: Any, scale: float, damper: Damper) -> float:
-    """Size of the rounding errors in the contact's forces: of the gap's, of the damping factor's, of the slip's."""
-    res = contact.res
-    gap = 4e-16 * scale * (abs(height) + np.abs(u).max())
-    floor = (damper.relaxation + 1) * (gap + 1e-14 * res.elastic)
-    floor += 1e-15 * max(damper.drag, res.steepness) * (abs(res.way) + abs(damper.way_0))
-    return floor
-
-
-@jit
+@part
 def _misfit(residual: Any, own: Any, contact: Contact, window: Window, pos: Any, u: Any, scale: float) -> None:
     """What frame, modes and window lack of equilibrium."""
     m, nodes = own.shape[0], window.shapes.shape[0]
-    flat = contact.nodal.copy().reshape(nodes)
     for i in range(3):
         residual[i] = own[i] - contact.force[i]
     for i in range(3, m):
         pushed = 0.0
         for k in range(nodes):
-            pushed += window.shapes[k, i - 3] * flat[k]
+            pushed += window.shapes[k, i - 3] * contact.nodal[k // 2, k % 2]
         residual[i] = own[i] - pushed
     for k in range(nodes):
         moved = 0.0
         for i in range(3, m):
             moved += window.shapes[k, i - 3] * pos[i]
         for i in range(nodes):
-            moved += window.compliance[k, i] * flat[i]
+            moved += window.compliance[k, i] * contact.nodal[i // 2, i % 2]
         residual[m + k] = scale * (u[k // 2, k % 2] - moved)
 
 
-@jit
+@part
 def _assemble(matrix: Any, own: Any, contact: Any, window: Window, scale: float) -> None:
     """Newton's matrix for frame, modes and window, out of the tangents of inertia and contact."""
     # in loops: an assignment of slices would compile numpy's broadcasting with all its messages
@@ -120,18 +111,7 @@ def _assemble(matrix: Any, own: Any, contact: Any, window: Window, scale: float)
         matrix[k, k] += scale
 
 
-@jit
-def largest(values: Any) -> float:
-    """Largest absolute value, infinite if any is not a number: comparing with one would pass it over."""
-    most = 0.0
-    for value in values.flat:
-        if not np.isfinite(value):
-            return np.inf
-        most = max(most, abs(value))
-    return most
-
-
-@jit
+@written_out
 def solve_stage(
     frame: Frame, window: Window, law: Parameters, mode: int, before: Before, damper: Damper, predictor: Predictor,
     start: Any,
@@ -141,12 +121,9 @@ def solve_stage(
     ``predictor.guess`` and ``start[0]`` start Newton for d and for the displacement of the window's nodes;
     ``start[1]`` is the tolerance on forces.
     """
-    pos_pred, vel_pred, beta = predictor.pos, predictor.vel, predictor.beta
     u_guess, tolerance = start
-    modal = frame.modal
-    n = modal.shape[0]
     nodes = u_guess.shape[0]
-    m = 3 + n
+    m = 3 + frame.modal.shape[0]
     size = m + 2 * nodes
     d, u = predictor.guess.copy(), u_guess.copy()
     matrix = np.empty((size, size))
@@ -155,29 +132,24 @@ def solve_stage(
     iterations = -1
     damping, last = 1.0, np.inf
     way, reach = 0.0, np.inf
-    softest = np.abs(window.compliance).max()
+    softest = largest(window.compliance)
     damper = pulling(damper, True)
     for iteration in range(MOST_ITERATIONS):
-        pos = pos_pred + d
-        acc = d / beta**2
-        vel = vel_pred + d / beta
+        pos, vel, acc = reached(predictor, d)
         contact = forces_in_newton(pos[:3], u, window.rim, law, mode, before, damper, iteration == 0)
         tangent, res = contact.tangent, contact.res
-        # across the bend of a smoothed friction Newton would go to and fro for ever
-        if res.elastic > 0 and abs(res.way - way) > 1.5 * reach:
-            share = reach / abs(res.way - way)
-            back = damping * (1 - share)
+        share = share_before_bend(res, way, reach)
+        if share < 1:
+            move(d, u, damping * (1 - share), update[:m], update[m:])
             damping *= share
-            d += back * update[:m]
-            u += back * update[m:].reshape(nodes, 2)
             continue
         way, reach = res.way, res.reach
-        own, own_tangent = inertia(frame, pos, vel, acc, beta)
+        own, own_tangent = inertia(frame, pos, vel, acc, predictor.beta)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
         _misfit(residual, own, contact, window, pos, u, scale)
         # of forces, and of displacements as forces on the foundation
         worst, astray = largest(residual[:m]), largest(residual[m:])
-        small = tolerance * (1 + abs(res.normal)) + _round_off(contact, pos[1], u, scale, damper)
+        small = tolerance * (1 + abs(res.normal)) + round_off(contact, pos[1], u, scale, damper)
         if not np.isfinite(worst + astray + small) or res.length > MOST_POINTS * law.spacing:
             break
         # a ring softer than the foundation moves by its compliance times what the forces may be off
@@ -196,16 +168,13 @@ def solve_stage(
         if iteration > 3 and worst > last:
             damping = 0.5
         last = worst
-        for i in range(m):
-            d[i] -= damping * update[i]
-        for k in range(2 * nodes):
-            u[k // 2, k % 2] -= damping * update[m + k]
+        move(d, u, -damping, update[:m], update[m:])
     if contact.outside:
         iterations = -2
-    return Solved(iterations, d, d / beta**2, u, matrix, contact)
+    return Solved(iterations, d, reached(predictor, d)[2], u, matrix, contact)
 
 
-@jit
+@written_out
 def filtered_error(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any) -> Any:
     """The error of the velocities as the step itself passes it on: (M + beta C + beta^2 K)^-1 M times it.
 
@@ -213,7 +182,10 @@ def filtered_error(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, matr
     """
     size = pos.shape[0]
     load = np.zeros(matrix.shape[0])
-    with_error, without = inertia(frame, pos, vel, acc + error, beta)[0], inertia(frame, pos, vel, acc, beta)[0]
+    with_error, without = (
+        inertia(frame, pos, vel, plus(acc, 1.0, error), beta)[0],
+        inertia(frame, pos, vel, acc, beta)[0],
+    )
     for i in range(size):
         load[i] = (with_error[i] - without[i]) / beta**2
     return np.linalg.solve(matrix, load)[:size]

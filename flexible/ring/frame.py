@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, part
 
 
 class Body(NamedTuple):
@@ -67,7 +67,7 @@ class _Sums(NamedTuple):
     turned_a: Any
 
 
-@jit
+@part
 def _disk(body: Body, instant: _Instant, force: Any, tangent: Any) -> None:
     """Forces of the disk, and their tangent."""
     s, c, w, alpha, ax, ay, r1, r2 = instant
@@ -89,7 +89,7 @@ def _disk(body: Body, instant: _Instant, force: Any, tangent: Any) -> None:
     tangent[2, 2] = dx_phi * lever - dx * offset * s - dy_phi * offset * s - dy * offset * c + disk_inertia * r2
 
 
-@jit
+@part
 def _ring_sums(frame: Frame, pos: Any, vel: Any, acc: Any) -> _Sums:
     modal, gyro = frame.modal, frame.gyro
     n = modal.shape[0]
@@ -115,7 +115,7 @@ def _ring_sums(frame: Frame, pos: Any, vel: Any, acc: Any) -> _Sums:
     return _Sums(s1, s2, s1_v, s2_v, s1_a, s2_a, moment, rate, spin, turned, turned_v, turned_a)
 
 
-@jit
+@part
 def _ring_by_pose(frame: Frame, instant: _Instant, sums: _Sums, force: Any, tangent: Any) -> None:
     """What the ring adds to the forces on (V, h, phi), and the tangent of these and of the modes' by them."""
     s, c, w, alpha, ax, ay, r1, r2 = instant
@@ -146,7 +146,7 @@ def _ring_by_pose(frame: Frame, instant: _Instant, sums: _Sums, force: Any, tang
     tangent[2, 2] += fx_phi - s2 * a1_phi + s1 * a2_phi + sums.moment * r2 + 2 * sums.rate * r1
 
 
-@jit
+@part
 def _ring_by_modes(
     frame: Frame, instant: _Instant, sums: _Sums, pos: Any, vel: Any, acc: Any, force: Any, tangent: Any
 ) -> None:
@@ -183,7 +183,7 @@ def _ring_by_modes(
         tangent[3 + i, 3 + i] += r2 + square - w * w
 
 
-@jit
+@part
 def inertia(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     """Inertial, gravitational and elastic forces, and their tangent.
 

@@ -14,6 +14,7 @@ from numba.extending import register_jitable
 from rigid.kernel.compile import jit
 
 from ..contact.points.data import Bristles, Damper, Resultants
+from ..contact.vectors import largest, plus, times
 from ..models import reduced
 from ..models.stage import Predictor
 from .methods import Table
@@ -108,13 +109,23 @@ def _write_down(known: _Known, i: int, pos: Any, vel: Any, acc: Any, res: Result
     known.elastic[i], known.eta[i], known.stored[i] = res.elastic, res.eta, res.normal_energy
 
 
-@register_jitable
-def _sum(weights: Any, values: Any) -> Any:
-    """Of as many of the values as there are weights, each with its own."""
-    total = weights[0] * values[0]
-    for i in range(1, weights.shape[0]):
+@jit
+def _sum(h: float, weights: Any, values: Any, count: int) -> float:
+    """``h`` times the first of the values, each with its weight."""
+    total = 0.0
+    for i in range(count):
         total += weights[i] * values[i]
-    return total
+    return h * total
+
+
+@jit
+def _advanced(start: Any, h: float, weights: Any, rows: Any, count: int) -> Any:
+    """``start`` and ``h`` times the first of the rows, each with its weight."""
+    result = start.copy()
+    for i in range(count):
+        for k in range(result.shape[0]):
+            result[k] += h * weights[i] * rows[i, k]
+    return result
 
 
 @register_jitable
@@ -123,7 +134,16 @@ def _expected(table: Table, acc: Any, i: int) -> Any:
     if i == 1:
         return acc[0].copy()
     near, next_near, share = table.nearest[i, 0], table.nearest[i, 1], table.share[i]
-    return acc[near] + share * (acc[near] - acc[next_near])
+    return plus(times(1 + share, acc[near]), -share, acc[next_near])
+
+
+@jit
+def _along(force: Any, end: Any, start: Any) -> float:
+    """Work of a force between two positions."""
+    work = 0.0
+    for k in range(force.shape[0]):
+        work += force[k] * (end[k] - start[k])
+    return work
 
 
 @register_jitable
@@ -140,10 +160,15 @@ def _widening(old: Any, later: float) -> float:
 @register_jitable
 def _damped(table: Table, known: _Known) -> float:
     """What the normal damper takes, the integral of (eta - 1) over the springs' energy."""
-    stored = known.stored - known.stored[0]
-    if known.elastic.min() > 0:
-        return float(_work(table, known.eta - 1.0, stored))
+    stored, touches = known.stored, True
+    for i in range(stored.shape[0]):
+        touches = touches and known.elastic[i] > 0
     damped = 0.0
+    if touches:
+        for i in range(stored.shape[0]):
+            for j in range(stored.shape[0]):
+                damped += (known.eta[i] - 1) * table.work[i, j] * (stored[j] - stored[0])
+        return damped
     for k in range(1, stored.shape[0]):  # off the floor there is no factor
         before, after = table.order[k - 1], table.order[k]
         factor, counted = 0.0, 0
@@ -186,17 +211,17 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
     window, u, nodal, res, bristles = old.window, old.u, old.nodal, old.res, old.bristles
     ok, error = True, 0.0
     for i in range(1, stages):
-        weights = h * table.a[i, :i]
-        vel = old.vel + _sum(weights, known.acc)
-        pos = old.pos + _sum(weights, known.vel) + beta * vel
-        elastic = old.res.elastic + _sum(weights, known.elastic_rate)
-        way = _sum(weights, known.slip_velocity)
+        weights = table.a[i]
+        vel = _advanced(old.vel, h, weights, known.acc, i)
+        pos = plus(_advanced(old.pos, h, weights, known.vel, i), beta, vel)
+        elastic = old.res.elastic + _sum(h, weights, known.elastic_rate, i)
+        way = _sum(h, weights, known.slip_velocity, i)
         turning = table.c[i] * (h * vel[2] - (pos[2] - old.pos[2]) / table.gamma)
         drag = against_slip * _widening(old, table.c[i] * h) / beta
         damper = Damper(relaxation, elastic, 1.0, drag, way, table.c[i] / table.gamma, 1 / beta, 0.0, turning, False)
-        predictor = Predictor(pos, vel, beta, beta**2 * _expected(table, known.acc, i))
+        predictor = Predictor(pos, vel, beta, times(beta**2, _expected(table, known.acc, i)))
         # without numbers to begin with there is nothing to solve: no angle, no rim
-        if not np.isfinite(pos.sum() + vel.sum() + predictor.guess.sum() + elastic + way + turning + drag):
+        if not np.isfinite(largest(pos) + largest(vel) + largest(predictor.guess) + elastic + way + turning + drag):
             ok = False
             break
         found = solved(model, old, old.mode, damper, predictor, (window, u), i == 1)
@@ -205,15 +230,18 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
             ok = False
             break
         u, nodal, res, bristles = found.u, found.nodal, found.res, found.bristles
-        _write_down(known, i, pos + found.d, vel + found.d / beta, found.acc, res)
+        _write_down(known, i, plus(pos, 1.0, found.d), plus(vel, 1 / beta, found.d), found.acc, res)
         known.elastic_rate[i] = (res.elastic - elastic) / beta
         known.way[i], known.slip_velocity[i] = res.way, (res.way - way) / beta
         known.feet[i] = res.feet
         if i == stages - 1:
-            off = h * _sum(table.error, known.acc)
+            off = _advanced(np.zeros(pos.shape[0]), h, table.error, known.acc, stages)
             error = momentum_error(model, known.pos[i], known.vel[i], known.acc[i], beta, found.matrix, off)
     end = stages - 1
-    weights = h * table.b
+    off_floor = 0.0
+    for i in range(stages):
+        if known.normal[i] == 0:
+            off_floor += h * table.b[i]
     drag_work = _work(table, known.drag, known.way)
     numerical = 0.0
     if ok:
@@ -221,13 +249,13 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
         for i in range(stages):
             force = floor_forces(model, known.pos[i], known.vel[i], known.acc[i])
             for j in range(1, stages):
-                numerical += table.work[i, j] * (force * (known.pos[j] - known.pos[0])).sum()
+                numerical += table.work[i, j] * _along(force, known.pos[j], known.pos[0])
     return Taken(
         ok, known.pos[end].copy(), known.vel[end].copy(), known.acc[end].copy(), window, u, nodal, res, bristles,
-        known.slip_velocity[end], known.elastic_rate[end], _sum(table.end_rate, known.feet) / h, error,
-        _sum(weights, known.normal), _sum(weights, known.friction),
-        res.beyond + _work(table, known.friction - known.drag, known.way), _damped(table, known) - drag_work,
-        numerical, (weights * (known.normal == 0.0)).sum(),
+        known.slip_velocity[end], known.elastic_rate[end], _sum(1 / h, table.end_rate, known.feet, stages), error,
+        _sum(h, table.b, known.normal, stages), _sum(h, table.b, known.friction, stages),
+        res.beyond + _work(table, known.friction, known.way) - drag_work, _damped(table, known) - drag_work,
+        numerical, off_floor,
     )  # fmt: skip
 
 

@@ -64,6 +64,29 @@ def jit(function: F, **instead: Any) -> F:
     return _compiler(moved(function, place, scope), keep=True)
 
 
+def part(function: F) -> F:
+    """Mark a function that compiled code alone calls.
+
+    It gets no entry from Python, whose unpacking of named tuples takes long to compile, and no cache; it is compiled
+    once for arguments that are known beforehand and for others. Called from Python it runs as it stands.
+    """
+    from numba.extending import register_jitable
+
+    marked: F = register_jitable(error_model="numpy")(function)
+    return marked
+
+
+def written_out(function: F) -> F:
+    """Mark a function that is written out in the compiled functions that call it.
+
+    For one that is little but a call of a large function: on its own it would have all of that compiled once more.
+    """
+    import numba
+
+    marked: Any = numba.njit(inline="always", error_model="numpy")(function)
+    return marked
+
+
 @cache
 def _home_of(module: str, file: str) -> Path:
     from .store import fingerprint, home

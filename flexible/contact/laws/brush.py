@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Friction
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import part
 
-from ..points.bristles import add_pull, cling, point_forces, rolled_in, weights
+from ..points.bristles import add_pull, cling, point_forces, rolled_in, touching, weights
 from ..points.data import Bristles, Resultants, Shared, Tractions
 from .law import Law, PatchState, Rolling
 
@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 CODE = 1
 
 
-@jit
+@part
 def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
     """See :class:`flexible.contact.laws.law.Law`."""
     total = points.gap.shape[0]
@@ -55,7 +55,7 @@ def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, 
             stuck += weight[i]
         add_pull(forces, i, traction, weight, weight_by)
         energy += weight[i] * traction**2 / (2 * law.eps_t)
-    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, stuck, points.gap < 0, 0.0)
+    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, stuck, touching(points), 0.0)
 
 
 def effective_mu_s(mu_s: float, mu: float) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rigid import Scene
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import written_out
 
 from . import brush, patch, regularised
 from .brush import Brush
@@ -16,7 +16,7 @@ from .regularised import Regularised
 LAWS: dict[str, type[Law]] = {law.name: law for law in (Patch, Brush, Regularised)}
 
 
-@jit
+@written_out
 def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
     """What the scene's law answers; see :class:`flexible.contact.laws.law.Law`."""
     if law.law == patch.CODE:

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Friction, Kind
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import part, written_out
 
-from ..points.bristles import add_pull, cling, point_forces, rolled_in, weights
+from ..points.bristles import add_pull, cling, point_forces, rolled_in, touching, weights
 from ..points.data import Bristles, Parameters, Resultants, Shared, Tractions
 from ..points.normal import force_by_gaps
 from .law import Law, PatchState, Rolling
@@ -26,13 +26,13 @@ CODE = 0
 STICK, SLIDE_RIGHT, SLIDE_LEFT = 0, 1, -1  # SLIDE_RIGHT: friction pushes the hoop to the right (spinning)
 
 
-@jit
+@part
 def _stick(points: Any, carried: Any, load: Any, slip: Any, law: Any) -> Any:
     """Bristles without a limit, and the damper's drag."""
     total = points.gap.shape[0]
     forces = point_forces(total)
     weight, weight_by = weights(points, carried, law.spacing, True, True)
-    keeps = points.gap < 0
+    keeps = touching(points)
     energy, stuck = 0.0, 0.0
     for i in range(total):
         if weight[i] != 0:
@@ -52,13 +52,15 @@ def _stick(points: Any, carried: Any, load: Any, slip: Any, law: Any) -> Any:
     return Tractions(forces, shared, energy, stuck, keeps, 0.0)
 
 
-@jit
+@part
 def _slide(points: Any, foundation: Any, carried: Any, mode: int, load: Any, law: Any) -> Any:
     """mu N, shared like the foundation's forces; bristles that take it over will pull as much in all."""
     total = points.gap.shape[0]
     forces = point_forces(total)
     weight, _ = weights(points, carried, law.spacing, True, False)
-    lumped = -law.eps_n * (weight * np.minimum(points.gap, 0.0)).sum()
+    lumped = 0.0
+    for i in range(total):
+        lumped -= law.eps_n * weight[i] * min(points.gap[i], 0.0)
     even = load.elastic / lumped if lumped > 0 else 1.0
     force_by_gaps(forces.by_gap, load.eta * mode * law.mu, foundation)
     energy, held, pulled = 0.0, 0.0, 0.0
@@ -72,10 +74,10 @@ def _slide(points: Any, foundation: Any, carried: Any, mode: int, load: Any, law
         pulled -= weight[i] * law.eps_t * carried.stretch[i]
         energy += weight[i] * law.eps_t * carried.stretch[i] ** 2 / 2
     feet = (pulled - held) / (law.eps_t * foundation.length) if foundation.length > 0 else 0.0
-    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0, points.gap < 0, feet)
+    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0, touching(points), feet)
 
 
-@jit
+@written_out
 def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
     """See :class:`flexible.contact.laws.law.Law`."""
     if mode == STICK:

@@ -12,9 +12,9 @@ from math import inf, sqrt
 from typing import Any
 
 from rigid import Friction
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import part
 
-from ..points.bristles import point_forces
+from ..points.bristles import point_forces, touching
 from ..points.data import Bristles, Resultants, Shared, Tractions
 from .law import Law, PatchState, Rolling
 
@@ -22,10 +22,11 @@ CODE = 2
 _MOST = 0.999  # of mu N that a creep is sought for: the rest is sliding
 
 
-@jit
+@part
 def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
     """See :class:`flexible.contact.laws.law.Law`."""
-    carried.stretch[:] = 0.0
+    for i in range(carried.stretch.shape[0]):
+        carried.stretch[i] = 0.0
     speed = sqrt(slip.velocity**2 + law.slip_scale**2)
     coefficient = -law.mu * slip.velocity / speed
     by_velocity = -law.mu * law.slip_scale**2 / speed**3
@@ -38,7 +39,7 @@ def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, 
         speed / slip.rate if slip.rate > 0 else inf,
     )
     stuck = foundation.length if abs(slip.velocity) < law.slip_scale else 0.0
-    return Tractions(point_forces(points.gap.shape[0]), shared, 0.0, stuck, points.gap < 0, 0.0)
+    return Tractions(point_forces(points.gap.shape[0]), shared, 0.0, stuck, touching(points), 0.0)
 
 
 class Regularised(Law):

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, part
 
 from .data import Bristles, Damper, Parameters, PointForces, Resultants, Slip
 from .rim import lift
@@ -45,7 +45,7 @@ class _Entry(NamedTuple):
     shift: float  # derivative of that angle by phi, the fraction fixed
 
 
-@jit
+@part
 def _entry(points: Any, i: int, dphi: float, turn: float, ratio: float) -> _Entry:
     """When a point that was off the floor when the step began touched.
 
@@ -83,7 +83,7 @@ def _entry(points: Any, i: int, dphi: float, turn: float, ratio: float) -> _Entr
     return _Entry(s, angle, 2 * half * half, -(1 - s) / slope, by_phi, speed, shift)
 
 
-@jit
+@part
 def carry(points: Any, bristles: Any, dphi: float, damper: Damper, slip: Slip, moved: float) -> Any:
     """Bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered since.
 
@@ -146,7 +146,7 @@ def edge_of_patch(g_in: float, g_out: float, inner: float) -> tuple[float, float
     return f, -(1 - f) * (1 + f) / slope, -f * (1 + f) / 2 / slope, f * (1 - f) / 2 / slope
 
 
-@jit
+@part
 def weights(points: Any, carried: Any, spacing: float, curved: bool, sticks: bool) -> tuple[Any, Any]:
     """Length of patch that belongs to each point, and its derivatives by the gaps of (n, 5) points around it.
 
@@ -188,13 +188,22 @@ def weights(points: Any, carried: Any, spacing: float, curved: bool, sticks: boo
     return weight, by
 
 
-@jit
+@part
+def touching(points: Any) -> Any:
+    """Which points are below the floor."""
+    flags = np.empty(points.gap.shape[0], np.bool_)
+    for i in range(flags.shape[0]):
+        flags[i] = points.gap[i] < 0
+    return flags
+
+
+@part
 def point_forces(total: int) -> PointForces:
     """Room for the forces of so many points."""
     return PointForces(np.zeros(total), np.zeros(total), np.zeros(total), np.zeros(total), np.zeros((total, 5)))
 
 
-@jit
+@part
 def cling(forces: Any, carried: Any, i: int, weight: float, eps_t: float) -> float:
     """Traction of a point that sticks; what it answers to its abscissa, gap and phi is written down."""
     forces.by_abscissa[i] = -eps_t * weight * carried.rate[i]
@@ -203,7 +212,7 @@ def cling(forces: Any, carried: Any, i: int, weight: float, eps_t: float) -> flo
     return -eps_t * carried.stretch[i]
 
 
-@jit
+@part
 def add_pull(forces: Any, i: int, traction: float, weight: Any, weight_by: Any) -> None:
     """Add a point's traction on the length of patch that belongs to it."""
     forces.force[i] = weight[i] * traction

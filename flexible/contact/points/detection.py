@@ -11,13 +11,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import part
 
 from .data import Before, Rim
 from .rim import element_at, gap_at, lift, shape_functions, sideways, upward, vertex_angle
 
 
-@jit
+@part
 def _lowest(height: float, psi_start: float, width: float, y0: float, y1: float, y2: float) -> tuple[float, float]:
     """Where in an element, 0..1, the gap is least, and how large it is there."""
     c1, c2 = -3 * y0 + 4 * y1 - y2, 2 * y0 - 4 * y1 + 2 * y2
@@ -35,7 +35,7 @@ def _lowest(height: float, psi_start: float, width: float, y0: float, y1: float,
     return lowest, base + c1 * lowest + c2 * lowest**2 + lift(psi_start + lowest * width)
 
 
-@jit
+@part
 def _touching(height: float, psi_start: float, width: float, y0: float, y1: float, y2: float) -> tuple[float, float]:
     """Part [low, high] of an element, in 0..1, where the gap is negative; low > high when there is none."""
     c1, c2 = -3 * y0 + 4 * y1 - y2, 2 * y0 - 4 * y1 + 2 * y2
@@ -64,7 +64,7 @@ def _touching(height: float, psi_start: float, width: float, y0: float, y1: floa
     return edges[0], edges[1]
 
 
-@jit
+@part
 def least_gap(pose: Any, u: Any, rim: Rim) -> float:
     """The least gap of a window of rim elements."""
     s, c = sin(pose[2]), cos(pose[2])
@@ -82,7 +82,7 @@ def least_gap(pose: Any, u: Any, rim: Rim) -> float:
     return least
 
 
-@jit
+@part
 def _candidates(height: float, phi: float, y: Any, rim: Rim, spacing: float) -> Any:
     """Ranges of points that touch or border on a touching one, merged; rows (first, last)."""
     first, vertex, count = rim.first, rim.vertex, (y.shape[0] - 1) // 2
@@ -137,7 +137,7 @@ class Points(NamedTuple):
     lifted: Any  # height of the undeformed circle there over its lowest point
 
 
-@jit
+@part
 def gather(pose: Any, u: Any, rim: Rim, spacing: float, before: Before) -> tuple[Any, bool]:
     """The points that touch and those that border on them, for a window of rim elements.
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import part
 
 
 class Foundation(NamedTuple):
@@ -23,19 +23,25 @@ class Foundation(NamedTuple):
     length: float  # of the patch
 
 
-@jit
+@part
 def _cell(ga: float, gb: float, unit: float, out: Any) -> None:
     """Energy of one cell with gap from ``ga`` to ``gb``, its gradient and second derivatives.
 
     ``out``: energy, -d/da, -d/db, aa, ab, bb; ``unit`` is eps_n times the spacing.
     """
-    if ga < 0 and gb < 0:
+    swapped = gb < 0 <= ga
+    if swapped:
+        ga, gb = gb, ga
+    if ga >= 0:
+        for i in range(6):
+            out[i] = 0.0
+    elif gb < 0:
         out[0] = unit * (ga * ga + ga * gb + gb * gb) / 6
         out[1] = -unit * (2 * ga + gb) / 6
         out[2] = -unit * (2 * gb + ga) / 6
         out[3] = out[5] = unit / 3
         out[4] = unit / 6
-    elif ga < 0:
+    else:
         q = ga / (gb - ga)
         out[0] = -unit * ga * ga * q / 6
         out[1] = unit * ga * (3 * q + q * q) / 6
@@ -43,15 +49,12 @@ def _cell(ga: float, gb: float, unit: float, out: Any) -> None:
         out[3] = -unit * (6 * q + 6 * q * q + 2 * q**3) / 6
         out[4] = unit * (3 * q * q + 2 * q**3) / 6
         out[5] = -unit * 2 * q**3 / 6
-    elif gb < 0:
-        _cell(gb, ga, unit, out)
+    if swapped:
         out[1], out[2] = out[2], out[1]
         out[3], out[5] = out[5], out[3]
-    else:
-        out[:] = 0.0
 
 
-@jit
+@part
 def press(gap: Any, last: Any, eps_n: float, spacing: float) -> Any:
     """Normal forces of points with these gaps; ``last`` marks points whose next one is no neighbour."""
     total = gap.shape[0]
@@ -76,7 +79,7 @@ def press(gap: Any, last: Any, eps_n: float, spacing: float) -> Any:
     return Foundation(force, diagonal, coupling, energy, length)
 
 
-@jit
+@part
 def force_by_gaps(by_gap: Any, factor: float, foundation: Foundation) -> None:
     """Add ``factor`` times the derivatives of the points' normal forces by the gaps around them.
 
@@ -90,7 +93,7 @@ def force_by_gaps(by_gap: Any, factor: float, foundation: Foundation) -> None:
             by_gap[i, 1] -= factor * coupling[i - 1]
 
 
-@jit
+@part
 def sum_by_gaps(factors: Any, foundation: Foundation) -> Any:
     """Derivative of the sum of the points' normal forces, each times its factor, by the gap of each point."""
     diagonal, coupling = foundation.diagonal, foundation.coupling

@@ -11,10 +11,10 @@ import flexible
 import flexible.time.adaptive
 import rigid
 from flexible.contact.laws.patch import SLIDE_RIGHT, STICK
+from flexible.contact.vectors import largest
 from flexible.handover import Pose, equilibrium, hand_over
 from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
-from flexible.models.stage import largest
 from flexible.time.adaptive import Limits, march
 from flexible.time.events import Ends, locate
 from flexible.time.step import MarchError, attempt, restart

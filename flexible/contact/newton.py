@@ -1,0 +1,44 @@
+"""What Newton on a stage is alike for all rings in compiled code: increments, steps taken back, rounding errors."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rigid.kernel.compile import part
+
+from .points.data import Contact, Damper, Resultants
+from .vectors import add, largest, plus, times
+
+
+@part
+def reached(predictor: Any, d: Any) -> tuple[Any, Any, Any]:
+    """Position, velocity and acceleration with an increment, see :class:`flexible.models.stage.Predictor`."""
+    beta = predictor.beta
+    return plus(predictor.pos, 1.0, d), plus(predictor.vel, 1 / beta, d), times(1 / beta**2, d)
+
+
+@part
+def move(d: Any, u: Any, factor: float, update: Any, update_u: Any) -> None:
+    """Move the increment and the window's nodes by so many times an update, that of the nodes flat."""
+    add(d, factor, update)
+    for k in range(update_u.shape[0]):
+        u[k // 2, k % 2] += factor * update_u[k]
+
+
+@part
+def share_before_bend(res: Resultants, way: float, reach: float) -> float:
+    """Share of Newton's last step, from ``way``, that is taken: friction is about linear over ``reach``.
+
+    Across the bend of a smoothed friction Newton would go to and fro for ever.
+    """
+    step = abs(res.way - way)
+    return reach / step if res.elastic > 0 and step > 1.5 * reach else 1.0
+
+
+@part
+def round_off(contact: Contact, height: float, u: Any, scale: float, damper: Damper) -> float:
+    """Size of the rounding errors in the contact's forces: of the gap's, of the damping factor's, of the slip's."""
+    res = contact.res
+    gap = 4e-16 * scale * (abs(height) + largest(u))
+    floor = (damper.relaxation + 1) * (gap + 1e-14 * res.elastic)
+    return floor + 1e-15 * max(damper.drag, res.steepness) * (abs(res.way) + abs(damper.way_0))
