@@ -83,7 +83,11 @@ def written_out(function: F) -> F:
     """
     import numba
 
-    marked: Any = numba.njit(inline="always", error_model="numpy")(function)
+    from .store import moved
+
+    assert isinstance(function, FunctionType)
+    place = _home_of(function.__module__, function.__code__.co_filename)
+    marked: Any = numba.njit(inline="always", error_model="numpy")(moved(function, place))
     return marked
 
 
