@@ -3,33 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from math import sqrt
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rigid import Kind, Scene, scene_from_dict, scene_to_dict, simulate
+from rigid import Kind, Scene, scene_to_dict, simulate
 from rigid.output import summary
 
 from ..running.case import Case, Outcome
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
-from .roll import SOLVER, from_rest
+from .roll import SOLVER, STIFFNESS, Ask, HopMap
 from .rule import DECADE
 from .threshold import WHERE, Bracket, Window, bracket, hops_in, windows
 
 if TYPE_CHECKING:
     import pandas
 
-STIFFNESS = "ring.bending_stiffness"
-
-DEFAULT = (0.5, 1e4, 24)
-"""Range of the bending stiffness, and number of cases over it."""
-
-RTOL = 3e-4
-"""Tolerance of the rolls; thresholds are held against a third of it."""
-
 FINER = 3.0
+"""By how much the tolerance is less at which thresholds are held against the map's."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +32,8 @@ class HopCase:
     scene: Scene
     """As it was run."""
     outcome: Outcome
+    whole: bool = True
+    """Whether it was to roll to the end of the map's run, and not only through the first pulse."""
 
     @property
     def motion(self) -> Mapping[str, Any]:
@@ -82,6 +76,7 @@ class HopCase:
             "hops": hops,
             "chatter": self.chatter,
             "completed": bool(self.motion["completed"]),
+            "whole": self.whole,
             "ended": self.outcome.failure or self.outcome.ended,
             "scales": self.motion["scales"],
             "rigid": {"hops": rigid_hops(self.scene)},
@@ -116,7 +111,7 @@ class Line:
         """Whether it hops there, by stiffness."""
         window = self.windows[where]
         rolled = (*self.mapped, *self.between) if cases is None else cases
-        return {case.bending_stiffness: hops_in(case.motion, window, least) for case in rolled}
+        return {case.bending_stiffness: hops_in(case.motion, window, least, case.whole) for case in rolled}
 
     def threshold(self, where: str, least: float = 1.0) -> Bracket:
         """Below which it hops there."""
@@ -202,42 +197,8 @@ class HopStudy:
         }
 
 
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """What a hop study runs."""
-
-    scene: Scene
-    stiffness: tuple[float, ...]
-    second: str | None = None
-    values: tuple[Any, ...] = (None,)
-    rtol: float = RTOL
-    bisections: int = 4
-    level: str | None = None
-    """Of the ring; the scene's own by default."""
-    scenes: tuple[Scene, ...] = field(init=False)
-    """One for each value of the second key, ready to roll."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "scenes", tuple(self._scene(value) for value in self.values))
-
-    def _scene(self, value: Any) -> Scene:
-        solve: dict[str, Any] = {"rtol": self.rtol} | ({} if self.level is None else {"level": self.level})
-        scene = self.scene.replace(solve=solve)
-        if self.second is not None:
-            data = scene_to_dict(scene)
-            part, _, key = self.second.partition(".")
-            data.setdefault(part, {})[key] = value
-            scene = scene_from_dict(data)
-        return from_rest(scene)
-
-    @property
-    def count(self) -> int:
-        """Number of rolls of the map."""
-        return len(self.stiffness) * len(self.values)
-
-
 def hop_study(
-    asked: Asked,
+    asked: HopMap,
     *,
     pool: Pool | None = None,
     out: str | Path | None = None,
@@ -248,32 +209,40 @@ def hop_study(
     rounds = 1 + asked.bisections + 1
     stage = 0
 
-    def run(asks: list[tuple[int, float, float]]) -> list[tuple[int, HopCase]]:
-        """Rolls asked by line, stiffness and tolerance."""
-        scenes = [asked.scenes[n].replace(ring={"bending_stiffness": s}, solve={"rtol": rtol}) for n, s, rtol in asks]
+    def run(asks: list[Ask]) -> list[tuple[int, HopCase]]:
+        """Rolls, those that are not asked whole only through the pulse where that decides."""
+        scenes = [asked.scene_of(ask) for ask in asks]
         cases = [Case(SOLVER, scene, cut=True) for scene in scenes]
         # the map is most of the work
         low, high = (0.0, 0.8) if stage == 0 else (0.8 + 0.2 * (stage - 1) / rounds, 0.8 + 0.2 * stage / rounds)
         told = None if progress is None else (lambda share: progress(low + (high - low) * share))
         outcomes = run_cases(cases, pool or Here(), out, told, say=say)
-        return [
-            (n, HopCase(s, scene, outcome)) for (n, s, _), scene, outcome in zip(asks, scenes, outcomes, strict=True)
+        found = [
+            (ask.line, HopCase(ask.stiffness, scene, outcome, ask.whole))
+            for ask, scene, outcome in zip(asks, scenes, outcomes, strict=True)
         ]
+        late = [not (ask.whole or _through(lines[ask.line], case)) for ask, (_, case) in zip(asks, found, strict=True)]
+        again = (
+            run([ask._replace(whole=True) for ask, more in zip(asks, late, strict=True) if more]) if any(late) else []
+        )
+        return [each for each, more in zip(found, late, strict=True) if not more] + again
 
+    lines: list[Line] = []
     stiffness = sorted(set(asked.stiffness))
-    found = run([(n, s, asked.rtol) for n in range(len(asked.scenes)) for s in stiffness])
+    found = run([Ask(n, s, asked.rtol, True) for n in range(len(asked.scenes)) for s in stiffness])
     lines = [
         Line(value, scene, windows(scene), tuple(case for m, case in found if m == n))
         for n, (value, scene) in enumerate(zip(asked.values, asked.scenes, strict=True))
     ]
     for _ in range(asked.bisections):
         stage += 1
-        middles = {(n, middle, asked.rtol) for n, line in enumerate(lines) for middle in _middles(line)}
-        more = run(sorted(middles))
+        more = run(
+            [Ask(n, s, asked.rtol, w) for n, line in enumerate(lines) for s, w in sorted(_middles(line).items())]
+        )
         lines = [_with(line, between=[case for m, case in more if m == n]) for n, line in enumerate(lines)]
     stage += 1
-    ends = {(n, end, asked.rtol / FINER) for n, line in enumerate(lines) for end in _ends(line)}
-    more = run(sorted(ends))
+    finer = asked.rtol / FINER
+    more = run([Ask(n, s, finer, w) for n, line in enumerate(lines) for s, w in sorted(_ends(line).items())])
     lines = [_with(line, finer=[case for m, case in more if m == n]) for n, line in enumerate(lines)]
     return HopStudy(asked.scene, asked.second, tuple(lines))
 
@@ -283,14 +252,27 @@ def _with(line: Line, between: list[HopCase] | None = None, finer: list[HopCase]
     return Line(line.value, line.scene, line.windows, line.mapped, tuple(added), (*line.finer, *(finer or [])))
 
 
-def _middles(line: Line) -> set[float]:
-    """Stiffnesses in the middle of the line's brackets."""
-    brackets = [line.threshold(where) for where in line.windows]
+def _middles(line: Line) -> dict[float, bool]:
+    """Stiffnesses in the middle of the line's brackets, and whether they are to be rolled to the end."""
     known = line.answers("anywhere")
-    found = {sqrt(b.low * b.high) for b in brackets if b.value is not None and not b.open}
-    return {middle for middle in found if middle not in known}
+    found: dict[float, bool] = {}
+    for where in line.windows:
+        b = line.threshold(where)
+        if b.value is not None and not b.open and b.value not in known:
+            found[b.value] = found.get(b.value, False) or where == "anywhere"
+    return found
 
 
-def _ends(line: Line) -> set[float]:
-    brackets = [line.threshold(where) for where in line.windows]
-    return {end for b in brackets if b.value is not None for end in (b.low, b.high)}
+def _ends(line: Line) -> dict[float, bool]:
+    """The ends of its brackets, likewise."""
+    found: dict[float, bool] = {}
+    for where in line.windows:
+        b = line.threshold(where)
+        for end in (b.low, b.high) if b.value is not None else ():
+            found[end] = found.get(end, False) or where == "anywhere"
+    return found
+
+
+def _through(line: Line, case: HopCase) -> bool:
+    """Whether a roll through the pulse got there, or would not by going on."""
+    return not case.motion["completed"] or case.motion["swept"] > line.windows["pulse"].high  # type: ignore[union-attr]

@@ -38,19 +38,19 @@ def windows(scene: Scene) -> dict[str, Window | None]:
     return found
 
 
-def hops_in(motion: Mapping[str, Any], window: Window | None, least: float = 1.0) -> bool | None:
+def hops_in(motion: Mapping[str, Any], window: Window | None, least: float = 1.0, whole: bool = True) -> bool | None:
     """Whether a roll hops there, of flights at least so prominent; None where it stopped before that was decided.
 
     In a window the first pass counts, by how far the disk has come down: later ones begin with what vibration the
-    first one left.
+    first one left. A roll that was not to be ``whole`` decides what the disk has passed.
     """
     for flight in motion["flights"]:
         if flight["prominence"] is not None and flight["prominence"] < least:
             continue
         if window is None or (window.low <= flight["swept"] <= window.high):
             return True
-    decided = motion["completed"] if window is None else motion["completed"] or motion["swept"] > window.high
-    return False if decided else None
+    ended = motion["completed"] and whole
+    return False if ended or (window is not None and motion["swept"] > window.high) else None
 
 
 @dataclass(frozen=True, slots=True)
