@@ -7,10 +7,8 @@ from typing import Any
 
 from ..plots.sheet import Column, Sheet, number
 from .rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG
-from .study import HopCase, HopStudy, Line, rigid_hops
-from .threshold import Bracket
-
-SYMBOL = "E I/(m g R²)"
+from .study import HopStudy
+from .threshold import SYMBOL, Bracket, HopCase, Line, rigid_hops
 
 PLACES = {
     "anywhere": "leaves the floor anywhere",

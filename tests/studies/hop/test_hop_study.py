@@ -11,11 +11,10 @@ from command_line import is_one_sentence
 from third_hop import LIFTS
 
 from rigid import SceneError, load_scene, simulate
-from studies import StudyError
+from studies import StudyError, hop_study
 from studies.cli.hop import map_of, parse_over
 from studies.hop.roll import DEFAULT, from_rest, spans, through_the_pulse
 from studies.hop.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG, Scales
-from studies.hop.study import hop_study
 from studies.hop.threshold import Window, bracket, hops_in, windows
 
 SCENE = "paper-3.3-heavier"
@@ -179,6 +178,15 @@ def test_json_is_the_contract(hoop):
         for row in found["threshold"][where]:
             assert row["low"] < exact < row["high"]
             assert set(row["by_rule"]) == {"0.316", "3.16"}
+
+
+@pytest.mark.usefixtures("leaping")
+def test_a_study_is_drawn_from_python():
+    """Over one key where hops begin, over two the heights with the thresholds."""
+    one = rolled(0).plot()
+    assert one.axes[0].get_ylabel() == "φ at lift-off [°]"
+    two = rolled(0, "hoop.k=0.1,0.2").plot()
+    assert two.axes[0].get_ylabel() == "hoop.k"
 
 
 def test_a_map_goes_on_where_it_was(leaping, tmp_path, monkeypatch):
