@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     __version__: str
 
     from .atlas.study import Atlas, atlas_of
+    from .hop.roll import HopMap
+    from .hop.study import HopStudy, hop_study
     from .limit.study import LimitStudy, limit_study
     from .running.files import StudyError
     from .running.measures import MEASURES, Measure, Unit, measure, measures
@@ -44,6 +46,9 @@ if TYPE_CHECKING:
 _HOMES = {
     "Atlas": "atlas.study",
     "atlas_of": "atlas.study",
+    "HopMap": "hop.roll",
+    "HopStudy": "hop.study",
+    "hop_study": "hop.study",
     "LimitStudy": "limit.study",
     "limit_study": "limit.study",
     "MEASURES": "running.measures",
@@ -85,6 +90,8 @@ def __dir__() -> list[str]:
 __all__ = [
     "MEASURES",
     "Atlas",
+    "HopMap",
+    "HopStudy",
     "Ladder",
     "Limit",
     "LimitStudy",
@@ -97,6 +104,7 @@ __all__ = [
     "Unit",
     "__version__",
     "atlas_of",
+    "hop_study",
     "limit_of",
     "limit_study",
     "load_sweep",

@@ -8,14 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rigid import Scene, SceneError, load_scene
+from rigid import Run, Scene, SceneError, load_scene
 from rigid.elastic import LAWS
 
 from ..running.files import to_json, write_text
 from .shared.options import SceneKey, SceneName, as_json, out_folder, results_folder, scheduler, workers
 
 if TYPE_CHECKING:
-    from ..hop.study import Asked, HopStudy
+    from ..hop.roll import HopMap
+    from ..hop.study import HopStudy
 
 
 @click.command()
@@ -39,6 +40,9 @@ if TYPE_CHECKING:
     metavar="T",
     help="Tolerance of the rolls, 3e-4 by default; thresholds are held against a third of it.",
 )
+@click.option(
+    "--turns", type=click.IntRange(1, 100), metavar="N", help="Roll to this turn, in place of the scene's end."
+)
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--level",
@@ -56,6 +60,7 @@ def hop(
     over: tuple[str, ...],
     bisections: int,
     rtol: float | None,
+    turns: int | None,
     law: str | None,
     level: str | None,
     workers: int | None,
@@ -66,14 +71,17 @@ def hop(
     Hoops released at rest roll, flexible throughout, over a range of bending stiffness and one key more; every flight
     is listed with where it begins, how high it goes and where its energy came from.
     """
-    from ..hop.study import RTOL, hop_study
+    from ..hop.roll import RTOL
+    from ..hop.study import hop_study
     from ..running.progress import announce, bar
     from ..running.workers import pool
 
     described = load_scene(scene)
     if law is not None:
         described = described.replace(contact={"law": law})
-    asked = asked_of(described, over, rtol=rtol or RTOL, bisections=bisections, level=level)
+    if turns is not None:
+        described = described.replace(run=Run(turns=turns))
+    asked = map_of(described, over, rtol=rtol or RTOL, bisections=bisections, level=level)
     target = results_folder(out)
     say: Callable[[str], None] = (lambda sentence: None) if as_json else announce
     say(f"{asked.count} rolls, and up to {3 * (bisections + 2)} more for each threshold line.")
@@ -95,10 +103,9 @@ def hop(
     return 1 if found.unfinished else 0
 
 
-def _compile(asked: Asked) -> None:
+def _compile(asked: HopMap) -> None:
     """What the softest and the stiffest roll need that this machine does not have yet: one process for all workers."""
     from flexible import simulate
-    from rigid import Run
     from rigid.kernel.store import is_cold
 
     if not is_cold("flexible"):
@@ -137,7 +144,7 @@ def parse_over(text: str) -> tuple[str, tuple[Any, ...]]:
     return key, tuple(run.tolist())
 
 
-def asked_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> Asked:
+def map_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> HopMap:
     """The study that a command line asks for.
 
     Raises
@@ -147,7 +154,7 @@ def asked_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> Asked:
     """
     import numpy as np
 
-    from ..hop.study import DEFAULT, STIFFNESS, Asked
+    from ..hop.roll import DEFAULT, STIFFNESS, HopMap
 
     ranges = [parse_over(text) for text in over]
     keys = [key for key, _ in ranges]
@@ -157,7 +164,7 @@ def asked_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> Asked:
     other = next(((key, values) for key, values in ranges if key != STIFFNESS), (None, (None,)))
     for value in stiffness:
         scene.replace(ring={"bending_stiffness": value})
-    return Asked(scene, stiffness, other[0], other[1], **settings)
+    return HopMap(scene, stiffness, other[0], other[1], **settings)
 
 
 def _write(found: HopStudy, target: Path, line: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import degrees, sin
+from typing import Protocol
 
 import matplotlib
 import numpy as np
@@ -22,8 +23,7 @@ from rigid import Scene
 from ..plots.style import OKABE_ITO, RIGID, STYLE, blank
 from .energies import Roll
 from .roll import roll, spans, steps_of
-from .study import HopCase, HopStudy, Line
-from .summary import SYMBOL
+from .threshold import SYMBOL, HopCase, Line
 
 HEIGHTS = (1e-4, 1e-1)
 """Of a hop over R, between which colours run."""
@@ -31,6 +31,22 @@ HEIGHTS = (1e-4, 1e-1)
 AROUND = 1.5
 """Of a hop's duration is shown before and after it, and no less than ``LEAST``."""
 LEAST = 0.25
+
+
+class Mapped(Protocol):
+    """What is drawn of a study."""
+
+    @property
+    def scene(self) -> Scene:
+        """From which all starts."""
+
+    @property
+    def second(self) -> str | None:
+        """The key besides the bending stiffness."""
+
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """The rolls by its values."""
 
 
 class Chosen:
@@ -59,7 +75,7 @@ class Chosen:
         )
 
 
-def chosen(study: HopStudy) -> Chosen | None:
+def chosen(study: Mapped) -> Chosen | None:
     """The highest hop of a first pulse, or of all where none begins there; None without any."""
     best: tuple[bool, float] = (False, 0.0)
     found: tuple[HopCase, int] | None = None
@@ -73,7 +89,7 @@ def chosen(study: HopStudy) -> Chosen | None:
     return None if found is None else Chosen(*found)
 
 
-def hop_map(study: HopStudy) -> Figure:
+def hop_map(study: Mapped) -> Figure:
     """Where each hop begins and how high it goes, over the bending stiffness; one panel to a line, six at most."""
     with matplotlib.rc_context(STYLE):
         count = min(len(study.lines), 6)
@@ -87,7 +103,7 @@ def hop_map(study: HopStudy) -> Figure:
         return figure
 
 
-def _hops(study: HopStudy, lines: Sequence[Line], grid: NDArray[np.object_]) -> None:
+def _hops(study: Mapped, lines: Sequence[Line], grid: NDArray[np.object_]) -> None:
     dots = None
     for axes, line in zip(grid.ravel(), lines, strict=False):
         dots = _line(axes, study, line) or dots
@@ -99,7 +115,7 @@ def _hops(study: HopStudy, lines: Sequence[Line], grid: NDArray[np.object_]) -> 
         grid[0, 0].figure.colorbar(dots, ax=grid, label="height over R")
 
 
-def _line(axes: Axes, study: HopStudy, line: Line) -> PathCollection | None:
+def _line(axes: Axes, study: Mapped, line: Line) -> PathCollection | None:
     cases = (*line.mapped, *line.between)
     R = study.scene.hoop.R
     points = np.array(
@@ -137,7 +153,7 @@ def _in_plain_numbers(axes: Axes) -> None:
     axes.xaxis.set_minor_locator(NullLocator())
 
 
-def height_map(study: HopStudy) -> Figure | None:
+def height_map(study: Mapped) -> Figure | None:
     """Height of the highest hop over bending stiffness and the second key, with the thresholds."""
     if study.second is None:
         return None
@@ -167,7 +183,8 @@ def height_map(study: HopStudy) -> Figure | None:
         if study.second == "hoop.k":
             axes.plot(1.3 / values, values, color=RIGID, lw=1, label="1.3/k: the wall gives way")
         axes.set_xlim(stiffness.min() / 1.25, stiffness.max() * 1.25)
-        axes.legend(loc="upper right", frameon=True)
+        if axes.get_legend_handles_labels()[0]:
+            axes.legend(loc="upper right", frameon=True)
         axes.set_yticks(values, [f"{value:g}" for value in values])
         axes.minorticks_off()
         _in_plain_numbers(axes)
@@ -269,7 +286,7 @@ def _closed(points: np.ndarray) -> np.ndarray:
     return np.concatenate([points, points[:1]])
 
 
-def of_hop(study: HopStudy, found: Chosen | None) -> dict[str, Figure]:
+def of_hop(study: Mapped, found: Chosen | None) -> dict[str, Figure]:
     """All figures by name."""
     drawn = {"map": height_map(study), "where": hop_map(study)}
     if found is not None:

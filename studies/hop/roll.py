@@ -9,13 +9,13 @@ import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import pi, sin, sqrt
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from flexible import FlexibleMotion, simulate
 from flexible.output.body import lowest
-from rigid import Run, Scene
+from rigid import Run, Scene, scene_from_dict, scene_to_dict
 from rigid import simulate as rigid_motion
 from rigid.output.units import Length, Number, Time, in_units, without_units
 
@@ -25,6 +25,14 @@ from .rule import DECADE, Scales, scales_of
 
 SOLVER = f"{__name__}:roll"
 """The name under which cases call it."""
+
+STIFFNESS = "ring.bending_stiffness"
+
+DEFAULT = (0.5, 1e4, 24)
+"""Range of the bending stiffness, and number of cases over it."""
+
+RTOL = 3e-4
+"""Tolerance of the rolls; thresholds are held against a third of it."""
 
 MOST_STEPS = 20_000
 """After which a roll is stopped, a minute or so. Hoops with a ring of some mass end well before (13 000 steps for the
@@ -89,6 +97,69 @@ def from_rest(scene: Scene) -> Scene:
         raise StudyError("A hop is asked of a hoop released at rest: release.omega0 and release.slip0 must be 0.")
     end = rigid_motion(scene.replace(run=Run(until="pulse"))) if scene.run.until == "rest" else rigid_motion(scene)
     return scene.replace(run=Run(t_end=end.t_end), solve={"resolve": "all", "start": "equilibrium"})
+
+
+def through_the_pulse(scene: Scene) -> Scene:
+    """A scene that rolls from rest, ended where its rigid hoop is halfway from its first pulse to its next turn.
+
+    What hops by then is decided a few times as cheaply as to a second turn: most steps are taken in the chatter later.
+    """
+    assert scene.run.t_end is not None
+    motion = rigid_motion(scene)
+    pulse = next((p for p in motion.pulses if not p.cut), None)
+    if pulse is None:
+        return scene
+    turn = next((turn.t for turn in motion.turns if turn.t > pulse.t_end), motion.t_end)
+    return scene.replace(run={"t_end": min((pulse.t_end + turn) / 2, scene.run.t_end)})
+
+
+class Ask(NamedTuple):
+    """A roll that the study wants."""
+
+    line: int
+    stiffness: float
+    rtol: float
+    whole: bool
+    """To the end, or only through the first pulse."""
+
+
+@dataclass(frozen=True, slots=True)
+class HopMap:
+    """What a hop study rolls."""
+
+    scene: Scene
+    stiffness: tuple[float, ...]
+    second: str | None = None
+    values: tuple[Any, ...] = (None,)
+    rtol: float = RTOL
+    bisections: int = 4
+    level: str | None = None
+    """Of the ring; the scene's own by default."""
+    scenes: tuple[Scene, ...] = field(init=False)
+    """One for each value of the second key, ready to roll."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "scenes", tuple(self._scene(value) for value in self.values))
+
+    def _scene(self, value: Any) -> Scene:
+        solve: dict[str, Any] = {"rtol": self.rtol} | ({} if self.level is None else {"level": self.level})
+        scene = self.scene.replace(solve=solve)
+        if self.second is not None:
+            data = scene_to_dict(scene)
+            part, _, key = self.second.partition(".")
+            data.setdefault(part, {})[key] = value
+            scene = scene_from_dict(data)
+        return from_rest(scene)
+
+    def scene_of(self, ask: Ask) -> Scene:
+        """The scene of a roll."""
+        scene = self.scenes[ask.line] if ask.whole else through_the_pulse(self.scenes[ask.line])
+        return scene.replace(ring={"bending_stiffness": ask.stiffness}, solve={"rtol": ask.rtol})
+
+    @property
+    def count(self) -> int:
+        """Number of rolls of the map."""
+        return len(self.stiffness) * len(self.values)
 
 
 def roll(scene: Scene, *, history: bool = False, progress: Callable[[float], None] | None = None) -> RollingMotion:

@@ -2,132 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from math import sqrt
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rigid import Kind, Scene, scene_from_dict, scene_to_dict, simulate
+from rigid import Scene, scene_to_dict
 from rigid.output import summary
 
-from ..running.case import Case, Outcome
+from ..running.case import Case
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
-from .roll import SOLVER, from_rest
+from .roll import SOLVER, STIFFNESS, Ask, HopMap
 from .rule import DECADE
-from .threshold import WHERE, Bracket, Window, bracket, hops_in, windows
+from .threshold import TOLD, WHERE, HopCase, Line, windows
 
 if TYPE_CHECKING:
     import pandas
-
-STIFFNESS = "ring.bending_stiffness"
-
-DEFAULT = (0.5, 1e4, 24)
-"""Range of the bending stiffness, and number of cases over it."""
-
-RTOL = 3e-4
-"""Tolerance of the rolls; thresholds are held against a third of it."""
+    from matplotlib.figure import Figure
 
 FINER = 3.0
-
-
-@dataclass(frozen=True, slots=True)
-class HopCase:
-    """One roll of the map."""
-
-    bending_stiffness: float
-    scene: Scene
-    """As it was run."""
-    outcome: Outcome
-
-    @property
-    def motion(self) -> Mapping[str, Any]:
-        """What is known of the motion; of one that failed, that it has no flights and did not come far."""
-        return self.outcome.motion or {"flights": [], "completed": False, "swept": 0.0, "scales": None, "t_end": 0.0}
-
-    @property
-    def hops(self) -> list[dict[str, Any]]:
-        """Flights that are hops."""
-        return [f for f in self.motion["flights"] if f["prominence"] is None or f["prominence"] >= 1]
-
-    @property
-    def chatter(self) -> int:
-        """Number of those that are not."""
-        return len(self.motion["flights"]) - len(self.hops)
-
-    @property
-    def height(self) -> float | None:
-        """Of the highest hop; None where the roll stopped early without any."""
-        if self.hops or self.motion["completed"]:
-            return max((hop["height"] for hop in self.hops), default=0.0)
-        return None
-
-    def to_dict(self) -> dict[str, Any]:
-        """As JSON prints it; ``energy`` is what ring and floor stored just before."""
-        hoop = self.scene.hoop
-        hops = []
-        for hop in self.hops:
-            energies = hop["energies"]
-            stored = None if energies is None else energies["stored_in_ring"] + energies["stored_in_floor"]
-            hops.append({**{key: hop[key] for key in _TOLD}, "energy": stored, "energies": energies})
-        return {
-            "bending_stiffness": self.bending_stiffness,
-            "k": hoop.k,
-            "mass_ratio": hoop.mass_ratio,
-            "foundation": self.scene.contact.stiffness,
-            "mu_s": self.scene.friction.mu_s,
-            "mu": self.scene.friction.mu,
-            "damping": self.scene.contact.damping,
-            "hops": hops,
-            "chatter": self.chatter,
-            "completed": bool(self.motion["completed"]),
-            "ended": self.outcome.failure or self.outcome.ended,
-            "scales": self.motion["scales"],
-            "rigid": {"hops": rigid_hops(self.scene)},
-        }
+"""By how much the tolerance is less at which thresholds are held against the map's."""
 
 
 _COLUMNS = ("bending_stiffness", "k", "mass_ratio", "foundation", "mu_s", "mu", "damping", "chatter", "completed")
-_TOLD = ("t", "phi", "duration", "height", "prominence")
-
-
-def rigid_hops(scene: Scene) -> int:
-    """Flights of the rigid hoop of a scene over the same time."""
-    return sum(phase.kind == Kind.FLIGHT for phase in simulate(scene).phases)
-
-
-@dataclass(frozen=True, slots=True)
-class Line:
-    """All rolls at one value of the second key, softest first."""
-
-    value: Any
-    """Of the second key; None where there is only one."""
-    scene: Scene
-    windows: dict[str, Window | None]
-    mapped: tuple[HopCase, ...]
-    """Those of the map."""
-    between: tuple[HopCase, ...] = ()
-    """Those of the bisection."""
-    finer: tuple[HopCase, ...] = ()
-    """The ends of the brackets at a third of the tolerance."""
-
-    def answers(self, where: str, least: float = 1.0, cases: tuple[HopCase, ...] | None = None) -> dict[float, Any]:
-        """Whether it hops there, by stiffness."""
-        window = self.windows[where]
-        rolled = (*self.mapped, *self.between) if cases is None else cases
-        return {case.bending_stiffness: hops_in(case.motion, window, least) for case in rolled}
-
-    def threshold(self, where: str, least: float = 1.0) -> Bracket:
-        """Below which it hops there."""
-        return bracket(self.answers(where, least))
-
-    def holds(self, where: str) -> bool | None:
-        """Whether a third of the tolerance says the same at both ends of the bracket; None where it does not say."""
-        found = self.threshold(where)
-        finer = self.answers(where, cases=self.finer)
-        said = (finer.get(found.low), finer.get(found.high))
-        return None if None in said else said == (True, False)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -158,8 +56,14 @@ class HopStudy:
         for case in self.cases:
             told = case.to_dict()
             kept = {key: told[key] for key in _COLUMNS}
-            rows += [kept | {key: hop[key] for key in (*_TOLD, "energy")} for hop in told["hops"]] or [kept]
+            rows += [kept | {key: hop[key] for key in (*TOLD, "energy")} for hop in told["hops"]] or [kept]
         return pandas.DataFrame(rows)
+
+    def plot(self) -> Figure:
+        """The map: heights of the highest hops where there is a second key, else where each hop begins."""
+        from .figures import height_map, hop_map
+
+        return height_map(self) or hop_map(self)
 
     def __repr__(self) -> str:
         return summary.text(self._title(), self._lines())
@@ -202,42 +106,8 @@ class HopStudy:
         }
 
 
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """What a hop study runs."""
-
-    scene: Scene
-    stiffness: tuple[float, ...]
-    second: str | None = None
-    values: tuple[Any, ...] = (None,)
-    rtol: float = RTOL
-    bisections: int = 4
-    level: str | None = None
-    """Of the ring; the scene's own by default."""
-    scenes: tuple[Scene, ...] = field(init=False)
-    """One for each value of the second key, ready to roll."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "scenes", tuple(self._scene(value) for value in self.values))
-
-    def _scene(self, value: Any) -> Scene:
-        solve: dict[str, Any] = {"rtol": self.rtol} | ({} if self.level is None else {"level": self.level})
-        scene = self.scene.replace(solve=solve)
-        if self.second is not None:
-            data = scene_to_dict(scene)
-            part, _, key = self.second.partition(".")
-            data.setdefault(part, {})[key] = value
-            scene = scene_from_dict(data)
-        return from_rest(scene)
-
-    @property
-    def count(self) -> int:
-        """Number of rolls of the map."""
-        return len(self.stiffness) * len(self.values)
-
-
 def hop_study(
-    asked: Asked,
+    asked: HopMap,
     *,
     pool: Pool | None = None,
     out: str | Path | None = None,
@@ -248,32 +118,40 @@ def hop_study(
     rounds = 1 + asked.bisections + 1
     stage = 0
 
-    def run(asks: list[tuple[int, float, float]]) -> list[tuple[int, HopCase]]:
-        """Rolls asked by line, stiffness and tolerance."""
-        scenes = [asked.scenes[n].replace(ring={"bending_stiffness": s}, solve={"rtol": rtol}) for n, s, rtol in asks]
+    def run(asks: list[Ask]) -> list[tuple[int, HopCase]]:
+        """Rolls, those that are not asked whole only through the pulse where that decides."""
+        scenes = [asked.scene_of(ask) for ask in asks]
         cases = [Case(SOLVER, scene, cut=True) for scene in scenes]
         # the map is most of the work
         low, high = (0.0, 0.8) if stage == 0 else (0.8 + 0.2 * (stage - 1) / rounds, 0.8 + 0.2 * stage / rounds)
         told = None if progress is None else (lambda share: progress(low + (high - low) * share))
         outcomes = run_cases(cases, pool or Here(), out, told, say=say)
-        return [
-            (n, HopCase(s, scene, outcome)) for (n, s, _), scene, outcome in zip(asks, scenes, outcomes, strict=True)
+        found = [
+            (ask.line, HopCase(ask.stiffness, scene, outcome, ask.whole))
+            for ask, scene, outcome in zip(asks, scenes, outcomes, strict=True)
         ]
+        late = [not (ask.whole or _through(lines[ask.line], case)) for ask, (_, case) in zip(asks, found, strict=True)]
+        again = (
+            run([ask._replace(whole=True) for ask, more in zip(asks, late, strict=True) if more]) if any(late) else []
+        )
+        return [each for each, more in zip(found, late, strict=True) if not more] + again
 
+    lines: list[Line] = []
     stiffness = sorted(set(asked.stiffness))
-    found = run([(n, s, asked.rtol) for n in range(len(asked.scenes)) for s in stiffness])
+    found = run([Ask(n, s, asked.rtol, True) for n in range(len(asked.scenes)) for s in stiffness])
     lines = [
         Line(value, scene, windows(scene), tuple(case for m, case in found if m == n))
         for n, (value, scene) in enumerate(zip(asked.values, asked.scenes, strict=True))
     ]
     for _ in range(asked.bisections):
         stage += 1
-        middles = {(n, middle, asked.rtol) for n, line in enumerate(lines) for middle in _middles(line)}
-        more = run(sorted(middles))
+        more = run(
+            [Ask(n, s, asked.rtol, w) for n, line in enumerate(lines) for s, w in sorted(_middles(line).items())]
+        )
         lines = [_with(line, between=[case for m, case in more if m == n]) for n, line in enumerate(lines)]
     stage += 1
-    ends = {(n, end, asked.rtol / FINER) for n, line in enumerate(lines) for end in _ends(line)}
-    more = run(sorted(ends))
+    finer = asked.rtol / FINER
+    more = run([Ask(n, s, finer, w) for n, line in enumerate(lines) for s, w in sorted(_ends(line).items())])
     lines = [_with(line, finer=[case for m, case in more if m == n]) for n, line in enumerate(lines)]
     return HopStudy(asked.scene, asked.second, tuple(lines))
 
@@ -283,14 +161,27 @@ def _with(line: Line, between: list[HopCase] | None = None, finer: list[HopCase]
     return Line(line.value, line.scene, line.windows, line.mapped, tuple(added), (*line.finer, *(finer or [])))
 
 
-def _middles(line: Line) -> set[float]:
-    """Stiffnesses in the middle of the line's brackets."""
-    brackets = [line.threshold(where) for where in line.windows]
+def _middles(line: Line) -> dict[float, bool]:
+    """Stiffnesses in the middle of the line's brackets, and whether they are to be rolled to the end."""
     known = line.answers("anywhere")
-    found = {sqrt(b.low * b.high) for b in brackets if b.value is not None and not b.open}
-    return {middle for middle in found if middle not in known}
+    found: dict[float, bool] = {}
+    for where in line.windows:
+        b = line.threshold(where)
+        if b.value is not None and not b.open and b.value not in known:
+            found[b.value] = found.get(b.value, False) or where == "anywhere"
+    return found
 
 
-def _ends(line: Line) -> set[float]:
-    brackets = [line.threshold(where) for where in line.windows]
-    return {end for b in brackets if b.value is not None for end in (b.low, b.high)}
+def _ends(line: Line) -> dict[float, bool]:
+    """The ends of its brackets, likewise."""
+    found: dict[float, bool] = {}
+    for where in line.windows:
+        b = line.threshold(where)
+        for end in (b.low, b.high) if b.value is not None else ():
+            found[end] = found.get(end, False) or where == "anywhere"
+    return found
+
+
+def _through(line: Line, case: HopCase) -> bool:
+    """Whether a roll through the pulse got there, or would not by going on."""
+    return not case.motion["completed"] or case.motion["swept"] > line.windows["pulse"].high  # type: ignore[union-attr]

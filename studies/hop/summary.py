@@ -7,10 +7,8 @@ from typing import Any
 
 from ..plots.sheet import Column, Sheet, number
 from .rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG
-from .study import HopCase, HopStudy, Line, rigid_hops
-from .threshold import Bracket
-
-SYMBOL = "E I/(m g R²)"
+from .study import HopStudy
+from .threshold import SYMBOL, Bracket, HopCase, Line, rigid_hops
 
 PLACES = {
     "anywhere": "leaves the floor anywhere",
@@ -38,9 +36,11 @@ def answer(study: HopStudy) -> str:
         values = [value for value in (bracket.value for bracket in found) if value is not None]
         above = [bracket.low for bracket in found if bracket.low > 0 and bracket.value is None]
         ends = sorted({number(value, 3) for value in values}, key=float)
-        least = [*ends[:1], *ends[1:][-1:], *(f"more than {number(value, 3)}" for value in above)]
-        if least:
-            said.append(f"{words} below {' to '.join(least)}")
+        told = [f"below {' to '.join([*ends[:1], *ends[1:][-1:]])}"] if ends else []
+        if above:
+            told.append(f"still at {number(max(above), 3)}, the stiffest that was rolled")
+        if told:
+            said.append(f"{words} {' and '.join(told)}")
     over = f", by {study.second}" if study.second is not None else ""
     return (
         f"Yes: released at rest, an elastic hoop {', it '.join(said)}; all of the bending stiffness {SYMBOL}{over}, "
@@ -163,9 +163,15 @@ def case_sheet(study: HopStudy) -> Sheet:
         Column("friction\nand damper", [_share(hop, "friction", "damping") for hop in firsts]),
         Column("landing", [_share(hop, "landing") for hop in firsts]),
         Column(f"highest\n[{length}]", [number(case.height, 3) for case in cases]),
-        Column("whole\nroll", ["yes" if case.motion["completed"] else "no" for case in cases]),
+        Column("whole\nroll", [_far(case) for case in cases]),
     ]
     return Sheet("Rolls from rest, softest first", keys, columns)
+
+
+def _far(case: HopCase) -> str:
+    if not case.motion["completed"]:
+        return "no"
+    return "yes" if case.whole else "to its pulse"
 
 
 def _share(hop: dict[str, Any] | None, *names: str) -> str:

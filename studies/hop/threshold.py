@@ -12,9 +12,16 @@ from itertools import pairwise
 from math import asin, isfinite, pi, sqrt
 from typing import Any
 
-from rigid import Run, Scene, simulate
+from rigid import Kind, Run, Scene, simulate
+
+from ..running.case import Outcome
+
+SYMBOL = "E I/(m g R²)"
 
 WHERE = ("anywhere", "pulse", "bottom")
+
+TOLD = ("t", "phi", "duration", "height", "prominence")
+"""Of a hop, in tables."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,19 +45,19 @@ def windows(scene: Scene) -> dict[str, Window | None]:
     return found
 
 
-def hops_in(motion: Mapping[str, Any], window: Window | None, least: float = 1.0) -> bool | None:
+def hops_in(motion: Mapping[str, Any], window: Window | None, least: float = 1.0, whole: bool = True) -> bool | None:
     """Whether a roll hops there, of flights at least so prominent; None where it stopped before that was decided.
 
     In a window the first pass counts, by how far the disk has come down: later ones begin with what vibration the
-    first one left.
+    first one left. A roll that was not to be ``whole`` decides what the disk has passed.
     """
     for flight in motion["flights"]:
         if flight["prominence"] is not None and flight["prominence"] < least:
             continue
         if window is None or (window.low <= flight["swept"] <= window.high):
             return True
-    decided = motion["completed"] if window is None else motion["completed"] or motion["swept"] > window.high
-    return False if decided else None
+    ended = motion["completed"] and whole
+    return False if ended or (window is not None and motion["swept"] > window.high) else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,3 +98,100 @@ def bracket(answers: Mapping[float, bool | None]) -> Bracket:
     decided = [hops for _, hops in sorted(answers.items()) if hops is not None]
     gaps = sum(not one and two for one, two in pairwise(decided))
     return Bracket(low, high, between, gaps)
+
+
+@dataclass(frozen=True, slots=True)
+class HopCase:
+    """One roll of the map."""
+
+    bending_stiffness: float
+    scene: Scene
+    """As it was run."""
+    outcome: Outcome
+    whole: bool = True
+    """Whether it was to roll to the end of the map's run, and not only through the first pulse."""
+
+    @property
+    def motion(self) -> Mapping[str, Any]:
+        """What is known of the motion; of one that failed, that it has no flights and did not come far."""
+        return self.outcome.motion or {"flights": [], "completed": False, "swept": 0.0, "scales": None, "t_end": 0.0}
+
+    @property
+    def hops(self) -> list[dict[str, Any]]:
+        """Flights that are hops."""
+        return [f for f in self.motion["flights"] if f["prominence"] is None or f["prominence"] >= 1]
+
+    @property
+    def chatter(self) -> int:
+        """Number of those that are not."""
+        return len(self.motion["flights"]) - len(self.hops)
+
+    @property
+    def height(self) -> float | None:
+        """Of the highest hop; None where the roll stopped early without any."""
+        if self.hops or self.motion["completed"]:
+            return max((hop["height"] for hop in self.hops), default=0.0)
+        return None
+
+    def to_dict(self) -> dict[str, Any]:
+        """As JSON prints it; ``energy`` is what ring and floor stored just before."""
+        hoop = self.scene.hoop
+        hops = []
+        for hop in self.hops:
+            energies = hop["energies"]
+            stored = None if energies is None else energies["stored_in_ring"] + energies["stored_in_floor"]
+            hops.append({**{key: hop[key] for key in TOLD}, "energy": stored, "energies": energies})
+        return {
+            "bending_stiffness": self.bending_stiffness,
+            "k": hoop.k,
+            "mass_ratio": hoop.mass_ratio,
+            "foundation": self.scene.contact.stiffness,
+            "mu_s": self.scene.friction.mu_s,
+            "mu": self.scene.friction.mu,
+            "damping": self.scene.contact.damping,
+            "hops": hops,
+            "chatter": self.chatter,
+            "completed": bool(self.motion["completed"]),
+            "whole": self.whole,
+            "ended": self.outcome.failure or self.outcome.ended,
+            "scales": self.motion["scales"],
+            "rigid": {"hops": rigid_hops(self.scene)},
+        }
+
+
+def rigid_hops(scene: Scene) -> int:
+    """Flights of the rigid hoop of a scene over the same time."""
+    return sum(phase.kind == Kind.FLIGHT for phase in simulate(scene).phases)
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """All rolls at one value of the second key, softest first."""
+
+    value: Any
+    """Of the second key; None where there is only one."""
+    scene: Scene
+    windows: dict[str, Window | None]
+    mapped: tuple[HopCase, ...]
+    """Those of the map."""
+    between: tuple[HopCase, ...] = ()
+    """Those of the bisection."""
+    finer: tuple[HopCase, ...] = ()
+    """The ends of the brackets at a third of the tolerance."""
+
+    def answers(self, where: str, least: float = 1.0, cases: tuple[HopCase, ...] | None = None) -> dict[float, Any]:
+        """Whether it hops there, by stiffness."""
+        window = self.windows[where]
+        rolled = (*self.mapped, *self.between) if cases is None else cases
+        return {case.bending_stiffness: hops_in(case.motion, window, least, case.whole) for case in rolled}
+
+    def threshold(self, where: str, least: float = 1.0) -> Bracket:
+        """Below which it hops there."""
+        return bracket(self.answers(where, least))
+
+    def holds(self, where: str) -> bool | None:
+        """Whether a third of the tolerance says the same at both ends of the bracket; None where it does not say."""
+        found = self.threshold(where)
+        finer = self.answers(where, cases=self.finer)
+        said = (finer.get(found.low), finer.get(found.high))
+        return None if None in said else said == (True, False)

@@ -156,41 +156,59 @@ apart from this code: 120 nodes joined by springs and bending angles on the rim'
 of them, a penalty floor of 1e7 with a bristle on each of 16 points between nodes, mu_s = mu = 0.3, no damping, the
 symplectic Euler rule with steps of 4e-6 (6e-6 for 10), from the equilibrium at 10 degrees. E I/(m g R^2) is the key."""
 
-
-def first_hops(bending_stiffness):
-    """Three, of those that last."""
-    flights = roll(scene_of(bending_stiffness, 7.1)).flights
-    return [flight for flight in flights if flight.duration > 0.02][:3]
+RODS_RING = {"thickness": 0.004, "weld_half_angle": radians(1.5)}
+"""The rod's line runs on the rim; and the bending angle at the last node of its weld stands for half an element to
+either side, so that of the three degrees between that node and the middle the half is rigid."""
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("bending_stiffness", [30.0, 10.0])
-def test_hops_begin_where_those_of_a_discrete_rod_do(bending_stiffness):
-    """Angle of the first hops and time between them, two codes with nothing in common.
+def test_hops_are_those_of_a_discrete_rod(bending_stiffness):
+    """First hops and the time between them, two codes with nothing in common.
 
-    The rod's line runs at R where the ring's runs at 0.99 R, which makes the ring 3 % stiffer; and 120 nodes leave a
-    flight's angle 0.02 off. The start of the roll is a hyperbola's: times
-    of the two may be apart, from one flight to the next they are not.
+    With 240 nodes (and half the weld) the rod's flights are apart from this code's by 0.005 in angle, a quarter in
+    duration and a third in height, as they are with 120: so far a penalty floor at nodes is from a patch. The start of
+    the roll is a hyperbola's: times of the two may be apart, from one flight to the next they are not.
     """
-    ours = first_hops(bending_stiffness)
-    for flight, (_, phi, _, _) in zip(ours, ROD[bending_stiffness], strict=True):
-        assert flight.phi == pytest.approx(phi, abs=0.05)
+    flights = roll(scene_of(bending_stiffness, 7.1).replace(ring=RODS_RING)).flights
+    ours = [flight for flight in flights if flight.duration > 0.02][:3]
+    for flight, (_, phi, duration, height) in zip(ours, ROD[bending_stiffness], strict=True):
+        assert flight.phi == pytest.approx(phi, abs=0.015)
+        assert flight.duration == pytest.approx(duration, rel=0.3)
+        assert flight.height == pytest.approx(height, rel=0.4)
     between = np.diff([flight.t for flight in ours])
-    assert between == pytest.approx(np.diff([row[0] for row in ROD[bending_stiffness]]), rel=0.12)
+    assert between == pytest.approx(np.diff([row[0] for row in ROD[bending_stiffness]]), rel=0.06)
+
+
+CABLES = {
+    1.6e7: [(3.2697, 0.0255, 1.04e-3), (3.8524, 0.3067, 3.42e-2), (4.5087, 0.0367, 5.06e-3), (4.5840, 0.0541, 2.52e-2)],
+    5e7: [(3.8152, 0.0227, 1.06e-3), (3.8832, 0.0482, 1.25e-3), (4.1823, 0.1480, 7.47e-3)],
+}
+"""(phi, duration, height) of flights longer than 0.02 of the ring of :mod:`studies.bench.peers.exudyn_ring`, inner
+radius 1, by its E b R/(m g): Exudyn 1.13.6, 240 cables, steps of 2.5e-4, to t = 0.75; undeformed from phi = 2.9 with
+phidot = 4, mu_s = mu = 0.3. Steps of 5e-4 move durations by a tenth (a third where two flights are one with the finer
+step), angles by 0.006 and heights by a tenth."""
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(
-    strict=True,
-    reason="open: of three hops each the first height at 30 is 44 % below the rod's and the third duration at 10 is "
-    "61 % above it, at rtol 1e-4 as at 3e-4; whether 120 nodes are enough for the rod is not known",
-)
-@pytest.mark.parametrize("bending_stiffness", [30.0, 10.0])
-def test_hops_are_as_long_and_high_as_those_of_a_discrete_rod(bending_stiffness):
-    """The same flights: a third in duration, 40 % in height."""
-    for flight, (_, _, duration, height) in zip(first_hops(bending_stiffness), ROD[bending_stiffness], strict=True):
-        assert flight.duration == pytest.approx(duration, rel=0.35)
-        assert flight.height == pytest.approx(height, rel=0.4)
+@pytest.mark.parametrize("young", [1.6e7, 5e7])
+def test_hops_are_those_of_geometrically_exact_cables(young):
+    """E I/(m g R^2) of 10 and 31 through a pulse, hop by hop; a rise of 0.034 R lasts 0.3 in both."""
+    R = 1.02  # outer radius in the inner one
+    scene = Scene(
+        Hoop(k=0.1, r=R, mass_ratio=0.1), Friction(0.3, 0.3), Release(2.9, 4 * R**0.5), Run(t_end=0.75 / R**0.5)
+    )
+    scene = scene.replace(
+        ring={"bending_stiffness": young * (1 - 1 / R) ** 3 / 12},
+        contact={"law": "brush", "stiffness": 1e7 * R**2, "damping": 0.0},
+        solve={"level": "chain", "resolve": "all", "start": "undeformed", "rtol": RTOL},
+    )
+    flights = [flight for flight in roll(scene).flights if flight.duration * R**0.5 > 0.01]
+    for phi, duration, height in CABLES[young]:
+        flight = min(flights, key=lambda f: abs(f.phi - phi))
+        assert flight.phi == pytest.approx(phi, abs=0.025), "what the step moves it by in Exudyn, four times"
+        assert flight.duration * R**0.5 == pytest.approx(duration, rel=0.25)
+        assert flight.height * R == pytest.approx(height, rel=0.25)
 
 
 @pytest.mark.slow

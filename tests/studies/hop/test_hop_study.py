@@ -11,11 +11,10 @@ from command_line import is_one_sentence
 from third_hop import LIFTS
 
 from rigid import SceneError, load_scene, simulate
-from studies import StudyError
-from studies.cli.hop import asked_of, parse_over
-from studies.hop.roll import from_rest, spans
+from studies import StudyError, hop_study
+from studies.cli.hop import map_of, parse_over
+from studies.hop.roll import DEFAULT, from_rest, spans, through_the_pulse
 from studies.hop.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG, Scales
-from studies.hop.study import DEFAULT, hop_study
 from studies.hop.threshold import Window, bracket, hops_in, windows
 
 SCENE = "paper-3.3-heavier"
@@ -27,7 +26,7 @@ def leaping(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def rolled(bisections: int = 6, *over: str, **settings: object):
-    asked = asked_of(load_scene(SCENE), ("ring.bending_stiffness=1:1000:10", *over), bisections=bisections)
+    asked = map_of(load_scene(SCENE), ("ring.bending_stiffness=1:1000:10", *over), bisections=bisections)
     return hop_study(asked, **settings)
 
 
@@ -89,6 +88,49 @@ def test_a_bracket_lies_above_the_stiffest_hop():
     assert bracket({1.0: True}).high == inf
 
 
+def test_a_roll_through_the_pulse_decides_what_it_has_passed():
+    """It ends between the rigid pulse and the turn after it; a hop that is late is not denied."""
+    asked = from_rest(load_scene(SCENE))
+    short = through_the_pulse(asked)
+    motion = simulate(asked)
+    assert motion.pulses[0].t_end < short.run.t_end < motion.turns[0].t
+    ended = {"flights": [], "completed": True, "swept": 4.2}
+    assert hops_in(ended, Window(2.5, 3.5), whole=False) is False
+    assert hops_in(ended, Window(3.9, 5.0), whole=False) is None
+    assert hops_in(ended, None, whole=False) is None
+    assert hops_in(ended, Window(3.9, 5.0)) is False
+
+
+@pytest.mark.usefixtures("leaping")
+def test_only_the_threshold_anywhere_is_closed_in_on_by_whole_rolls():
+    line = rolled(4).lines[0]
+    above = [case for case in line.between if case.bending_stiffness > 3 * LIFTS["pulse"]]
+    below = [case for case in line.between if case.bending_stiffness < LIFTS["anywhere"] / 3]
+    assert above
+    assert below
+    assert all(case.whole for case in above)
+    assert not any(case.whole for case in below)
+    assert all(case.scene.run.t_end < line.scene.run.t_end for case in below)
+
+
+@pytest.mark.usefixtures("leaping")
+def test_what_still_hops_at_the_stiffest_is_said_as_such(hoop):
+    _, out, _ = hoop("study", "hop", SCENE, "--over", "ring.bending_stiffness=20,30", "--workers", 1, "--bisections", 0)
+    first = " ".join(out.split()).partition(";")[0]
+    assert "leaves the floor anywhere still at 30, the stiffest that was rolled" in first
+    assert "more than" not in first
+
+
+@pytest.mark.usefixtures("leaping")
+def test_a_shorter_roll_can_be_asked(hoop):
+    line = "study", "hop", SCENE, "--over", "ring.bending_stiffness=20,60", "--workers", 1, "--bisections", 0, "--json"
+    ends = []
+    for more in ((), ("--turns", 1)):
+        _, out, _ = hoop(*line, *more)
+        ends.append(json.loads(out)["scene"]["run"]["turns"])
+    assert ends == [2, 1]
+
+
 @pytest.mark.usefixtures("leaping")
 def test_thresholds_are_found_by_bisection():
     """Six bisections of a third of a decade leave 10^(1/3/64), 3.7 %."""
@@ -138,6 +180,15 @@ def test_json_is_the_contract(hoop):
             assert set(row["by_rule"]) == {"0.316", "3.16"}
 
 
+@pytest.mark.usefixtures("leaping")
+def test_a_study_is_drawn_from_python():
+    """Over one key where hops begin, over two the heights with the thresholds."""
+    one = rolled(0).plot()
+    assert one.axes[0].get_ylabel() == "φ at lift-off [°]"
+    two = rolled(0, "hoop.k=0.1,0.2").plot()
+    assert two.axes[0].get_ylabel() == "hoop.k"
+
+
 def test_a_map_goes_on_where_it_was(leaping, tmp_path, monkeypatch):
     counted = tmp_path / "counted"
     monkeypatch.setenv("COUNTED", str(counted))
@@ -171,7 +222,7 @@ def test_ranges_are_read():
     key, values = parse_over("ring.bending_stiffness=1:100:3")
     assert values == pytest.approx((1.0, 10.0, 100.0))
     assert parse_over("hoop.mass_ratio=0:1:3")[1] == (0.0, 0.5, 1.0)
-    assert len(asked_of(load_scene(SCENE), ()).stiffness) == DEFAULT[2]
+    assert len(map_of(load_scene(SCENE), ()).stiffness) == DEFAULT[2]
 
 
 @pytest.mark.parametrize(
@@ -188,6 +239,6 @@ def test_a_range_that_cannot_be_is_one_sentence(hoop, over):
 def test_two_keys_are_enough():
     scene = load_scene(SCENE)
     with pytest.raises(SceneError, match="one key more"):
-        asked_of(scene, ("hoop.k=0.1,0.2", "friction.mu=0.1,0.2"))
+        map_of(scene, ("hoop.k=0.1,0.2", "friction.mu=0.1,0.2"))
     with pytest.raises(SceneError, match="each once"):
-        asked_of(scene, ("hoop.k=0.1,0.2", "hoop.k=0.3,0.4"))
+        map_of(scene, ("hoop.k=0.1,0.2", "hoop.k=0.3,0.4"))
