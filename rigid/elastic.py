@@ -144,6 +144,9 @@ class Solve:
         Tolerance on the impulses, over M sqrt(g R) with M the mass of disk and hoop, about.
     elements : int
         Elements around the ring.
+    through : int or None
+        Elements through its wall; by default as many as keep the ring's slow frequencies and its compliances within
+        0.1 %: one up to r = 1.03, three at 1.2, five at 2.
     integrator : {"esdirk3", "esdirk4", "tr-bdf2"}
         Implicit Runge-Kutta method of a step; the others are for comparison.
     """
@@ -153,6 +156,7 @@ class Solve:
     start: str = "equilibrium"
     rtol: float = 1e-4
     elements: int = 240
+    through: int | None = None
     integrator: str = "esdirk3"
 
     def __post_init__(self) -> None:
@@ -162,6 +166,8 @@ class Solve:
         require_choice("solve.start", self.start, ("equilibrium", "undeformed"))
         require("solve.rtol", self.rtol, 1e-12, 0.5, "the tolerance lies between 1e-12 and 0.5")
         require_whole("solve.elements", self.elements, 24, 4000)
+        if self.through is not None:
+            require_whole("solve.through", self.through, 1, 20)
 
 
 #: keys of [ring] in a scene file that say in SI units what section the ring has

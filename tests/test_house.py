@@ -206,7 +206,7 @@ def test_a_friction_law_is_known_by_its_own_file_alone() -> None:
     assert said == {
         "studies.bench.truth.reference",
         "studies.examples.own_friction_law",
-        "studies.readme",
+        "studies.readme.stated",
         "studies.validate.contact",
     }
 

@@ -98,7 +98,7 @@ class FullHoop(RimContact):
     points, tolerance :
         See :class:`flexible.models.rim_contact.RimContact`.
     through : int
-        Elements through the wall.
+        Least number of elements through the wall, unless the scene says how many.
     """
 
     def __init__(self, scene: Scene, points: int | None = None, tolerance: float = 1e-9, through: int = 1) -> None:

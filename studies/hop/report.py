@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from ..plots.page import write_page
-from ..plots.sheet import Sheet
 from .study import HopStudy
 from .summary import (
     answer,
@@ -55,14 +54,8 @@ def hop_report(
         "verdict": answer(study),
         "lines": verdict(study),
         "sentences": [*scaling_sentence(study), rule_sentence(study), *unfinished_sentences(study)],
-        "sheets": [_rows(threshold_sheet(study)), _rows(case_sheet(study))],
+        "sheets": [threshold_sheet(study).to_dict(), case_sheet(study).to_dict()],
         "numbers": numbers,
         "images": {name: (CAPTIONS.get(name, name), file) for name, file in images.items()},
     }
     return write_page(FOUND, path, study.scene, command, told)
-
-
-def _rows(sheet: Sheet) -> dict[str, object]:
-    columns = [*sheet.keys, *sheet.columns]
-    rows = list(zip(*(column.cells for column in columns), strict=True))
-    return {"title": sheet.title, "heads": [column.heading for column in columns], "rows": rows}

@@ -53,15 +53,9 @@ def limit_report(
         "verdict": verdict(study),
         "others": other_sentences(study),
         "damping": " ".join(damping_sentences(study)),
-        "sheets": [_rows(sheet) for sheet in (*limit_sheets(study), *more) if isinstance(sheet, Sheet)],
+        "sheets": [sheet.to_dict() for sheet in (*limit_sheets(study), *more) if isinstance(sheet, Sheet)],
         "failed": [f"Foundation {s.foundation:.3g} failed: {s.failure}" for s in study.sights if s.failure],
         "numbers": numbers,
         "images": {name: (CAPTIONS.get(name, name), file) for name, file in images.items()},
     }
     return write_page(FOUND, path, study.scene, command, told)
-
-
-def _rows(sheet: Sheet) -> dict[str, object]:
-    columns = [*sheet.keys, *sheet.columns]
-    rows = list(zip(*(column.cells for column in columns), strict=True))
-    return {"title": sheet.title, "heads": [column.heading for column in columns], "rows": rows}

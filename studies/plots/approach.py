@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .style import OKABE_ITO, RIGID
+from .style import OKABE_ITO, RIGID, panels_on
 
 Array = NDArray[np.float64]
 
@@ -24,14 +24,7 @@ class Approach(NamedTuple):
 
 def draw(approaches: Mapping[str, Approach], label: str, axes: Any = None) -> NDArray[np.object_]:
     """A panel for each measure by its symbol, on ``axes`` or in a new figure; ``label`` is of the abscissa."""
-    if axes is None:
-        from matplotlib import pyplot
-
-        size = (3.7 * len(approaches), 4.0)
-        axes = pyplot.subplots(1, len(approaches), squeeze=False, figsize=size, layout="constrained")[1]
-    panels = np.atleast_1d(axes).ravel()
-    if len(panels) != len(approaches):
-        raise ValueError(f"{len(approaches)} measures need as many axes, not {len(panels)}.")
+    panels = panels_on(axes, len(approaches), (3.7, 4.0))
     for axis, (symbol, approach) in zip(panels, approaches.items(), strict=True):
         stiffness, away = approach.predicted
         axis.plot(stiffness, np.abs(away), color=RIGID, label="predicted")

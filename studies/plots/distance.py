@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .style import RIGID
+from .style import RIGID, panels_on
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,14 +40,7 @@ class Distance(NamedTuple):
 
 def draw(distances: Mapping[str, Distance], axes: Any = None) -> NDArray[np.object_]:
     """A panel for each, beside one another; on ``axes`` or in a new figure."""
-    if axes is None:
-        from matplotlib import pyplot
-
-        size = (4.8 * len(distances), 5.0)
-        axes = pyplot.subplots(1, len(distances), squeeze=False, figsize=size, layout="constrained")[1]
-    panels = np.atleast_1d(axes).ravel()
-    if len(panels) != len(distances):
-        raise ValueError(f"{len(distances)} measures need as many axes, not {len(panels)}.")
+    panels = panels_on(axes, len(distances), (4.8, 5.0))
     for axis, (name, distance), colour in zip(panels, distances.items(), COLOURS, strict=False):
         panel(axis, distance, WORDS.get(name, name), colour)
     panels[0].set_ylabel("distance to the rigid value")

@@ -55,6 +55,12 @@ class Sheet:
     rules: Sequence[int] = field(default=())
     """Rows above which there is a line."""
 
+    def to_dict(self) -> dict[str, object]:
+        """Title, heads and rows, for a page."""
+        columns = [*self.keys, *self.columns]
+        rows = list(zip(*(column.cells for column in columns), strict=True))
+        return {"title": self.title, "heads": [column.heading for column in columns], "rows": rows}
+
     def tables(self, width: int) -> list[Table]:
         """The sheet in as many tables, one below the other, as a screen of ``width`` cells takes."""
         keys, groups = list(self.keys), _joined(self.columns)

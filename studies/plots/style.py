@@ -13,6 +13,7 @@ import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from numpy.typing import NDArray
 
 from ..running.files import write_whole
 
@@ -51,6 +52,25 @@ def blank(width: float, height: float) -> Figure:
     figure = Figure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
     return figure
+
+
+def panels_on(axes: Any, count: int, size: tuple[float, float]) -> NDArray[np.object_]:
+    """Panels beside one another, on the ``axes`` given or, of this size each, in a new figure.
+
+    Raises
+    ------
+    ValueError
+        Another number of axes than of panels.
+    """
+    if axes is None:
+        from matplotlib import pyplot
+
+        whole = (count * size[0], size[1])
+        axes = pyplot.subplots(1, count, squeeze=False, figsize=whole, layout="constrained")[1]
+    panels = np.atleast_1d(axes).ravel()
+    if len(panels) != count:
+        raise ValueError(f"{count} measures need as many axes, not {len(panels)}.")
+    return panels
 
 
 def save(figure: Figure, path: Path) -> Path:

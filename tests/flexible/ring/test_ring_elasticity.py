@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 from free_ring import frequencies, nodal, outer_traction, ring, solve
 
+from flexible.ring.fem import elements_through, ring_of
 from meshes import nodal_gradient
+from rigid import load_scene
 
 # omega_n R0 sqrt(rho/E) of the annulus, n = 2, 3, 4, nu = 0.3
 ANNULUS = {1.02: (0.01518385365, 0.04293285531, 0.08228274316), 1.2: (0.1260894549, 0.3479811729, 0.6458273265)}
@@ -56,6 +58,27 @@ def test_compliance_converges_with_the_elements():
         load = outer_traction(free, 2)
         errors.append(load @ solve(free, load) / (pi * free.mesh.outer) / TRACTION[1.2][0] - 1)
     assert order(1 / counts, errors) == pytest.approx(4, abs=0.3)
+
+
+@pytest.mark.parametrize("ratio", [1.02, 1.05, 1.2, 1.5, 2.0])
+def test_a_wall_has_as_many_elements_as_it_needs(ratio):
+    """Slow frequencies and compliances within 0.1 %, of the exact ones where they are known and of a finer mesh."""
+
+    def measured(around, through):
+        free = ring(ratio, around, through)
+        loads = [outer_traction(free, harmonic) for harmonic in (2, 3, 4)]
+        compliances = [load @ solve(free, load) / (pi * free.mesh.outer) for load in loads]
+        return frequencies(ratio, around, through)[::2], compliances
+
+    exact = (ANNULUS[ratio], TRACTION[ratio]) if ratio in ANNULUS else measured(240, 8)
+    for found, value in zip(measured(240, elements_through(1 - 1 / ratio)), exact, strict=True):
+        assert found == pytest.approx(value, rel=1e-3)
+
+
+def test_a_scene_may_say_how_many_elements_go_through():
+    thick = load_scene("paper-3.3-light").replace(hoop={"r": 1.2}, solve={"elements": 48})
+    assert len(ring_of(thick).mesh.grid) == 2 * elements_through(1 - 1 / 1.2) + 1 == 7
+    assert len(ring_of(thick.replace(solve={"through": 2})).mesh.grid) == 5
 
 
 def closing(wall):

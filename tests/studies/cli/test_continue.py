@@ -9,27 +9,20 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import pytest
-from command_line import is_one_sentence
+from command_line import SCENE, is_one_sentence
 
 from studies.cli.shared import single
 
-MOTION = """\
-[hoop]
-k = 0.1
-r = 1.02
-[friction]
-mu_s = 0.35
-mu = 0.3
-[release]
-phi0_deg = 10
-[run]
-{run}
+MOTION = (
+    SCENE.replace("{k}", "0.1").replace('until = "pulse"', "{run}")
+    + """\
 [contact]
 stiffness = 1e7
 damping = 1
 [solve]
 rtol = 1e-2
 """
+)
 
 
 @contextmanager

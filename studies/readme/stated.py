@@ -1,40 +1,18 @@
-"""The README's pictures and numbers, each with the command that makes it.
-
-    python -m studies.readme                    what there is, and which command makes it
-    python -m studies.readme --pictures         make the pictures anew, into .images
-    python -m studies.readme --check            run the commands of the numbers; exit 1 where the README says another
-    python -m studies.readme --only distance.png --only brush ...
-
-A command runs once, however many pictures and numbers it makes. For developers: it needs a checkout.
-"""
+"""What the README shows and states, and the command behind each picture and number."""
 
 from __future__ import annotations
 
-import json
 import re
-import shlex
-import shutil
-import subprocess
-import sys
-import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, partial
-from pathlib import Path
 from typing import Any
-
-import click
-
-from .running.files import StudyError, write_whole
-
-ROOT = Path(__file__).parent.parent
-IMAGES = ROOT / ".images"
 
 STUDY = "hoop study stiffness paper-3.3-massless --json --out study"
 BRUSH = "hoop study stiffness paper-3.3-massless --law brush --json"
 UNDAMPED = "hoop study stiffness paper-3.3-massless --damping 0 --json"
 PULSE = "hoop flexible paper-3.3-light --out first-pulse --fields"
 FILM = "hoop view first-pulse --gif first-pulse.gif --field hoop_stress --frames 90"
+ATLAS = "hoop study atlas --json --out atlas"
 RIGID = "hoop bench rigid --peers --json --out bench"
 FLEXIBLE = "hoop bench flexible --peers --json --out bench"
 SCALING = "hoop bench scaling --json --out bench"
@@ -60,6 +38,7 @@ PICTURES = (
     Picture("impulses.png", (STUDY,), "study/impulses.png"),
     Picture("distance.png", (STUDY,), "study/distance.png"),
     Picture("first-pulse.gif", (PULSE, FILM), "first-pulse.gif"),
+    Picture("atlas.png", (ATLAS,), "atlas/atlas.png"),
     Picture("bench-rigid.png", (RIGID,), "bench/bench-rigid.png"),
     Picture("bench-flexible.png", (FLEXIBLE,), "bench/bench-flexible.png"),
     Picture("bench-scaling.png", (SCALING,), "bench/bench-scaling.png"),
@@ -205,96 +184,3 @@ NUMBERS: tuple[Stated, ...] = (
            lambda b: next(float(p) for name, p in b["exponents"].items() if "stiffness" in name), 5.0),
 )  # fmt: skip
 """Numbers that are held to what is printed. Of tables of times the ones that the text draws on."""
-
-
-class Bench:
-    """A folder in which commands run, each once."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.printed = cache(self._run)
-
-    def _run(self, command: str) -> str:
-        """What a command prints.
-
-        Raises
-        ------
-        StudyError
-            It failed.
-        """
-        click.echo(f"$ {command}", err=True)
-        program, *words = shlex.split(command)
-        hoop = [] if program == "python" else ["-c", "from studies.cli import main; main()"]
-        call = [sys.executable, *hoop, *words]
-        done = subprocess.run(call, cwd=self.folder, stdout=subprocess.PIPE, text=True, check=False)
-        if done.returncode:
-            raise StudyError(f"{command} ended with {done.returncode}.")
-        return done.stdout
-
-
-def make(pictures: Sequence[Picture], bench: Bench, into: Path = IMAGES) -> None:
-    """Make pictures; each is replaced whole once it is there."""
-    for picture in pictures:
-        for command in picture.commands:
-            bench.printed(command)
-        made = bench.folder / picture.made
-        if not made.is_file():
-            raise StudyError(f"{picture.commands[-1]} left no {picture.made}.")
-        write_whole(into / picture.name, partial(shutil.copyfile, made))
-        click.echo(f"{picture.name}: made")
-
-
-def check(numbers: Sequence[Stated], bench: Bench, readme: str) -> int:
-    """Print each number of the README beside today's; how many differ or are no longer there."""
-    wrong = 0
-    for stated in numbers:
-        written = stated.written(readme)
-        if written is None:
-            wrong += 1
-            click.echo(f"{stated.table}: the README has nothing like {stated.words}")
-            continue
-        try:
-            now = stated.value(json.loads(bench.printed(stated.command)))
-        except (StudyError, LookupError, StopIteration, TypeError, ValueError) as error:
-            wrong += 1
-            click.echo(f"{stated.table}: {written}, but not to be had today: {type(error).__name__} {error}")
-            continue
-        agrees = stated.agrees(written, now)
-        wrong += not agrees
-        click.echo(f"{stated.table}: {written}, now {now:.6g}{'' if agrees else ': DIFFERS'}")
-    return wrong
-
-
-@click.command()
-@click.option("--pictures", is_flag=True, help="Make the pictures anew.")
-@click.option("--check", "checking", is_flag=True, help="Compare the README's numbers with today's.")
-@click.option("--only", multiple=True, metavar="NAME", help="Only this picture or table; may be given several times.")
-@click.option("--folder", type=click.Path(path_type=Path), help="Where the commands run and leave their files.")
-def main(pictures: bool, checking: bool, only: tuple[str, ...], folder: Path | None) -> None:
-    """The README's pictures and numbers, and the commands that make them."""
-    wanted = [picture for picture in PICTURES if not only or picture.name in only]
-    numbers = [stated for stated in NUMBERS if not only or stated.table in only]
-    if not wanted and not numbers:
-        raise click.UsageError(f"{', '.join(only)} is no picture and no table of the README.")
-    if not (pictures or checking):
-        for picture in wanted:
-            click.echo(f"{picture.name:20} {' && '.join(picture.commands)}")
-        for table in dict.fromkeys((stated.table, stated.command) for stated in numbers):
-            click.echo("{:20} {}".format(*table))
-        return
-    with tempfile.TemporaryDirectory(prefix="readme-") as temporary:
-        place = folder or Path(temporary)
-        place.mkdir(parents=True, exist_ok=True)
-        bench = Bench(place)
-        try:
-            if pictures:
-                make(wanted, bench)
-            wrong = check(numbers, bench, (ROOT / "README.md").read_text(encoding="utf-8")) if checking else 0
-        except StudyError as error:
-            raise click.ClickException(str(error)) from None
-    if wrong:
-        raise click.ClickException(f"{wrong} of {len(numbers)} numbers of the README are not what is printed today.")
-
-
-if __name__ == "__main__":
-    main()

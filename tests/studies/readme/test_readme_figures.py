@@ -8,16 +8,18 @@ from pathlib import Path
 
 import pytest
 
-from studies import readme
+from studies import StudyError
+from studies.readme import again
+from studies.readme import stated as readme
 
-TEXT = (readme.ROOT / "README.md").read_text(encoding="utf-8")
+TEXT = (again.ROOT / "README.md").read_text(encoding="utf-8")
 
 
 def test_every_picture_has_its_command_and_none_is_unused():
-    pages = TEXT + (readme.ROOT / "studies" / "README.md").read_text(encoding="utf-8")
+    pages = TEXT + (again.ROOT / "studies" / "README.md").read_text(encoding="utf-8")
     shown = set(re.findall(r"\]\((?:\.\./)?\.images/([^)]+)\)", pages))
     assert shown == {picture.name for picture in readme.PICTURES}
-    assert shown == {path.name for path in readme.IMAGES.iterdir()}
+    assert shown == {path.name for path in again.IMAGES.iterdir()}
 
 
 def test_every_number_is_found_in_the_readme_and_can_be_read():
@@ -38,22 +40,22 @@ def test_numbers_as_people_write_them(written, value, unit):
 
 def test_a_number_that_differs_is_told(capsys):
     stated = readme.Stated("limit", r"is ([\d.]+)", "command", lambda found: found["y"])
-    bench = readme.Bench(Path())
+    bench = again.Bench(Path())
     bench.printed = lambda command: json.dumps({"y": 0.17004})
-    assert readme.check([stated], bench, "it is 0.1700") == 0
-    assert readme.check([stated], bench, "it is 0.1701") == 1
+    assert again.check([stated], bench, "it is 0.1700") == 0
+    assert again.check([stated], bench, "it is 0.1701") == 1
     assert "DIFFERS" in capsys.readouterr().out
-    assert readme.check([stated], bench, "it was never said") == 1
+    assert again.check([stated], bench, "it was never said") == 1
     bench.printed = lambda command: "{}"
-    assert readme.check([stated], bench, "it is 0.1700") == 1
+    assert again.check([stated], bench, "it is 0.1700") == 1
 
 
 def test_a_picture_is_made_by_its_command(tmp_path):
     (tmp_path / "images").mkdir()
     picture = readme.Picture("ring.msh", ("hoop scenes", "hoop rigid paper-3.1 --out here"), "here/pulse.png")
-    readme.make([picture], readme.Bench(tmp_path), tmp_path / "images")
+    again.make([picture], again.Bench(tmp_path), tmp_path / "images")
     assert (tmp_path / "images" / "ring.msh").stat().st_size > 10_000
-    with pytest.raises(readme.StudyError, match=r"left no here/nothing"):
-        readme.make([readme.Picture("a", ("hoop scenes",), "here/nothing")], readme.Bench(tmp_path), tmp_path)
-    with pytest.raises(readme.StudyError, match="ended with 2"):
-        readme.make([readme.Picture("a", ("hoop rigid nothing",), "a")], readme.Bench(tmp_path), tmp_path)
+    with pytest.raises(StudyError, match=r"left no here/nothing"):
+        again.make([readme.Picture("a", ("hoop scenes",), "here/nothing")], again.Bench(tmp_path), tmp_path)
+    with pytest.raises(StudyError, match="ended with 2"):
+        again.make([readme.Picture("a", ("hoop rigid nothing",), "a")], again.Bench(tmp_path), tmp_path)
