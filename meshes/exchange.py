@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
+from rigid.output.whole import write_whole
+
 from .ring import MeshError, RingMesh
-from .whole import write_whole
 
 
 def save_mesh(ring: RingMesh, path: str | Path) -> None:

@@ -27,9 +27,10 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rigid.output.whole import write_whole
+
 from .fields import Frame, SeriesError
 from .vtu import Encoder, read_vtu
-from .whole import write_whole
 
 Array = NDArray[np.float64]
 _PVD = "fields.pvd"

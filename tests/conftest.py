@@ -1,4 +1,4 @@
-"""The same examples in every run, and kernels that are compiled before the first test.
+"""The same examples in every run, kernels that are compiled before the first test, a process for each file.
 
 HYPOTHESIS_PROFILE=explore looks for new examples, as `hoop stress --seed N` does.
 """
@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from apart import Apart, can_fork
 from hypothesis import settings
 
 settings.register_profile("same", derandomize=True, database=None)
@@ -18,10 +19,15 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
 ROOT = Path(__file__).parent.parent
 
 
-@pytest.fixture(scope="session", autouse=True)
-def compiled_elsewhere() -> None:
-    """On a machine that has not run this code yet, compile in other processes: it takes more memory than all tests."""
-    if "flexible" not in sys.modules:
+def pytest_configure(config: pytest.Config) -> None:
+    if can_fork(config):
+        config.pluginmanager.register(Apart())
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtestloop(session: pytest.Session) -> None:
+    """On a machine that has not run this code yet, compile in other processes: it takes more memory than any test."""
+    if session.config.option.collectonly or "flexible" not in sys.modules:
         return  # no test that needs the dear one was collected
     from rigid.kernel.store import is_cold
 

@@ -12,9 +12,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from rigid.output.whole import write_whole
+
 from ..draw import style
 from ..draw.display import ViewError
-from ..whole import write_whole
 
 Image = NDArray[np.uint8]
 Writer = Callable[[Path, Iterator[Image], int, NDArray[np.float64]], None]

@@ -14,6 +14,8 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from .whole import write_whole
+
 FORMAT = 2
 """Of the file; one that this program does not know is not guessed at."""
 
@@ -44,17 +46,13 @@ def version() -> str:
 def write(path: str | os.PathLike[str], scene: Mapping[str, Any], stored: Stored) -> None:
     """Write a file; an older one stays until the new one is whole."""
     header = {"format": FORMAT, "version": version(), "kind": stored.kind, "scene": scene, "told": stored.told}
-    target = Path(path)
-    part = target.with_name(f".{target.name}.{os.getpid()}.part")
-    try:
-        with part.open("wb") as file:
-            np.savez_compressed(file, allow_pickle=False, **{"header": np.array(json.dumps(header)), **stored.arrays})
-        part.replace(target)
-    except OSError as error:
-        error.filename, error.filename2 = str(target), None  # not the temporary one
-        raise
-    finally:
-        part.unlink(missing_ok=True)
+    arrays = {"header": np.array(json.dumps(header)), **stored.arrays}
+
+    def fill(part: Path) -> None:
+        with part.open("wb") as file:  # savez would add a suffix to a name
+            np.savez_compressed(file, allow_pickle=False, **arrays)
+
+    write_whole(Path(path), fill)
 
 
 def read(

@@ -1,5 +1,6 @@
 """Pictures off-screen: not blank, the hoop where it should be, and a sentence where nothing can be drawn."""
 
+import gc
 import os
 import subprocess
 import sys
@@ -23,6 +24,13 @@ SIZE = (640, 480)
 TIMES = np.linspace(0, 1.2, 7)
 
 needs_renderer = pytest.mark.skipif(renderer_problem() is not None, reason=str(renderer_problem()))
+
+
+@pytest.fixture(autouse=True)
+def freed():
+    """Plotters and what they draw hold one another in cycles, with megabytes that the collector does not see."""
+    yield
+    gc.collect()
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ import matplotlib.image
 import pytest
 
 from meshes.draw.display import renderer_problem
-from studies.examples import batch_map, fields_in_pyvista, own_friction_law, pulse, rigid_motion, stiffness_study
+from studies.examples import batch_map, own_friction_law, pulse, rigid_motion, stiffness_study
 
 matplotlib.use("Agg")
 
@@ -48,6 +48,8 @@ def test_stiffness_study(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
 @pytest.mark.slow
 @pytest.mark.skipif(renderer_problem() is not None, reason="nothing to draw with")
 def test_fields_in_pyvista(tmp_path: Path) -> None:
+    from studies.examples import fields_in_pyvista  # VTK would be in every process of the tests
+
     assert drawn(fields_in_pyvista.main(tmp_path, frames=4))
 
 

@@ -150,7 +150,8 @@ def test_the_command(hoop, tmp_path):
         assert (kept["hoop.k"][-1], kept["friction.mu"][-1]) == (0.9, 1.0)
         numbers = {int(number): phases for number, phases in kept["sequences"]}
         assert set(np.unique(kept["sequence_within_squares"])) == set(numbers)
-    assert sorted(path.name for path in (tmp_path / "map").iterdir()) == ["atlas.json", "atlas.npz", "atlas.png"]
+    results = ["atlas.json", "atlas.npz", "atlas.png"]
+    assert sorted(path.name for path in (tmp_path / "map").iterdir()) == [*results, "command.txt"]
 
 
 @pytest.mark.parametrize("over", ["hoop.k=0.1", "hoop.k=a:b", "hoop.k=0.1:0.2:0.3", "hoop.k=0.1:0.2"])

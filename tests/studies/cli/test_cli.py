@@ -13,10 +13,11 @@ from pathlib import Path
 import pytest
 from command_line import HANGS, SCENE, command, environment, is_one_sentence, process
 
+import flexible
 from flexible import Ledger, load_motion
 from meshes import read
 from rigid import load_scene, simulate
-from studies.running import solvers
+from studies.cli.shared import single
 from studies.running.files import to_json
 
 HEAVY = ("skfem", "meshio", "pyvista", "vtk", "matplotlib", "pandas", "dask", "distributed", "jinja2")
@@ -215,7 +216,8 @@ def test_a_motion_that_stops_early_is_told_and_leaves_with_1(tmp_path, hoop, for
     early = dataclasses.replace(simulate(load_scene("paper-3.1")), completed=False, ended=ended)
     for name in ("rigid", "flexible"):
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(solvers, "solver", lambda _: lambda scene, **_: early)
+            patch.setattr(single, "solver", lambda _: lambda scene, **_: early)
+            patch.setattr(flexible, "simulate", lambda scene, **_: early)
             status, out, err = hoop(name, file, *form)
         assert status == 1
         assert is_one_sentence(err)

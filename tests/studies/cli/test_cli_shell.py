@@ -129,7 +129,7 @@ def test_no_message_names_a_temporary_file(hoop, tmp_path, line):
 
 @pytest.mark.parametrize("broken", [OSError("cannot write {}"), OSError(28, "No space left on device", "{}")])
 def test_a_writer_that_fails_half_way_is_told_by_the_name_asked_for(tmp_path, broken):
-    from meshes.whole import write_whole
+    from rigid.output.whole import write_whole
     from studies import StudyError
     from studies.running.files import write_whole as write_result
 

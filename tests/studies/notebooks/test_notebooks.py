@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +12,7 @@ import pytest
 from studies.notebooks.__main__ import BOOKS, HERE, run
 
 pytestmark = pytest.mark.slow
-nbformat = pytest.importorskip("nbformat")
-pytest.importorskip("nbclient")
+needs_nbclient = pytest.mark.skipif(find_spec("nbclient") is None, reason="nbclient is not installed")
 
 NUMBER = re.compile(r"(?<![\w.])[-+]?\d+\.\d+(?:e[-+]?\d+)?")
 
@@ -32,12 +32,15 @@ def test_every_notebook_is_listed() -> None:
     assert {path.stem for path in HERE.glob("*.ipynb")} == set(BOOKS)
 
 
+@needs_nbclient
 @pytest.mark.parametrize("name", BOOKS)
 def test_a_notebook_runs_as_it_is_stored(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Measures are good to 0.1 %, the tolerance of the runs being 1e-4 at most; what is small prints as small.
 
     How often a chattering hoop hops is no number to hold a machine to: of that notebook what is there is compared.
     """
+    import nbformat
+
     monkeypatch.delenv("MPLBACKEND", raising=False)
     path: Path = HERE / f"{name}.ipynb"
     stored = nbformat.read(path, as_version=4)
