@@ -211,7 +211,8 @@ def test_a_full_disk_is_one_sentence_and_the_rest_is_kept(tmp_path):
     file = sweep_file(tmp_path, k=str([round(0.1 + 0.005 * i, 3) for i in range(60)]))
     out = tmp_path / "out"
     limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (60_000, 60_000))  # noqa: E731
-    done = process("study", "sweep", file, "--out", out, "--workers", 1, "--json", preexec_fn=limit)
+    own = environment(PYTHONDONTWRITEBYTECODE="1")  # a module's would be cut off too, and break whoever comes next
+    done = process("study", "sweep", file, "--out", out, "--workers", 1, "--json", preexec_fn=limit, env=own)
     assert done.returncode == 2
     assert is_one_sentence(done.stderr)
     kept = len(Store(out).done())
