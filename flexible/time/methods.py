@@ -1,6 +1,5 @@
 """The implicit Runge-Kutta methods of a step: diagonally implicit, the first stage explicit, L-stable.
 
-
 All are of one form: stage i solves ``y_i = y_0 + h sum_j a_ij f_j`` with the same gamma = a_ii, the first stage is the
 end of the step before, and the last one is the step's result. What a step does not resolve, the ring's and the
 contact's own vibrations, they damp; so steps follow the motion and not the stiffness.
@@ -13,7 +12,6 @@ from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.polynomial import Polynomial
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -68,15 +66,20 @@ class Method:
         """What the error of one step's velocities may be for a motion with the tolerance ``rtol``."""
         return float(self._share * rtol ** (self.estimates / self.order))
 
-    @cached_property
-    def _nodes(self) -> list[Polynomial]:
-        """Lagrange's polynomials of the stages, over a step."""
-        found = []
-        for i, c in enumerate(self.c):
-            others = np.delete(self.c, i)
-            node = Polynomial.fromroots(others)
-            found.append(node / node(c))
-        return found
+    def _through_stages(self, x: Array) -> tuple[Array, Array]:
+        """Lagrange's polynomials of the stages over a step, and their derivatives, at ``x``: (stages, n) each.
+
+        By products, which keep their digits where the coefficients of the polynomials would lose some.
+        """
+        stages = range(len(self.c))
+        ways = x - self.c[:, None]
+        values, rates = np.empty((2, len(self.c), len(x)))
+        for i in stages:
+            others = [k for k in stages if k != i]
+            scale = np.prod(self.c[i] - self.c[others])
+            values[i] = ways[others].prod(axis=0) / scale
+            rates[i] = sum(ways[[k for k in others if k != j]].prod(axis=0) for j in others) / scale
+        return values, rates
 
     @cached_property
     def work(self) -> Array:
@@ -84,13 +87,15 @@ class Method:
 
         Exact for a spring however long the step: a force linear in the way does the work of its ends.
         """
-        forces, rates = self._nodes, [node.deriv() for node in self._nodes]
-        return np.array([[(f * r).integ()(1.0) for r in rates] for f in forces])
+        x, weights = np.polynomial.legendre.leggauss(len(self.c))  # exact for the product of the two
+        values, rates = self._through_stages((x + 1) / 2)
+        found: Array = (values * weights / 2) @ rates.T
+        return found
 
     @cached_property
     def end_rate(self) -> Array:
         """(stages,) Rate at the end of a step of unit length of what is known at the stages."""
-        return np.array([node.deriv()(1.0) for node in self._nodes])
+        return self._through_stages(np.ones(1))[1][:, 0]
 
     @cached_property
     def table(self) -> Table:
