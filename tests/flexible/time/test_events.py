@@ -163,11 +163,16 @@ def test_a_restart_moves_nothing(mode):
 )
 @pytest.mark.slow
 def test_a_patch_that_opens_and_closes_is_integrated_through(bending, foundation, rtol):
-    """Each of them ended on the way; the undamped patch has a scatter, between .149 of the rigid hoop and .176."""
-    motion = flexible.simulate(opening(bending, foundation, rtol=rtol))
+    """Each of them ended on the way. An undamped patch rings, and breaks its stick early by a scatter: as if its static
+    coefficient lay between the kinetic and its own."""
+    scene = opening(bending, foundation, rtol=rtol)
+    motion = flexible.simulate(scene)
     assert motion.completed, motion.ended
     assert motion.pulses[0].time_off_floor > 0  # it does open
-    assert 0.148 < motion.pulses[0].friction_impulse / motion.pulses[0].normal_impulse < 0.177
+    latest, earliest = (
+        rigid.simulate(scene.replace(friction={"mu_s": mu_s})).pulses[0].impulse_ratio for mu_s in (0.538, 0.38)
+    )
+    assert latest - 1e-3 < motion.pulses[0].impulse_ratio < earliest  # 1e-3: what the foundation of 1e12 is still off
 
 
 def test_one_coefficient_of_friction_does_not_stick_and_slip_without_end():
