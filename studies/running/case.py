@@ -251,8 +251,16 @@ def _pair(case: Case, rtol: float, most: float = inf) -> tuple[dict[str, Any], f
 
 
 def _errors(coarse: Mapping[str, float], fine: Mapping[str, float]) -> dict[str, float]:
-    """Numerical error of the finer run's measures; energy that the steps themselves took, friction may have had."""
+    """Numerical error of the finer run's measures; energy that the steps themselves took, friction may have had.
+
+    Two runs may agree in a measure by luck: the loss, which comes of the same friction as the impulse ratio, is known
+    no better than that, as a share of itself.
+    """
     errors = {name: REMAINS * abs(fine[name] - coarse[name]) for name in fine}
     if "numerical_loss" in fine and "friction_loss" in fine:
-        errors["friction_loss"] = max(errors["friction_loss"], abs(fine["numerical_loss"]))
+        ratio = abs(fine["impulse_ratio"])
+        share = errors["impulse_ratio"] / ratio if ratio > 0 else 0.0
+        errors["friction_loss"] = max(
+            errors["friction_loss"], abs(fine["numerical_loss"]), min(share, 1.0) * abs(fine["friction_loss"])
+        )
     return errors
