@@ -29,6 +29,7 @@ LOG_RECORDS = 128
 STEPS = 200_000  # the work bound of one motion: Taylor steps and phases
 MOST_RECORDS = 200_000  # and its phases, turns and pulses together
 PATIENCE = 4_000  # interpreted steps, some 0.4 s, after which a process goes over to the compiled kernel
+INSTANTS = 16_000  # of a motion, some 0.7 s, from which on their states are asked of it
 
 UNTIL_CODES = {None: at.NOTHING, "pulse": at.FIRST_PULSE, "rest": at.REST}
 _interpreted_steps = 0
@@ -267,7 +268,7 @@ class Sampler:
         constants = parameters(self.scene)
         padded = [list(row) + [0.0] * (at.WIDTH - len(row)) for row in self.listing.starts]
         flat = [number for row in padded for number in row]
-        if _interpreted_steps < PATIENCE and len(times) < PATIENCE:
+        if _interpreted_steps < PATIENCE and len(times) < INSTANTS:
             out: Any = [0.0] * (len(times) * width)
             work: Any = [[0.0] * (at.ORDER + 1) for _ in range(at.SERIES)]
             events = [0.0] * (16 * at.WIDTH)

@@ -195,7 +195,8 @@ def test_the_environment_says_where(monkeypatch, tmp_path, variable):
         assert store.NAME in store._wanted_cache().parts
 
 
-def test_one_worker_compiles_for_all(monkeypatch):
+def test_one_worker_compiles_for_all_what_the_cases_need(monkeypatch):
+    from rigid.kernel import store
     from studies.running import workers
     from studies.running.case import Case
     from studies.running.solvers import prepare
@@ -207,18 +208,20 @@ def test_one_worker_compiles_for_all(monkeypatch):
             pass
 
         def submit(self, function, *arguments):
-            asked.append(function)
+            asked.append((function, *arguments) if function is prepare else function)
             future = Future()
             future.set_result(None)
             return future
 
-    monkeypatch.setattr(workers, "is_cold", lambda package: package == "flexible")
+    monkeypatch.setattr(store, "is_cold", lambda package: True)
     monkeypatch.setattr(workers, "Processes", Processes)
     place = workers.Machine(2)
     scene = rigid.load_scene("paper-3.3-massless")
-    for solver in ("rigid", "flexible", "flexible"):
-        place.submit(Case(solver, scene))
-    assert asked == [workers.run_case, prepare, workers.run_case, workers.run_case]
+    soft = scene.replace(ring={"bending_stiffness": 10.0})  # for which "auto" takes the chain
+    for solver, hoop in (("rigid", soft), ("flexible", scene), ("flexible", scene), ("flexible", soft)):
+        place.submit(Case(solver, hoop))
+    run = workers.run_case
+    assert asked == [run, (prepare, "reduced"), run, run, (prepare, "chain"), run]
 
 
 def test_seconds_of_compiling_are_no_run_time(monkeypatch, caplog):

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 
 from rigid.kernel.compile import jit, part
 
+from ..contact.vectors import solve_dense
+
 Array = NDArray[np.float64]
 FRAME = 3
 FADED = 1e-60  # smaller than any product with it could matter, and far from numbers without all their digits
@@ -243,10 +245,7 @@ def factor(blocks: Any, keeps: Any, rest: int) -> Any:
 def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]:
     """Solve for one right-hand side: frame (3,), sections (n + 2, 3), rest (r,); the solution as (3 + 3 n,) and (r,).
 
-    Raises
-    ------
-    LinAlgError
-        The core is singular.
+    It is not finite where the core is singular.
     """
     order, kept, far = factors.order, factors.kept, factors.far
     inverse, ahead, beside, back, below = (
@@ -275,7 +274,7 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]
     after = FRAME + 3 * kept.shape[0]
     for a in range(rest.shape[0]):
         known[after + a] = rest[a]
-    found = np.linalg.solve(factors.core, known)
+    found = solve_dense(factors.core, known)
     x = np.zeros(right.shape)
     for k in range(kept.shape[0]):
         for a in range(3):

@@ -5,5 +5,5 @@
 ``assembly``  from points to unknowns
 ``forces``    all of it together: forces, tangent, state of the patch
 ``newton``    what Newton on a stage with these forces is alike for all rings
-``vectors``   sums and products of whole vectors, in loops
+``vectors``   sums and products of whole vectors, small systems
 """

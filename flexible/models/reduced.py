@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Scene
-from rigid.kernel.compile import jit, part
+from rigid.kernel.compile import jit, part, written_out
 
 from ..contact.points.data import Before, Bristles, Damper, Parameters, Resultants
 from ..contact.points.data import Rim as NearFloor
@@ -93,8 +93,7 @@ def _near_floor(arrays: Arrays, window: tuple[int, int]) -> Window:
     return Window(NearFloor(window[0], arrays.vertex), shapes, compliance)
 
 
-@jit
-def solved(
+def _solved(
     arrays: Arrays, old: Start, mode: int, damper: Damper, predictor: Predictor, near: Any, first: bool
 ) -> Stage:
     """See :class:`flexible.models.state.Model`; not ok as well where the window's compliance is not known."""
@@ -129,20 +128,23 @@ def solved(
     return found
 
 
-@jit
+solved, solved_in_step = jit(_solved), written_out(_solved)
+
+
+@part
 def floor_forces(arrays: Arrays, pos: Any, vel: Any, acc: Any) -> Any:
     """Forces of the floor on all coordinates that go with these accelerations."""
     return inertia(arrays.frame, pos, vel, acc, 1.0)[0]
 
 
-@jit
+@part
 def held_energy(arrays: Arrays, pos: Any, vel: Any) -> float:
     """What the coordinates hold by themselves."""
     kinetic, gravity, strain = energies(arrays.frame, pos, vel)
     return kinetic + gravity + strain
 
 
-@jit
+@part
 def momentum_error(arrays: Arrays, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any) -> float:
     """Size of an ``error`` in the velocities, see :class:`flexible.models.state.Model`."""
     rate = filtered_error(arrays.frame, pos, vel, acc, beta, matrix, error)

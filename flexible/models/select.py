@@ -30,23 +30,25 @@ FAR = 0.0075
 _STIFF = 1e-4  # displacement over R that no such rotation can have
 
 
-def hoop_of(scene: Scene) -> Hoop:
-    """The scene's hoop at the level that it asks for.
+def level_of(scene: Scene) -> str:
+    """The level that a scene without units asks for: "auto" is reduced unless the ring is soft, and then a chain."""
+    if scene.solve.level == "auto":
+        return "reduced" if scene.ring.bending_stiffness >= SOFT else "chain"
+    return str(scene.solve.level)
 
-    "auto" is reduced unless the ring is soft, and then a chain; of a ring that is no rod, all nodes.
-    """
-    level = scene.solve.level
-    if level == "auto":
-        if scene.ring.bending_stiffness >= SOFT:
-            return ReducedHoop(scene)
-        try:
-            return ChainHoop(scene)
-        except SceneError:
-            return ExactHoop(scene)
+
+def hoop_of(scene: Scene) -> Hoop:
+    """The scene's hoop at that level; of a ring that is no rod and was left to choose, all nodes."""
+    level = level_of(scene)
     if level == "reduced":
         return ReducedHoop(scene)
     if level == "chain":
-        return ChainHoop(scene)
+        try:
+            return ChainHoop(scene)
+        except SceneError:
+            if scene.solve.level == "chain":
+                raise
+            return ExactHoop(scene)
     return ExactHoop(scene) if level == "exact" else FullHoop(scene)
 
 

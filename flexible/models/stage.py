@@ -15,7 +15,7 @@ from rigid.kernel.compile import part, written_out
 from ..contact.forces import forces_in_newton
 from ..contact.newton import move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
-from ..contact.vectors import largest, plus
+from ..contact.vectors import largest, plus, solve_dense
 from ..ring.frame import Frame, inertia
 
 MOST_POINTS = 5000  # to a patch, two hundred times as wide as under the weight: 1e7 weights are no solution
@@ -161,7 +161,7 @@ def solve_stage(
             break
         worst = max(worst, astray)
         _assemble(matrix, own_tangent, tangent, window, scale)
-        update = np.linalg.solve(matrix, residual)
+        update = solve_dense(matrix, residual)
         if not np.isfinite(largest(update)):
             break
         damping = 1.0
@@ -188,4 +188,4 @@ def filtered_error(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, matr
     )
     for i in range(size):
         load[i] = (with_error[i] - without[i]) / beta**2
-    return np.linalg.solve(matrix, load)[:size]
+    return solve_dense(matrix, load)[:size]

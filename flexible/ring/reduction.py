@@ -36,13 +36,19 @@ class Rim(NamedTuple):
 @register_jitable
 def window_dofs(elements: int, window: tuple[int, int]) -> Any:
     """Dofs of a window of a rim of so many elements, counted round and round."""
-    return (4 * window[0] + np.arange(4 * window[1] + 2)) % (4 * elements)
+    dofs = np.empty(4 * window[1] + 2, np.int64)
+    for k in range(dofs.shape[0]):
+        dofs[k] = (4 * window[0] + k) % (4 * elements)
+    return dofs
 
 
 @register_jitable
 def is_known(rim: Rim, columns: Any) -> bool:
     """Whether the compliance is known in these columns."""
-    return bool(rim.known[columns // COLUMNS].all())
+    known = True
+    for k in range(columns.shape[0]):
+        known = known and rim.known[columns[k] // COLUMNS]
+    return bool(known)
 
 
 @jit

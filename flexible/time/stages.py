@@ -40,6 +40,11 @@ def momentum_error(model: Any, pos: Any, vel: Any, acc: Any, beta: float, matrix
     return model.error(pos, vel, acc, beta, matrix, error)
 
 
+#: the beta of a step of no length: what it moves, beta^2 acc, must be nothing to the thinnest patch, whose depth as it
+#: opens is some 1e-12 R, or N is another one after every event than before it
+INSTANT = 1e-15
+
+
 class Taken(NamedTuple):
     """A step that was tried. Of one that could not be solved, only ``ok`` and ``window`` have a meaning."""
 
@@ -190,8 +195,32 @@ def _work(table: Table, force: Any, way: Any) -> float:
     return total
 
 
+@register_jitable
+def _posed(old: Any, h: float, table: Table, known: _Known, i: int, damping: Any) -> tuple[Predictor, Damper]:
+    """What stage ``i`` of a step is to solve."""
+    beta, weights = table.gamma * h, table.a[i]
+    vel = _advanced(old.vel, h, weights, known.acc, i)
+    pos = plus(_advanced(old.pos, h, weights, known.vel, i), beta, vel)
+    elastic = old.res.elastic + _sum(h, weights, known.elastic_rate, i)
+    way = _sum(h, weights, known.slip_velocity, i)
+    turning = table.c[i] * (h * vel[2] - (pos[2] - old.pos[2]) / table.gamma)
+    drag = damping[1] * _widening(old, table.c[i] * h) / beta
+    damper = Damper(
+        damping[0] / beta, elastic, 1.0, drag, way, table.c[i] / table.gamma, 1 / beta, 0.0, turning, False
+    )  # fmt: skip
+    return Predictor(pos, vel, beta, times(beta**2, _expected(table, known.acc, i))), damper
+
+
+@register_jitable
+def _at_once(old: Any, known: _Known) -> tuple[Predictor, Damper]:
+    """The same of a step of no length: rates stay what they are."""
+    eta = old.res.eta if old.res.elastic > 0 else 1.0
+    damper = Damper(0.0, 0.0, eta, 0.0, 0.0, 1.0, 0.0, old.slip_velocity, 0.0, False)
+    return Predictor(known.pos[0].copy(), known.vel[0].copy(), INSTANT, times(INSTANT**2, known.acc[0])), damper
+
+
 def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
-    """A step of length ``h`` of a model from ``old``.
+    """A step of length ``h`` of a model from ``old``; of no length, a single stage that brings forces up to date.
 
     Parameters
     ----------
@@ -203,25 +232,19 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
         The normal damper's time, and the coefficient of the sticking patch against slip.
     """
     stages = table.c.shape[0]
-    beta = table.gamma * h
-    relaxation, against_slip = damping[0] / beta, damping[1]
+    end = stages - 1 if h > 0 else 1
+    beta = table.gamma * h if h > 0 else INSTANT
     known = _nothing_known(stages, old.pos.shape[0])
     _write_down(known, 0, old.pos, old.vel, old.acc, old.res)
     known.elastic_rate[0], known.slip_velocity[0] = old.elastic_rate, old.slip_velocity
     window, u, nodal, res, bristles = old.window, old.u, old.nodal, old.res, old.bristles
     ok, error = True, 0.0
-    for i in range(1, stages):
-        weights = table.a[i]
-        vel = _advanced(old.vel, h, weights, known.acc, i)
-        pos = plus(_advanced(old.pos, h, weights, known.vel, i), beta, vel)
-        elastic = old.res.elastic + _sum(h, weights, known.elastic_rate, i)
-        way = _sum(h, weights, known.slip_velocity, i)
-        turning = table.c[i] * (h * vel[2] - (pos[2] - old.pos[2]) / table.gamma)
-        drag = against_slip * _widening(old, table.c[i] * h) / beta
-        damper = Damper(relaxation, elastic, 1.0, drag, way, table.c[i] / table.gamma, 1 / beta, 0.0, turning, False)
-        predictor = Predictor(pos, vel, beta, times(beta**2, _expected(table, known.acc, i)))
+    for i in range(1, end + 1):
+        predictor, damper = _posed(old, h, table, known, i, damping) if h > 0 else _at_once(old, known)
+        pos, vel = predictor.pos, predictor.vel
+        begins = largest(pos) + largest(vel) + largest(predictor.guess) + damper.elastic_0 + damper.way_0
         # without numbers to begin with there is nothing to solve: no angle, no rim
-        if not np.isfinite(largest(pos) + largest(vel) + largest(predictor.guess) + elastic + way + turning + drag):
+        if not np.isfinite(begins + damper.turning_0 + damper.drag + damper.eta_0 + damper.velocity_0):
             ok = False
             break
         found = solved(model, old, old.mode, damper, predictor, (window, u), i == 1)
@@ -231,20 +254,20 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
             break
         u, nodal, res, bristles = found.u, found.nodal, found.res, found.bristles
         _write_down(known, i, plus(pos, 1.0, found.d), plus(vel, 1 / beta, found.d), found.acc, res)
-        known.elastic_rate[i] = (res.elastic - elastic) / beta
-        known.way[i], known.slip_velocity[i] = res.way, (res.way - way) / beta
+        known.elastic_rate[i] = (res.elastic - damper.elastic_0) / beta
+        known.way[i], known.slip_velocity[i] = res.way, (res.way - damper.way_0) / beta
         known.feet[i] = res.feet
-        if i == stages - 1:
+        if i == stages - 1 and h > 0:
             off = _advanced(np.zeros(pos.shape[0]), h, table.error, known.acc, stages)
             error = momentum_error(model, known.pos[i], known.vel[i], known.acc[i], beta, found.matrix, off)
-    end = stages - 1
+    feet = _sum(1 / h, table.end_rate, known.feet, stages) if h > 0 else 0.0
     off_floor = 0.0
     for i in range(stages):
         if known.normal[i] == 0:
             off_floor += h * table.b[i]
     drag_work = _work(table, known.drag, known.way)
     numerical = 0.0
-    if ok:
+    if ok and h > 0:
         numerical = held_energy(model, old.pos, old.vel) - held_energy(model, known.pos[end], known.vel[end])
         for i in range(stages):
             force = floor_forces(model, known.pos[i], known.vel[i], known.acc[i])
@@ -252,7 +275,7 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
                 numerical += table.work[i, j] * _along(force, known.pos[j], known.pos[0])
     return Taken(
         ok, known.pos[end].copy(), known.vel[end].copy(), known.acc[end].copy(), window, u, nodal, res, bristles,
-        known.slip_velocity[end], known.elastic_rate[end], _sum(1 / h, table.end_rate, known.feet, stages), error,
+        known.slip_velocity[end], known.elastic_rate[end], feet, error,
         _sum(h, table.b, known.normal, stages), _sum(h, table.b, known.friction, stages),
         res.beyond + _work(table, known.friction, known.way) - drag_work, _damped(table, known) - drag_work,
         numerical, off_floor,
@@ -261,6 +284,6 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
 
 #: the same of the arrays of a reduced hoop
 take_compiled = jit(
-    take, solved=reduced.solved, held_energy=reduced.held_energy, floor_forces=reduced.floor_forces,
+    take, solved=reduced.solved_in_step, held_energy=reduced.held_energy, floor_forces=reduced.floor_forces,
     momentum_error=reduced.momentum_error,
 )  # fmt: skip

@@ -8,9 +8,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from ..contact.points.data import Damper
 from ..models.reduced import start_of
-from ..models.stage import Predictor, Stage
 from ..models.state import Model, State
 from .methods import ESDIRK3, Method
 from .stages import Taken, take, take_compiled
@@ -37,13 +35,8 @@ class Step:
 
 def attempt(model: Model, old: State, h: float, method: Method = ESDIRK3) -> Step | None:
     """One step of length ``h``; None if Newton failed, whatever it failed by."""
-    try:
-        taken = _taken(model, old, h, method)
-        while not taken.ok and model.learns(taken.window):
-            taken = _taken(model, old, h, method)
-    except np.linalg.LinAlgError:
-        return None
-    if not taken.ok or not isfinite(taken.error):
+    taken = _taken(model, old, h, method)
+    if taken is None:
         return None
     pos = taken.pos
     x_C = old.x_C + pos[0] + (pos[2] - old.pos[2])
@@ -58,37 +51,33 @@ def attempt(model: Model, old: State, h: float, method: Method = ESDIRK3) -> Ste
     )  # fmt: skip
 
 
-def _taken(model: Model, old: State, h: float, method: Method) -> Taken:
-    """The step by compiled code where the model has arrays for it, otherwise by Python."""
+def _taken(model: Model, old: State, h: float, method: Method) -> Taken | None:
+    """The step by compiled code where the model has arrays for it, otherwise by Python; None where it fails."""
     damping = model.relaxation, model.patch_damping(old)
-    if model.arrays is None:
-        return take(model, old, h, method.table, damping)
-    return take_compiled(model.arrays, start_of(old), h, method.table, damping)
+    while True:
+        try:
+            if model.arrays is None:
+                taken = take(model, old, h, method.table, damping)
+            else:
+                taken = take_compiled(model.arrays, start_of(old), h, method.table, damping)
+        except np.linalg.LinAlgError:
+            return None
+        if taken.ok:
+            return taken if isfinite(taken.error) else None
+        if not model.learns(taken.window):
+            return None
 
 
 def restart(model: Model, state: State, mode: int) -> State:
-    """The same instant under another law of friction: accelerations and static displacements jump, nothing else.
-
-    A stage of no length: what it moves, ``beta^2 acc``, must be nothing to the thinnest patch, whose depth as it opens
-    is some 1e-12 R, or N is another one after every event than before it.
-    """
-    beta = 1e-15
-    eta = state.res.eta if state.res.elastic > 0 else 1.0
-    damper = Damper(0.0, 0.0, eta, 0.0, 0.0, 1.0, 0.0, state.slip_velocity)
-    predictor, failed = Predictor(state.pos, state.vel, beta, beta**2 * state.acc), Stage(False)
-    try:  # without numbers to begin with there is nothing to solve: no angle, no rim
-        known = isfinite(state.pos.sum() + state.vel.sum() + predictor.guess.sum() + sum(damper))
-        near = state.window, state.u
-        solved = model.stage(state, mode, damper, predictor, near, True) if known else failed
-    except np.linalg.LinAlgError:
-        solved = failed
-    if not solved.ok:
+    """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
+    taken = _taken(model, replace(state, mode=mode), 0.0, ESDIRK3)
+    if taken is None:
         raise MarchError(f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved")
     pos = state.pos.copy()
-    pos[3:] += solved.d[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
+    pos[3:] = taken.pos[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
     return replace(
-        state, pos=pos, acc=solved.acc, mode=mode, window=solved.window, u=solved.u, nodal=solved.nodal,
-        res=solved.res, bristles=solved.bristles, feet_velocity=0.0,
+        state, pos=pos, acc=taken.acc, mode=mode, window=taken.window, u=taken.u, nodal=taken.nodal, res=taken.res,
+        bristles=taken.bristles, feet_velocity=0.0,
     )  # fmt: skip
 
 

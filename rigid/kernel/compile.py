@@ -18,6 +18,8 @@ from typing import Any, TypeVar
 
 F = TypeVar("F", bound=Callable[..., Any])
 
+#: no function gets an entry for C, which nothing calls and which takes as long to compile as one for Python
+_OPTIONS: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True}
 _REGISTER: dict[str, FunctionType] = {}
 
 
@@ -72,7 +74,7 @@ def part(function: F) -> F:
     """
     from numba.extending import register_jitable
 
-    marked: F = register_jitable(error_model="numpy")(function)
+    marked: F = register_jitable(**_OPTIONS, no_cpython_wrapper=True)(function)
     return marked
 
 
@@ -87,7 +89,7 @@ def written_out(function: F) -> F:
 
     assert isinstance(function, FunctionType)
     place = _home_of(function.__module__, function.__code__.co_filename)
-    marked: Any = numba.njit(inline="always", error_model="numpy")(moved(function, place))
+    marked: Any = numba.njit(inline="always", **_OPTIONS)(moved(function, place))
     return marked
 
 
@@ -107,4 +109,4 @@ def _compiler(function: FunctionType, keep: bool, nogil: bool = False) -> Any:
 
     tell()
     with beside_the_source():
-        return numba.njit(cache=keep, error_model="numpy", nogil=nogil)(function)
+        return numba.njit(cache=keep, nogil=nogil, **_OPTIONS)(function)

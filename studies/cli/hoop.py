@@ -150,9 +150,9 @@ def compile_(shared: bool) -> None:
     """Compile both solvers for this machine now, not at their first use."""
     from rigid.kernel.store import share
 
-    from ..running.solvers import prepare
+    from ..running.solvers import LEVELS, prepare
 
-    place = prepare("rigid", "flexible")
+    place = prepare("rigid", *LEVELS)
     click.echo(f"Both solvers are compiled, in {share() if shared else place}.")
 
 

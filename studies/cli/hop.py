@@ -12,6 +12,7 @@ from rigid import Run, Scene, SceneError, load_scene
 from rigid.elastic import LAWS
 
 from ..running.files import to_json, write_text
+from ..running.solvers import levels_of, missing, prepare
 from .shared.options import SceneKey, SceneName, as_json, out_folder, results_folder, scheduler, workers
 
 if TYPE_CHECKING:
@@ -87,7 +88,7 @@ def hop(
     say(f"{asked.count} rolls, and up to {3 * (bisections + 2)} more for each threshold line.")
     with bar(f"{asked.count} rolls") as progress, pool(workers, scheduler) as place:
         if scheduler is None:
-            _compile(asked)
+            prepare(*missing(levels_of(_ends_of(asked))))  # one process for all workers
         found = hop_study(asked, pool=place, out=target, progress=progress, say=say)
     if target is not None:
         _write(found, target, line)
@@ -103,15 +104,10 @@ def hop(
     return 1 if found.unfinished else 0
 
 
-def _compile(asked: HopMap) -> None:
-    """What the softest and the stiffest roll need that this machine does not have yet: one process for all workers."""
-    from flexible import simulate
-    from rigid.kernel.store import is_cold
-
-    if not is_cold("flexible"):
-        return
-    for stiffness in (min(asked.stiffness), max(asked.stiffness)):
-        simulate(asked.scenes[0].replace(ring={"bending_stiffness": stiffness}, run=Run(t_end=1e-3)))
+def _ends_of(asked: HopMap) -> list[Scene]:
+    """The softest and the stiffest roll, between which all others need the same compiled code."""
+    ends = (min(asked.stiffness), max(asked.stiffness))
+    return [asked.scenes[0].replace(ring={"bending_stiffness": stiffness}) for stiffness in ends]
 
 
 def parse_over(text: str) -> tuple[str, tuple[Any, ...]]:

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import part
 
 SIZE = 8192  # entries of the circular tables
 ENTRIES = 1000  # of a patch's table, from edge to edge
@@ -42,7 +42,7 @@ def bristles(spacing: float = 1.0) -> Any:
     return Bristles(label, way, area, np.zeros(SIZE, np.int8), np.zeros(2, np.int64), np.zeros(3), spacing)
 
 
-@jit
+@part
 def set_stretch(kept: Any, half: float, curve: Any, brush: bool) -> None:
     """Begin anew with X = Phi = 0 and z = c_0 + c_1 s + c_2 s^2 over the patch of half-width ``half``."""
     if brush:
@@ -64,7 +64,7 @@ def set_stretch(kept: Any, half: float, curve: Any, brush: bool) -> None:
     kept.edges[SLIPPED], kept.edges[TRAILING], kept.edges[LEADING] = 0.0, half, -half
 
 
-@jit
+@part
 def _look_up(kept: Any, xi: float, slipped: float) -> tuple[float, float]:
     """X_in at a label and its integral from the table's trailing end to there; beyond the table points enter now."""
     first, last = kept.ends[0], kept.ends[1]
@@ -87,7 +87,7 @@ def _look_up(kept: Any, xi: float, slipped: float) -> tuple[float, float]:
     return way, kept.area[low % SIZE] + (x - xi) * (kept.way[low % SIZE] + way) / 2
 
 
-@jit
+@part
 def total_stretch(kept: Any, half: float, rolled: float, slipped: float) -> float:
     """Integral of z over the patch (``patch``)."""
     _, ahead = _look_up(kept, -half - rolled, slipped)
@@ -95,7 +95,7 @@ def total_stretch(kept: Any, half: float, rolled: float, slipped: float) -> floa
     return 2 * half * slipped - (ahead - behind)
 
 
-@jit
+@part
 def step_on(kept: Any, half: float, rolled: float, slipped: float) -> None:
     """Take the patch's new edges into the table: points have entered, or left, at either (``patch``)."""
     ahead, behind = -half - rolled, half - rolled
@@ -118,7 +118,7 @@ def step_on(kept: Any, half: float, rolled: float, slipped: float) -> None:
     kept.ends[0], kept.ends[1] = first, last
 
 
-@jit
+@part
 def brush_pull(
     kept: Any, contact: Any, half: float, rolled: float, slipped: float, eta: float, commit: bool
 ) -> tuple[float, float]:

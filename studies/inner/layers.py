@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi, sqrt
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from rigid.kernel.store import is_cold
 
 from .body import Body, accelerations, contact_mobility, rolling_forces, sliding_force
 from .bristles import SIZE, Bristles, bristles, set_stretch
@@ -34,6 +37,8 @@ from .march import (
 Array = NDArray[np.float64]
 
 FINENESS = 0.1  # of the fastest time to a step: forces to 1e-4, times of switches to 1e-5
+PATIENCE = 60_000  # interpreted steps, some 3 s, after which a process goes over to compiled code that is not there yet
+_interpreted = 0
 _POINTS = 300  # of a brush to its patch
 _RELEASED = 0.95  # of the part that sticks at the most a brush carries, where its running away begins
 
@@ -147,7 +152,7 @@ def layer(
     if contact.law == BRUSH and event.kind == START and contact.mu_s > contact.mu:
         _break_away(contact, event, half, normal, friction, kept)
     ends = np.array([duration, np.inf * np.sign(event.omega), fineness, 1.0])
-    records, switches, end = march(System(body, contact, eps), state, mode, kept, ends)
+    records, switches, end = _marched(System(body, contact, eps), state, mode, kept, ends)
     columns = dict(zip(COLUMNS, records.T, strict=True))
     return Layer(
         event=event,
@@ -158,6 +163,18 @@ def layer(
         end=end,
         period=period,
     )
+
+
+def _marched(system: System, state: Array, mode: int, kept: Bristles, ends: Array) -> Any:
+    """:func:`studies.inner.march.march`; by the interpreter, to the same numbers, as long as compiling takes longer."""
+    global _interpreted
+    if system.contact.law == BRUSH or _interpreted > PATIENCE or not is_cold(march.__module__):
+        return march(system, state, mode, kept, ends)
+    by_python: Any = march
+    with np.errstate(all="ignore"):
+        found = by_python.py_func(system, state, mode, kept, ends)
+    _interpreted += len(found[0])
+    return found
 
 
 def _break_away(

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, part
 
 from . import body as mechanics
 from .bristles import brush_pull, set_stretch, step_on, total_stretch
@@ -38,11 +38,11 @@ System.__doc__ = "A hoop, its contact, and eps: 0 for the inner problem, the sma
 ScaledContact = namedtuple("ScaledContact", ["law", "kappa", "mu_s", "mu", "theta", "slip_scale"])
 ScaledContact.__doc__ = "Law, tangential ratio, coefficients, relaxation time and V_s on the scaled clock."
 
-_arms = jit(mechanics.arms)
+_arms = part(mechanics.arms)
 _NARROW = 0.2  # of the half-width at the start: a patch below it is taken to be that wide when a step is chosen
 
 
-@jit
+@part
 def _normal(state: Any, theta: float) -> tuple[float, float, float]:
     """(A, N, eta = N/N_el)."""
     if state[HEIGHT] >= 0:
@@ -52,7 +52,7 @@ def _normal(state: Any, theta: float) -> tuple[float, float, float]:
     return half, eta * 2 / 3 * half**3, eta
 
 
-@jit
+@part
 def _forces(state: Any, contact: Any, mode: int, kept: Any) -> tuple[float, float]:
     """(N, F) at a state, with the bristles as the last step left them."""
     half, normal, eta = _normal(state, contact.theta)
@@ -69,7 +69,7 @@ def _forces(state: Any, contact: Any, mode: int, kept: Any) -> tuple[float, floa
     return normal, -contact.kappa * (stretch + contact.theta * 2 * half * slip)
 
 
-@jit
+@part
 def _rates(state: Any, system: Any, mode: int, kept: Any) -> Any:
     """Derivatives of the state by tau."""
     body, eps = system.body, system.eps
@@ -86,17 +86,23 @@ def _rates(state: Any, system: Any, mode: int, kept: Any) -> Any:
     return out
 
 
-@jit
+@part
 def _advance(state: Any, system: Any, mode: int, kept: Any, h: float) -> Any:
     """One Runge-Kutta step of length ``h``."""
-    k1 = _rates(state, system, mode, kept)
-    k2 = _rates(state + h / 2 * k1, system, mode, kept)
-    k3 = _rates(state + h / 2 * k2, system, mode, kept)
-    k4 = _rates(state + h * k3, system, mode, kept)
-    return state + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4)
+    total, at = np.zeros(STATE), state
+    for stage in range(4):
+        k = _rates(at, system, mode, kept)
+        at = np.empty(STATE)
+        share = h if stage == 2 else h / 2
+        for i in range(STATE):  # expressions of whole arrays take long to compile
+            total[i] += k[i] if stage in (0, 3) else 2 * k[i]
+            at[i] = state[i] + share * k[i]
+    for i in range(STATE):
+        total[i] = state[i] + h / 6 * total[i]
+    return total
 
 
-@jit
+@part
 def _excess(state: Any, contact: Any, mode: int, kept: Any) -> float:
     """Positive where the patch can no longer go on as it does."""
     if contact.law != PATCH:
@@ -107,7 +113,7 @@ def _excess(state: Any, contact: Any, mode: int, kept: Any) -> float:
     return mode * state[SLIP] if normal > 0 else -1.0
 
 
-@jit
+@part
 def _step_length(state: Any, body: Any, contact: Any, widest: float) -> float:
     """The inverse of the fastest rate that is at work."""
     half, normal, _ = _normal(state, contact.theta)
@@ -121,7 +127,7 @@ def _step_length(state: Any, body: Any, contact: Any, widest: float) -> float:
     return 1 / rate
 
 
-@jit
+@part
 def _switch(state: Any, contact: Any, mode: int, kept: Any) -> int:
     """What a patch does next whose law has just been exceeded; one that sticks gets the bristles that hold mu N."""
     half, _, eta = _normal(state, contact.theta)
@@ -138,7 +144,7 @@ def _switch(state: Any, contact: Any, mode: int, kept: Any) -> int:
     return STICK
 
 
-@jit
+@part
 def _note(row: Any, tau: float, state: Any, contact: Any, mode: int, kept: Any) -> None:
     """Fill a record."""
     row[1], row[2] = _forces(state, contact, mode, kept)
@@ -150,7 +156,7 @@ def _note(row: Any, tau: float, state: Any, contact: Any, mode: int, kept: Any) 
     row[6], row[7] = state[PSI], state[OMEGA]
 
 
-@jit
+@part
 def _cut(state: Any, system: Any, mode: int, kept: Any, h: float, event: bool, psi_end: float) -> Any:
     """The part of a step of length ``h`` that ends at an event or at an angle: (length, state, event, at the angle)."""
     low, high = 0.0, h
@@ -172,7 +178,7 @@ def _cut(state: Any, system: Any, mode: int, kept: Any, h: float, event: bool, p
     return high, after, event, late
 
 
-@jit
+@part
 def _settled(state: Any, system: Any, mode: int, kept: Any) -> int:
     """Bring the bristles up to date after a step; the mode, which is another where the patch is off the floor."""
     contact = system.contact
@@ -184,6 +190,16 @@ def _settled(state: Any, system: Any, mode: int, kept: Any) -> int:
     elif contact.law == PATCH and mode == STICK and half > 0:
         step_on(kept, half, state[ROLLED], state[WAY])
     return mode
+
+
+@part
+def _twice_as_long(rows: Any) -> Any:
+    """The same rows with room for as many again."""
+    longer = np.empty((2 * rows.shape[0], rows.shape[1]))
+    for i in range(rows.shape[0]):
+        for k in range(rows.shape[1]):
+            longer[i, k] = rows[i, k]
+    return longer
 
 
 @jit
@@ -234,7 +250,7 @@ def march(system: Any, start: Any, mode: int, kept: Any, ends: Any) -> Any:
         turned = _settled(state, system, mode, kept)
         switching = (event and running) or turned != mode
         if rows + 2 >= records.shape[0]:
-            records = np.concatenate((records, np.empty_like(records)))
+            records = _twice_as_long(records)
         if switching or not running or steps % int(ends[3]) == 0:
             _note(records[rows], tau, state, contact, mode, kept)
             rows += 1
@@ -247,7 +263,7 @@ def march(system: Any, start: Any, mode: int, kept: Any, ends: Any) -> Any:
             _note(records[rows], tau, state, contact, mode, kept)
             rows += 1
             if marks == switches.shape[0]:
-                switches = np.concatenate((switches, np.empty_like(switches)))
+                switches = _twice_as_long(switches)
             switches[marks, 0], switches[marks, 1] = tau, mode
             marks += 1
     return records[:rows].copy(), switches[:marks].copy(), state

@@ -52,20 +52,23 @@ def at_the_same_angle(columns: Columns, motion: Motion, pulse: Pulse) -> Columns
     return {name: np.where(outside, np.nan, columns[name] - getattr(states, name)) for name in FORCES}
 
 
-def at_the_same_normal_impulse(columns: Columns, motion: Motion, pulse: Pulse) -> Array:
-    """Friction impulse minus that of ``motion`` where as much normal impulse has been given.
+def impulses_along(motion: Motion, pulse: Pulse) -> tuple[Array, Array]:
+    """Normal and friction impulse of a motion through a pulse of it, (n,) each, from the pulse's start."""
+    t = motion.times(pulse.t_start, pulse.t_end)
+    # straight between its times to 2e-3 is not straight enough for trapezoids here: a thousandth of that is
+    fine = np.append((t[:-1, None] + np.diff(t)[:, None] * np.arange(_FINER) / _FINER).ravel(), t[-1])
+    states = motion.at(fine)
+    return accumulated(fine, states.normal_force), accumulated(fine, states.friction_force)
 
-    Parameters as of :func:`at_the_same_angle`; both impulses count from the pulse's start.
+
+def at_the_same_normal_impulse(columns: Columns, along: tuple[Array, Array]) -> Array:
+    """Friction impulse minus that of a motion, given by :func:`impulses_along`, behind as much normal impulse.
 
     Returns
     -------
     (n,) array
         NaN where the normal impulse is more than all of the pulse's.
     """
-    t = motion.times(pulse.t_start, pulse.t_end)
-    # straight between its times to 2e-3 is not straight enough for trapezoids here: a thousandth of that is
-    fine = np.append((t[:-1, None] + np.diff(t)[:, None] * np.arange(_FINER) / _FINER).ravel(), t[-1])
-    states = motion.at(fine)
-    along, across = (accumulated(fine, force) for force in (states.normal_force, states.friction_force))
+    normal, friction = along
     x, y = columns["normal_impulse"], columns["friction_impulse"]
-    return np.where(x <= along[-1], y - np.interp(x, along, across), np.nan)
+    return np.where(x <= normal[-1], y - np.interp(x, normal, friction), np.nan)

@@ -10,7 +10,7 @@ built-in solvers alone.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import cache
 from importlib import import_module, metadata
 from importlib.util import find_spec
@@ -46,8 +46,34 @@ def flexible(scene: Scene, *, history: bool = False, progress: Progress | None =
     return simulate(scene, history=history, progress=progress)
 
 
+LEVELS = {"reduced": "flexible.time.stages", "chain": "flexible.chain.stage"}
+"""Levels of the flexible solver that have compiled code of their own, and the module whose code is compiled last."""
+
+
+def levels_of(scenes: Iterable[Scene]) -> list[str]:
+    """Those that the flexible solver needs for these scenes."""
+    from flexible.models.select import level_of
+
+    found = {level_of(scene.to_dimensionless()) for scene in scenes}
+    return [level for level in LEVELS if level in found]
+
+
+def missing(levels: Iterable[str]) -> list[str]:
+    """Those of the levels for which this machine has no compiled code yet."""
+    import flexible  # noqa: F401  whose kernels are meant
+    from rigid.kernel.store import is_cold
+
+    return [level for level in levels if is_cold(LEVELS[level])]
+
+
 def prepare(*names: str) -> Path:
-    """Compile what these solvers need and this machine does not have yet; return the folder where it is kept."""
+    """Compile what "rigid", or a level of the flexible solver, needs and this machine does not have yet.
+
+    Returns
+    -------
+    Path
+        The folder where it is kept.
+    """
     import numpy as np
 
     import rigid
@@ -56,9 +82,9 @@ def prepare(*names: str) -> Path:
     scene = rigid.load_scene("paper-3.3-light").replace(solve={"rtol": 1e-2}, run=rigid.Run(until="pulse"))
     if "rigid" in names:
         rigid.simulate_batch([scene], workers=1)
-        rigid.simulate(scene).at(np.zeros(rigid.solve.PATIENCE))  # so many instants are for the compiled kernel
-    if "flexible" in names:
-        for level in ("reduced", "chain"):  # of which solve.level = "auto" takes the one or the other
+        rigid.simulate(scene).at(np.zeros(rigid.solve.INSTANTS))  # so many are for the compiled kernel
+    for level in LEVELS:
+        if level in names:
             flexible(scene.replace(solve={"level": level}))
     return user_cache()[0]
 

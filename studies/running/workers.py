@@ -9,12 +9,11 @@ from contextlib import contextmanager
 from typing import Protocol
 
 from rigid import scene_to_dict
-from rigid.kernel.store import is_cold
 
 from ..machine.processes import Processes, WorkerDied, cores
 from .case import Case, OtherBuild, Outcome, run_case
 from .files import StudyError, plain
-from .solvers import prepare, version
+from .solvers import levels_of, missing, prepare, version
 
 _DEATHS = 3
 """A case whose worker has died this often is not tried again."""
@@ -51,15 +50,14 @@ class Machine:
     def __init__(self, workers: int) -> None:
         self._count = workers
         self._processes = Processes(workers)
-        self._ready = False
+        self._ready: set[str] = set()
 
     def submit(self, case: Case) -> Future[Outcome]:
-        if case.solver == "flexible" and not self._ready:
-            import flexible  # noqa: F401  whose kernels are meant
-
-            if is_cold("flexible"):  # one process compiles for all
-                self._processes.submit(prepare, "flexible").result()
-            self._ready = True
+        if case.solver == "flexible":
+            levels = [level for level in levels_of([case.scene]) if level not in self._ready]
+            if absent := missing(levels):  # one process compiles for all
+                self._processes.submit(prepare, *absent).result()
+            self._ready.update(levels)
         return self._processes.submit(run_case, case)
 
     def workers(self) -> int:

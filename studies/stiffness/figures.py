@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from rigid import simulate
 
-from ..plots.difference import at_the_same_angle, at_the_same_normal_impulse
+from ..plots.difference import at_the_same_angle, at_the_same_normal_impulse, impulses_along
 from ..plots.pulse import Curve, energy, impulses, pulse
 from ..plots.style import RIGID, STYLE, blank, colours, power_of_ten
 from ..running.history import dimensionless
@@ -31,7 +31,8 @@ def of_study(study: StiffnessStudy) -> dict[str, Figure]:
     own = [rung.outcome.histories[0] for rung in rungs]
     forces = [dimensionless(at_the_same_angle(columns, motion, whole), study.scene) for columns in own]
     unit = study.scene.impulse_unit
-    friction = [at_the_same_normal_impulse(columns, motion, whole) / unit for columns in own]
+    along = impulses_along(motion, whole)
+    friction = [at_the_same_normal_impulse(columns, along) / unit for columns in own]
     mu = study.scene.friction.mu
     drawn = {
         "pulse": pulse(curves, "Through the first pulse", forces),

@@ -58,7 +58,14 @@ def element_at(vertex: Any, theta: float) -> int:
     n = vertex.shape[0]
     turn = int(floor((theta - vertex[0]) / (2 * pi)))
     rest = theta - 2 * pi * turn
-    return int(np.searchsorted(vertex, rest, side="right")) - 1 + turn * n
+    low, high = -1, n
+    while high - low > 1:
+        middle = (low + high) // 2
+        if vertex[middle] <= rest:
+            low = middle
+        else:
+            high = middle
+    return low + turn * n
 
 
 @jit
@@ -71,9 +78,12 @@ def below_floor(theta: Any, phi: float, height: float, moved: Any) -> tuple[floa
     gap, psi = np.empty(theta.shape[0]), np.empty(theta.shape[0])
     for i in range(theta.shape[0]):
         angle = phi - pi + theta[i]
-        psi[i] = angle - 2 * pi * np.round(angle / (2 * pi))
+        psi[i] = angle - 2 * pi * floor(angle / (2 * pi) + 0.5)
         gap[i] = gap_at(height, psi[i], upward(moved[2 * i], moved[2 * i + 1], s, c))
-    deepest = max(0.0, gap.min())
+    deepest = gap[0]
+    for i in range(1, theta.shape[0]):
+        deepest = min(deepest, gap[i])
+    deepest = max(deepest, 0.0)
     low, high = np.inf, -np.inf
     for i in range(theta.shape[0]):
         if gap[i] <= deepest:
