@@ -12,7 +12,7 @@ from math import cos, inf, pi, sin, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Kind, Motion, Side
+from rigid import Kind, Motion, Side, States
 from rigid.output.units import without_units
 
 from .contact.laws.law import Rolling
@@ -56,21 +56,25 @@ class Pose:
 
 def pose_at(motion: Motion, t: float, side: Side = "right") -> Pose:
     """The rigid motion at time ``t``, without its units; where phases meet, in the one that ``side`` says."""
-    now = without_units(motion.at(t, side), motion.scene)
+    return _pose(without_units(motion.at(t, side), motion.scene), motion.phase_at(t, side).kind)
+
+
+def _pose(now: States, kind: Kind) -> Pose:
     forces = float(now.normal_force), float(now.friction_force)
-    return Pose(float(now.phi), float(now.omega), float(now.slip_velocity), *forces, motion.phase_at(t, side).kind)
+    return Pose(float(now.phi), float(now.omega), float(now.slip_velocity), *forces, kind)
 
 
-def instants_around(motion: Motion, t: float) -> tuple[tuple[float, Side, float], ...]:
+def _instants_around(motion: Motion, t: float, now: States) -> tuple[tuple[float, Side, float], ...]:
     """Instants (time, side, weight) of the phase at ``t``: the weighted sum of a quantity over them is its rate.
+
+    ``now`` are the motion's states there, without units.
 
     The forces of the rigid hoop are functions of the angle, by way of zeta + 2 (1 + cos phi), and of 1 + phidot^2: they
     change in the time in which the root of the first or the second one do, k^2 in the pulse of a small disk. Across an
     end of the phase they jump, which is no rate, so there the parabola through three instants leans to one side.
     """
-    phase, now = motion.phase_at(t), motion.at(t)
-    unit = motion.scene.time_unit
-    omega, alpha = float(now.omega) * unit, float(now.alpha) * unit**2
+    phase, unit = motion.phase_at(t), motion.scene.time_unit
+    omega, alpha = float(now.omega), float(now.alpha)
     width = sqrt(motion.scene.hoop.constants.zeta + 4 * cos(float(now.phi) / 2) ** 2)
     fastest = max(1.0, abs(omega) / width, 2 * abs(omega * alpha) / (1 + omega**2))
     step = min(SPAN * unit / fastest, (phase.t_end - phase.t_start) / 2)
@@ -147,15 +151,15 @@ def undeformed(hoop: Hoop, pose: Pose) -> State:
 def hand_over(hoop: Hoop, motion: Motion, t: float) -> State:
     """The flexible hoop at time ``t`` of a rigid motion, with the rates of the equilibria around it."""
     scene = motion.scene
-    pose = pose_at(motion, t)
     now = without_units(motion.at(t), scene)
+    pose = _pose(now, motion.phase_at(t).kind)
     if scene.solve.start == "undeformed" and t == 0:
         return undeformed(hoop, pose)
     state = equilibrium(hoop, pose, float(now.t), float(now.x_C))
     vel = np.zeros_like(state.pos)
     vel[2] = pose.omega
     u_rate = 0.0
-    around = instants_around(motion, t) if pose.omega != 0 else ()
+    around = _instants_around(motion, t, now) if pose.omega != 0 else ()
     for moment, side, weight in around:
         there = equilibrium(hoop, pose_at(motion, moment, side))
         vel[1] += weight * there.pos[1]

@@ -13,7 +13,7 @@ import numpy as np
 
 from rigid.kernel.compile import jit, part
 
-from ..contact.forces import forces_in_newton
+from ..contact.forces import contact_forces, first_forces
 from ..contact.newton import move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, pulling
 from ..contact.vectors import largest
@@ -80,7 +80,11 @@ def solve_stage(
     damper = pulling(damper, True)
     for iteration in range(MOST_ITERATIONS):
         pos, vel, acc = reached(predictor, d)
-        contact = forces_in_newton(pos[:FRAME], u, facing.rim, law, mode, before, damper, iteration == 0)
+        begins = iteration == 0
+        if begins:
+            contact = first_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper, begins)
+        else:
+            contact = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper, not begins)
         res = contact.res
         share = share_before_bend(res, way, reach)
         if share < 1:

@@ -2,6 +2,7 @@
 
 ``points``    material points of the rim: which touch, the foundation under them, the bristles along it
 ``laws``      friction laws, a file each
+``room``      the few arrays that all of them are parts of
 ``assembly``  from points to unknowns
 ``forces``    all of it together: forces, tangent, state of the patch
 ``newton``    what Newton on a stage with these forces is alike for all rings

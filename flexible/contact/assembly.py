@@ -8,28 +8,32 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
-from rigid.kernel.compile import jit, part
-
-from .points.normal import sum_by_gaps
+from rigid.kernel.compile import loop
 
 X, Y = 0, 1
 
 
-@part
-def spread(vector: Any, kind: int, s: float, c: float) -> Any:
-    """From a basis to the unknowns."""
-    nodes = vector.shape[0] - 2
+@loop
+def spread(vector: Any, kind: int, s: float, c: float, to: Any) -> None:
+    """Add what is known in a basis to the unknowns."""
     first, second = (s, c) if kind == X else (c, -s)
-    result = np.zeros(3 + 2 * nodes)
-    result[kind], result[2] = vector[0], vector[1]
-    for i in range(nodes):
-        result[3 + 2 * i], result[4 + 2 * i] = first * vector[2 + i], second * vector[2 + i]
-    return result
+    to[kind] += vector[0]
+    to[2] += vector[1]
+    for i in range(2, vector.shape[0]):
+        to[2 * i - 1] += first * vector[i]
+        to[2 * i] += second * vector[i]
 
 
-@part
+@loop
+def share_out(unknowns: Any, frame: Any, nodal: Any) -> None:
+    """Fill in what of the unknowns' forces is the frame's, and the nodes'."""
+    for i in range(3):
+        frame[i] = unknowns[i]
+    for i in range(nodal.shape[0]):
+        nodal[i, 0], nodal[i, 1] = unknowns[3 + 2 * i], unknowns[4 + 2 * i]
+
+
+@loop
 def add_spread(tangent: Any, matrix: Any, row_kind: int, column_kind: int, s: float, c: float, factor: float) -> None:
     """Add ``factor`` times a matrix between two bases to the tangent of the unknowns."""
     r1, r2 = (s, c) if row_kind == X else (c, -s)
@@ -60,7 +64,7 @@ def add_spread(tangent: Any, matrix: Any, row_kind: int, column_kind: int, s: fl
                     tangent[row + 1, column + 1] += r2 * c2 * value
 
 
-@part
+@loop
 def _scatter(k_yy: Any, k_xy: Any, k_xx: Any, block: Any, first: int) -> None:
     """Add an element's products to the tangents, and clear them."""
     for q in range(5):
@@ -73,7 +77,7 @@ def _scatter(k_yy: Any, k_xy: Any, k_xx: Any, block: Any, first: int) -> None:
             block[0, q, w] = block[1, q, w] = block[2, q, w] = 0.0
 
 
-@part
+@loop
 def add_outer(tangent: Any, factor: float, left: Any, right: Any) -> None:
     """Add so many times the product of a column and a row."""
     for i in range(left.shape[0]):
@@ -81,31 +85,28 @@ def add_outer(tangent: Any, factor: float, left: Any, right: Any) -> None:
             tangent[i, j] += factor * left[i] * right[j]
 
 
-@part
+@loop
 def _row(q: int, first: int) -> int:
     return q if q < 2 else first + q
 
 
-@part
-def directions(points: Any) -> tuple[Any, Any]:
+@loop
+def direct(points: Any, along: Any, up: Any) -> None:
     """What moves each point's abscissa and gap: by V or h, by phi, by the three nodes of its element."""
-    total = points.gap.shape[0]
-    along, up = np.ones((total, 5)), np.ones((total, 5))
-    for i in range(total):
+    for i in range(along.shape[0]):
+        along[i, 0], up[i, 0] = 1.0, 1.0
         along[i, 1], up[i, 1] = points.arm_y[i], points.arm_x[i]
-        for q in range(3):  # an assignment of slices would compile numpy's broadcasting with all its messages
+        for q in range(3):
             along[i, 2 + q] = up[i, 2 + q] = points.shape[i, q]
-    return along, up
 
 
-@part
-def tangents(points: Any, foundation: Any, forces: Any, along: Any, up: Any, nodes: int) -> tuple[Any, Any, Any]:
-    """Derivatives of elastic normal forces by gaps, of tangential ones by gaps and by abscissas, in those bases."""
-    size = 2 + nodes
-    k_yy, k_xy, k_xx = np.zeros((size, size)), np.zeros((size, size)), np.zeros((size, size))
-    # the points of an element share a basis: its products are gathered in place and added when it is left
-    block = np.zeros((3, 5, 5))
-    by_up, by_traction = np.empty(5), np.empty(5)
+@loop
+def tangents(points: Any, foundation: Any, forces: Any, along: Any, up: Any, to: Any, block: Any) -> None:
+    """Derivatives of elastic normal forces by gaps, of tangential ones by gaps and by abscissas, in those bases.
+
+    The points of an element share a basis: its products are gathered in a block and added when it is left.
+    """
+    k_yy, k_xy, k_xx, by = to[0], to[1], to[2], block[3]
     element = 0
     total = points.gap.shape[0]
     for i in range(total):
@@ -116,8 +117,8 @@ def tangents(points: Any, foundation: Any, forces: Any, along: Any, up: Any, nod
             _scatter(k_yy, k_xy, k_xx, block, element)
             element = here
         for w in range(5):
-            by_up[w] = -foundation.diagonal[i] * up[i, w]
-            by_traction[w] = forces.by_gap[i, 2] * up[i, w]
+            by[0, w] = -foundation.diagonal[i] * up[i, w]
+            by[1, w] = forces.by_gap[i, 2] * up[i, w]
         for away in (-2, -1, 1, 2):
             near = i + away
             if near < 0 or near >= total or points.last[min(i, near)]:
@@ -130,8 +131,8 @@ def tangents(points: Any, foundation: Any, forces: Any, along: Any, up: Any, nod
             there = points.local[near]
             if there == here:
                 for w in range(5):
-                    by_up[w] -= spring * up[near, w]
-                    by_traction[w] += rate * up[near, w]
+                    by[0, w] -= spring * up[near, w]
+                    by[1, w] += rate * up[near, w]
             else:
                 for q in range(5):
                     for w in range(5):
@@ -139,31 +140,20 @@ def tangents(points: Any, foundation: Any, forces: Any, along: Any, up: Any, nod
                         k_xy[_row(q, here), _row(w, there)] += rate * along[i, q] * up[near, w]
         for q in range(5):
             for w in range(5):
-                block[0, q, w] += up[i, q] * by_up[w]
-                block[1, q, w] += along[i, q] * by_traction[w]
+                block[0, q, w] += up[i, q] * by[0, w]
+                block[1, q, w] += along[i, q] * by[1, w]
         if forces.by_abscissa[i] != 0 or forces.by_phi[i] != 0:
             for q in range(5):
                 block[2, q, 1] += along[i, q] * forces.by_phi[i]
                 for w in range(5):
                     block[2, q, w] += along[i, q] * forces.by_abscissa[i] * along[i, w]
     _scatter(k_yy, k_xy, k_xx, block, element)
-    return k_yy, k_xy, k_xx
 
 
-@part
-def gathered(points: Any, values: Any, directions: Any, nodes: int) -> Any:
-    """Sum of each point's value times its direction, in the basis (V or h, phi, nodes)."""
-    total = np.zeros(2 + nodes)
+@loop
+def gather(points: Any, values: Any, factor: float, directions: Any, to: Any) -> None:
+    """Add so many times the sum of each point's value times its direction, in the basis (V or h, phi, nodes)."""
     for i in range(values.shape[0]):
+        value = factor * values[i]
         for q in range(5):
-            total[_row(q, points.local[i])] += values[i] * directions[i, q]
-    return total
-
-
-@jit
-def slip_by_gaps(points: Any, ways: Any, foundation: Any, slip: float, elastic: float, up: Any, nodes: int) -> Any:
-    """Derivative of the mean slip by the gaps, through the normal forces that weigh it."""
-    factors = np.empty(ways.shape[0])
-    for i in range(ways.shape[0]):
-        factors[i] = (ways[i] - slip) / elastic
-    return gathered(points, sum_by_gaps(factors, foundation), up, nodes)
+            to[_row(q, points.local[i])] += value * directions[i, q]

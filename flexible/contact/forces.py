@@ -23,22 +23,23 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel.compile import jit, part, written_out
+from rigid.kernel.compile import jit, loop, written_out
 
-from .assembly import X, Y, add_outer, add_spread, directions, gathered, slip_by_gaps, spread, tangents
+from .assembly import X, Y, add_outer, add_spread, direct, gather, share_out, spread, tangents
 from .laws.listing import tractions
 from .points.bristles import carry
 from .points.data import Before, Bristles, Contact, Damper, Load, Parameters, Resultants, Rim, Slip
-from .points.detection import gather, least_gap
-from .points.normal import force_by_gaps, press
+from .points.detection import find, least_gap, place
+from .points.normal import force_by_gaps, press, sum_by_gaps
 from .points.rim import gap_at, lift, sideways, upward, vertex_angle
-from .vectors import add, dot, plus, times
+from .room import PULL, SCRATCH, Room, carried_in, forces_in, foundation_in, keep, points_in, room_for
+from .vectors import add, dot, total
 
 
-@part
+@loop
 def _load(foundation: Any, damper: Damper) -> Load:
     """The normal force as a whole, and what the damper makes of it."""
-    elastic = foundation.force.sum()
+    elastic = total(foundation.force)
     eta, eta_rate = damper.eta_0, 0.0
     if elastic > 0 and damper.relaxation > 0:
         eta += damper.relaxation * (1 - damper.elastic_0 / elastic)
@@ -48,7 +49,7 @@ def _load(foundation: Any, damper: Damper) -> Load:
     return Load(elastic, eta, eta_rate)
 
 
-@part
+@loop
 def _way_over_the_floor(pose: Any, u: Any, rim: Rim, before: Before) -> float:
     """Way in the step of the rim's node that comes nearest to the floor, where none touches: with it a patch begins."""
     old, u_old = before.pose, before.u
@@ -66,16 +67,7 @@ def _way_over_the_floor(pose: Any, u: Any, rim: Rim, before: Before) -> float:
     return way
 
 
-@part
-def _nothing(nodes: int, outside: bool, way: float) -> Contact:
-    """Off the floor."""
-    size = 3 + 2 * nodes
-    zero = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, way, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf, 0.0)
-    none = Bristles(np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0, np.int8))
-    return Contact(np.zeros(3), np.zeros((nodes, 2)), np.zeros((size, size)), zero, none, outside)
-
-
-@part
+@loop
 def _add_shared(points: Any, foundation: Any, forces: Any, shared: Any, elastic: float) -> None:
     """Share a force of the whole patch over its points like the pressure."""
     for i in range(points.gap.shape[0]):
@@ -83,13 +75,13 @@ def _add_shared(points: Any, foundation: Any, forces: Any, shared: Any, elastic:
     force_by_gaps(forces.by_gap, shared.force / elastic, foundation)
 
 
-@part
-def _add_turning(tangent: Any, force: Any, points: Any, pressed: Any, pulled: Any) -> None:
+@loop
+def _add_turning(tangent: Any, force: Any, points: Any, eta: float, pressed: Any, pulled: Any) -> None:
     """The directions themselves turn with phi: add that to the tangent, for vertical and horizontal point forces."""
     turning = 0.0
     for i in range(points.gap.shape[0]):
         # cos(psi) - u_Y and sin(psi) - u_X
-        turning += pressed[i] * (1 - points.arm_y[i]) + pulled[i] * points.arm_x[i]
+        turning += eta * pressed[i] * (1 - points.arm_y[i]) + pulled[i] * points.arm_x[i]
     tangent[2, 2] += turning
     for row in range(3, force.shape[0], 2):
         tangent[2, row] += force[row + 1]
@@ -98,7 +90,7 @@ def _add_turning(tangent: Any, force: Any, points: Any, pressed: Any, pulled: An
         tangent[row + 1, 2] -= force[row]
 
 
-@part
+@loop
 def _ends(points: Any) -> tuple[float, float]:
     """Angles psi of the first and the last point that touch, 0 if none does."""
     low, high, active = 0.0, 0.0, 0
@@ -111,22 +103,7 @@ def _ends(points: Any) -> tuple[float, float]:
     return low, high
 
 
-@part
-def _stored(points: Any, carried: Any, pull: Any, keeps: Any) -> Bristles:
-    """What of the points outlasts the step."""
-    size = keeps.sum()
-    number, sliding = np.empty(size, np.int64), np.empty(size, np.int8)
-    stretch, held = np.empty(size), np.empty(size)
-    n = 0
-    for i in range(keeps.shape[0]):
-        if keeps[i]:
-            number[n], stretch[n], held[n] = points.number[i], carried.stretch[i], pull[i]
-            sliding[n] = carried.sliding[i]
-            n += 1
-    return Bristles(number, stretch, held, sliding)
-
-
-@part
+@loop
 def _work_of_those_that_left(
     points: Any, before: Before, slip: Slip, moved: float, dphi: float, law: Parameters, stuck: float
 ) -> float:
@@ -156,11 +133,100 @@ def _work_of_those_that_left(
     return work
 
 
+@loop
+def _differentiate(room: Room, shared: Any, load: Load, s: float, c: float, dphi: float, way: float) -> None:
+    """Fill in the tangent of forces that are known."""
+    points, foundation, forces, tangent = points_in(room), foundation_in(room, 0.0, 0.0), forces_in(room), room.tangent
+    along, up, bases, unknowns, by_bases = room.fives[0], room.fives[1], room.bases, room.unknowns, room.by_bases
+    pushes, force, elastic_by, sharing, spreading, slip_by = (
+        unknowns[0], unknowns[1], unknowns[2], unknowns[3], unknowns[4], unknowns[5],
+    )  # fmt: skip
+    tangents(points, foundation, forces, along, up, by_bases, room.block)
+    add_spread(tangent, by_bases[0], Y, Y, s, c, load.eta)
+    add_spread(tangent, by_bases[1], X, Y, s, c, 1.0)
+    add_spread(tangent, by_bases[2], X, X, s, c, 1.0)
+    spread(by_bases[0, 0], Y, s, c, elastic_by)
+    # eta and what is shared change with all unknowns at once
+    if load.eta_rate != 0:
+        gather(points, forces.share, 1.0, along, bases[2])
+        spread(bases[2], X, s, c, sharing)
+        add_outer(tangent, load.eta_rate, pushes, elastic_by)
+        add_outer(tangent, load.eta_rate, sharing, elastic_by)
+    if shared.acts:
+        gather(points, foundation.force, 1 / load.elastic, along, bases[3])
+        spread(bases[3], X, s, c, spreading)
+        add(slip_by, 1.0, spreading)
+        slip_by[2] += dphi * dot(foundation.force, points.sine) / load.elastic
+        # through the normal forces, which weigh the mean slip
+        factors, by_gap = room.rows[SCRATCH], room.rows[SCRATCH + 1]
+        for i in range(factors.shape[0]):
+            factors[i] = (points.move[i] + dphi * points.lifted[i] - way) / load.elastic
+        sum_by_gaps(factors, foundation, by_gap)
+        gather(points, by_gap, 1.0, up, bases[4])
+        spread(bases[4], Y, s, c, slip_by)
+        add_outer(tangent, shared.by_way, spreading, slip_by)
+        add_outer(tangent, shared.by_elastic - shared.force / load.elastic, spreading, elastic_by)
+    _add_turning(tangent, force, points, load.eta, foundation.force, forces.force)
+
+
+@loop
+def _touch(
+    pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper, room: Room
+) -> tuple[Resultants, bool, int]:  # fmt: skip
+    """Forces of points that touch, into the room; the patch as a whole, :class:`Contact.outside`, bristles kept."""
+    phi = pose[2]
+    points, forces, carried = points_in(room), forces_in(room), carried_in(room)
+    outside = place(points, room.ranges, room.ranged, pose, u, rim, law.spacing, before)
+    energy, length = press(points.gap, points.last, law.eps_n, law.spacing, foundation_in(room, 0.0, 0.0))
+    foundation = foundation_in(room, energy, length)
+    load = _load(foundation, damper)
+    elastic, eta = load.elastic, load.eta
+    dphi = phi - before.pose[2]
+    moved = 0.0
+    if elastic == 0:
+        way = _way_over_the_floor(pose, u, rim, before)
+    else:
+        moved = dot(foundation.force, points.move) / elastic
+        way = moved + dphi * dot(foundation.force, points.lifted) / elastic
+    slip = Slip(way, damper.way_0, damper.velocity_0 + damper.rate * (way - damper.way_0), damper.rate, damper.drag)
+    carry(carried, points, before.bristles, dphi, damper, slip, moved)
+    answer = tractions(forces, points, foundation, carried, mode, load, slip, law)
+    shared, pull = answer.shared, room.rows[PULL]
+    for i in range(pull.shape[0]):
+        pull[i] = forces.force[i]
+    if shared.acts:
+        _add_shared(points, foundation, forces, shared, elastic)
+
+    direct(points, room.fives[0], room.fives[1])
+    s, c = sin(phi), cos(phi)
+    pushes, force = room.unknowns[0], room.unknowns[1]
+    gather(points, foundation.force, 1.0, room.fives[1], room.bases[0])
+    spread(room.bases[0], Y, s, c, pushes)
+    gather(points, forces.force, 1.0, room.fives[0], room.bases[1])
+    spread(room.bases[1], X, s, c, force)
+    add(force, eta, pushes)
+    if room.tangent.shape[0] > 0:
+        _differentiate(room, shared, load, s, c, dphi, way)
+
+    low, high = _ends(points)
+    stuck = answer.stuck / length if length > 0 else 0.0
+    beyond = _work_of_those_that_left(points, before, slip, moved, dphi, law, answer.stuck)
+    kept = 0
+    for i in range(pull.shape[0]):
+        beyond += (carried.pull[i] + pull[i]) * (carried.way[i] - carried.mean[i]) / 2
+        kept += 1 if forces.keeps[i] != 0 else 0
+    res = Resultants(
+        force[1], force[0], energy, answer.energy, length, stuck, way, low, high, elastic, eta, shared.damping, beyond,
+        -shared.by_way, shared.reach, answer.feet,
+    )  # fmt: skip
+    return res, outside, kept
+
+
 @jit
 def contact_forces(
-    pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper
+    pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper, differentiates: bool
 ) -> Contact:  # fmt: skip
-    """Forces of the floor on the rim, their tangent, and the state of the bristles.
+    """Forces of the floor on the rim, their tangent if it ``differentiates``, and the state of the bristles.
 
     Parameters
     ----------
@@ -177,72 +243,23 @@ def contact_forces(
     damper : Damper
     """
     nodes = u.shape[0]
-    phi = pose[2]
-    size = 3 + 2 * nodes
-    points, outside = gather(pose, u, rim, law.spacing, before)
-    if points.gap.shape[0] == 0:
-        return _nothing(nodes, outside, _way_over_the_floor(pose, u, rim, before))
-
-    foundation = press(points.gap, points.last, law.eps_n, law.spacing)
-    load = _load(foundation, damper)
-    elastic, eta = load.elastic, load.eta
-    dphi = phi - before.pose[2]
-    moved = 0.0
-    if elastic == 0:
-        way = _way_over_the_floor(pose, u, rim, before)
+    ranges = np.empty(((nodes - 1) // 2, 2), np.int64)
+    ranged, count = find(pose, u, rim, law.spacing, ranges)
+    room = room_for(count, nodes, ranges, ranged, differentiates)
+    frame, nodal = np.empty(3), np.empty((nodes, 2))
+    if count > 0:
+        res, outside, kept = _touch(pose, u, rim, law, mode, before, damper, room)
     else:
-        moved = dot(foundation.force, points.move) / elastic
-        way = moved + dphi * dot(foundation.force, points.lifted) / elastic
-    slip = Slip(way, damper.way_0, damper.velocity_0 + damper.rate * (way - damper.way_0), damper.rate, damper.drag)
-    carried = carry(points, before.bristles, dphi, damper, slip, moved)
-    answer = tractions(points, foundation, carried, mode, load, slip, law)
-    forces, shared = answer.points, answer.shared
-    pull = forces.force.copy()
-    if shared.acts:
-        _add_shared(points, foundation, forces, shared, elastic)
-
-    along, up = directions(points)
-    s, c = sin(phi), cos(phi)
-    pushes = spread(gathered(points, foundation.force, up, nodes), Y, s, c)
-    force = spread(gathered(points, forces.force, along, nodes), X, s, c)
-    add(force, eta, pushes)
-    k_yy, k_xy, k_xx = tangents(points, foundation, forces, along, up, nodes)
-    tangent = np.zeros((size, size))
-    add_spread(tangent, k_yy, Y, Y, s, c, eta)
-    add_spread(tangent, k_xy, X, Y, s, c, 1.0)
-    add_spread(tangent, k_xx, X, X, s, c, 1.0)
-    elastic_by = spread(k_yy[0], Y, s, c)
-    # eta and what is shared change with all unknowns at once
-    if load.eta_rate != 0:
-        add_outer(tangent, load.eta_rate, pushes, elastic_by)
-        add_outer(tangent, load.eta_rate, spread(gathered(points, forces.share, along, nodes), X, s, c), elastic_by)
-    if shared.acts:
-        spreading = spread(gathered(points, times(1 / elastic, foundation.force), along, nodes), X, s, c)
-        slip_by = spreading.copy()
-        slip_by[2] += dphi * dot(foundation.force, points.sine) / elastic
-        ways = plus(points.move, dphi, points.lifted)
-        add(slip_by, 1.0, spread(slip_by_gaps(points, ways, foundation, way, elastic, up, nodes), Y, s, c))
-        add_outer(tangent, shared.by_way, spreading, slip_by)
-        add_outer(tangent, shared.by_elastic - shared.force / elastic, spreading, elastic_by)
-    _add_turning(tangent, force, points, times(eta, foundation.force), forces.force)
-
-    low, high = _ends(points)
-    stuck = answer.stuck / foundation.length if foundation.length > 0 else 0.0
-    beyond = _work_of_those_that_left(points, before, slip, moved, dphi, law, answer.stuck)
-    for i in range(pull.shape[0]):
-        beyond += (carried.pull[i] + pull[i]) * (carried.way[i] - carried.mean[i]) / 2
-    res = Resultants(
-        force[1], force[0], foundation.energy, answer.energy, foundation.length, stuck, way, low, high, elastic, eta,
-        shared.damping, beyond, -shared.by_way, shared.reach, answer.feet,
-    )  # fmt: skip
-    bristles = _stored(points, carried, pull, answer.keeps)
-    nodal = np.empty((nodes, 2))
-    for i in range(nodes):
-        nodal[i, 0], nodal[i, 1] = force[3 + 2 * i], force[4 + 2 * i]
-    return Contact(force[:3].copy(), nodal, tangent, res, bristles, outside)
+        way = _way_over_the_floor(pose, u, rim, before)
+        res = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, way, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf, 0.0)
+        outside, kept = False, 0
+    bristles = Bristles(np.empty(kept, np.int64), np.empty(kept), np.empty(kept), np.empty(kept, np.int8))
+    keep(room, bristles)
+    share_out(room.unknowns[1], frame, nodal)
+    return Contact(frame, nodal, room.tangent, res, bristles, outside)
 
 
-@part
+@loop
 def _too_low(pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, damper: Damper, res: Resultants) -> float:
     """How much farther down the rim is than where its patch is about as deep as before the step; 0 where it is well.
 
@@ -258,22 +275,22 @@ def _too_low(pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, dampe
 
 
 @written_out
-def forces_in_newton(
-    pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper, begins: bool
+def first_forces(
+    pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper, differentiates: bool
 ) -> Contact:  # fmt: skip
-    """:func:`contact_forces`; where Newton ``begins``, with the rim ``u`` moved to where its patch is about as it was.
+    """:func:`contact_forces` where Newton begins, with the rim ``u`` moved to where its patch is about as it was.
 
     A soft ring follows the floor. With a frame that has moved and a rim that has not, the patch is off the floor, and
     the next guess, without its forces, far below it; or so deep that the damper, which multiplies by the stage's rate,
     makes N hundreds of times what it will be. From either Newton takes tens of iterations to come back.
     """
-    contact = contact_forces(pose, u, rim, law, mode, before, damper)
-    for _ in range(3 if begins else 0):
+    contact = contact_forces(pose, u, rim, law, mode, before, damper, differentiates)
+    for _ in range(3):
         raised = _too_low(pose, u, rim, law, before, damper, contact.res)
         if raised == 0:
             break
         for i in range(u.shape[0]):
             u[i, 0] += raised * cos(pose[2])
             u[i, 1] -= raised * sin(pose[2])
-        contact = contact_forces(pose, u, rim, law, mode, before, damper)
+        contact = contact_forces(pose, u, rim, law, mode, before, damper, differentiates)
     return contact

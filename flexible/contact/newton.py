@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from rigid.kernel.compile import part
+import numpy as np
+
+from rigid.kernel.compile import loop, part
 
 from .points.data import Contact, Damper, Resultants
 from .vectors import add, largest, plus, times
@@ -17,7 +19,7 @@ def reached(predictor: Any, d: Any) -> tuple[Any, Any, Any]:
     return plus(predictor.pos, 1.0, d), plus(predictor.vel, 1 / beta, d), times(1 / beta**2, d)
 
 
-@part
+@loop
 def move(d: Any, u: Any, factor: float, update: Any, update_u: Any) -> None:
     """Move the increment and the window's nodes by so many times an update, that of the nodes flat."""
     add(d, factor, update)
@@ -25,7 +27,7 @@ def move(d: Any, u: Any, factor: float, update: Any, update_u: Any) -> None:
         u[k // 2, k % 2] += factor * update_u[k]
 
 
-@part
+@loop
 def share_before_bend(res: Resultants, way: float, reach: float) -> float:
     """Share of Newton's last step, from ``way``, that is taken: friction is about linear over ``reach``.
 
@@ -35,10 +37,16 @@ def share_before_bend(res: Resultants, way: float, reach: float) -> float:
     return reach / step if res.elastic > 0 and step > 1.5 * reach else 1.0
 
 
-@part
+@loop
 def round_off(contact: Contact, height: float, u: Any, scale: float, damper: Damper) -> float:
     """Size of the rounding errors in the contact's forces: of the gap's, of the damping factor's, of the slip's."""
     res = contact.res
     gap = 4e-16 * scale * (abs(height) + largest(u))
     floor = (damper.relaxation + 1) * (gap + 1e-14 * res.elastic)
     return floor + 1e-15 * max(damper.drag, res.steepness) * (abs(res.way) + abs(damper.way_0))
+
+
+@loop
+def left_by_newton(last: float, before_last: float) -> float:
+    """What a step of Newton is to leave of a misfit ``last``: each squares what the one before has squared."""
+    return last * (last / before_last) ** 2 if before_last < np.inf else np.inf

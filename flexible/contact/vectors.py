@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel.compile import jit, part
+from rigid.kernel.compile import jit, loop
 
 
 @jit
@@ -24,7 +24,7 @@ def largest(values: Any) -> float:
     return most
 
 
-@part
+@loop
 def dot(left: Any, right: Any) -> float:
     """Sum of the products."""
     total = 0.0
@@ -33,7 +33,16 @@ def dot(left: Any, right: Any) -> float:
     return total
 
 
-@part
+@loop
+def total(values: Any) -> float:
+    """Sum."""
+    found = 0.0
+    for i in range(values.shape[0]):
+        found += values[i]
+    return found
+
+
+@loop
 def add(to: Any, factor: float, values: Any) -> None:
     """Add so many times the values in place."""
     for i in range(to.shape[0]):

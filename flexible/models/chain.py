@@ -21,7 +21,7 @@ from ..contact.vectors import largest
 from ..ring.fem import ring_of
 from .rim_contact import RimContact
 from .stage import Predictor, Stage
-from .state import State
+from .state import Energies, State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -153,9 +153,9 @@ class ChainHoop(RimContact):
             acc[3:] = 0.0
         return Stage(iterations >= 0, d, acc, factors, window, u, contact.nodal, contact.res, contact.bristles)
 
-    def energies(self, state: State) -> tuple[float, float, float]:
+    def energies(self, state: State, held: Energies | None = None) -> Energies:
         """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
-        kinetic, gravity, strain = self.held(state.pos, state.vel)
+        kinetic, gravity, strain = held or self.held(state.pos, state.vel)
         if state.res.normal > 0:
             strain += float((state.nodal * self._beyond(state, state.window)[1]).sum()) / 2
         return kinetic, gravity, strain

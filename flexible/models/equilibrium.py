@@ -139,7 +139,7 @@ class Patch:
             offset, compliance = ring.response(window)
             pose = np.array([0.0, self.height, self.phi])
             rim, before = Rim(window[0], self.hoop.vertex), Before(pose, self.u, no_bristles())
-            contact = contact_forces(pose, self.u, rim, self.law, self.mode, before, UNDAMPED)
+            contact = contact_forces(pose, self.u, rim, self.law, self.mode, before, UNDAMPED, True)
             force, tangent = contact.force, contact.tangent
             self.nodal, self.res, self.bristles = contact.nodal, contact.res, contact.bristles
             if contact.outside:

@@ -22,7 +22,7 @@ from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
 from .rim_contact import RimContact
 from .stage import Predictor, Stage
-from .state import State
+from .state import Energies, State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -173,7 +173,7 @@ class FullHoop(RimContact):
         for iteration in range(MOST_ITERATIONS):
             pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
             u = pos[3:][dofs].reshape(-1, 2)
-            contact = contact_forces(pos[:3], u, rim, law, mode, before, damper)
+            contact = contact_forces(pos[:3], u, rim, law, mode, before, damper, True)
             res = contact.res
             if res.elastic > 0 and abs(res.way - way) > 1.5 * reach:  # see flexible.models.stage
                 share = reach / abs(res.way - way)
@@ -220,9 +220,9 @@ class FullHoop(RimContact):
             self._factored = _Factored(self.ring, pos[3:], vel[2], acc[2], beta)
         return self._factored
 
-    def energies(self, state: State) -> tuple[float, float, float]:
+    def energies(self, state: State, held: Energies | None = None) -> Energies:
         """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
-        return self.held(state.pos, state.vel)
+        return held or self.held(state.pos, state.vel)
 
     def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:
         """See :class:`flexible.models.state.Model`."""

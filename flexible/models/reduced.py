@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Scene
-from rigid.kernel.compile import jit, part, written_out
+from rigid.kernel.compile import jit, loop, part, written_out
 
 from ..contact.points.data import Before, Bristles, Damper, Parameters, Resultants
 from ..contact.points.data import Rim as NearFloor
@@ -20,7 +20,7 @@ from ..ring.reduction import ReducedRing, Rim, is_known, reduce, residual, windo
 from .equilibrium import RestingModes
 from .rim_contact import RimContact, window_around
 from .stage import Predictor, Stage, Window, filtered_error, solve_stage
-from .state import State
+from .state import Energies, State
 
 Array = NDArray[np.float64]
 
@@ -69,14 +69,19 @@ def _moved(arrays: Arrays, old: Start, window: tuple[int, int]) -> Any:
     elements = arrays.vertex.shape[0]
     here, there = window_dofs(elements, window), window_dofs(elements, old.window)
     moved = np.zeros((here.shape[0] // 2, 2))
-    gives = residual(arrays.rim, here, there)
-    for i in range(here.shape[0]):
-        for k in range(arrays.rim.shapes.shape[1]):
-            moved[i // 2, i % 2] += arrays.rim.shapes[here[i], k] * old.pos[3 + k]
-        if old.res.normal > 0:
-            for j in range(there.shape[0]):
-                moved[i // 2, i % 2] += gives[i, j] * old.nodal[j // 2, j % 2]
+    _move(moved, arrays.rim.shapes, here, old.pos, residual(arrays.rim, here, there), old.nodal, old.res.normal)
     return moved
+
+
+@loop
+def _move(moved: Any, shapes: Any, dofs: Any, pos: Any, gives: Any, nodal: Any, normal: float) -> None:
+    """Fill in the displacement of some dofs of the rim."""
+    for i in range(dofs.shape[0]):
+        for k in range(shapes.shape[1]):
+            moved[i // 2, i % 2] += shapes[dofs[i], k] * pos[3 + k]
+        if normal > 0:
+            for j in range(gives.shape[1]):
+                moved[i // 2, i % 2] += gives[i, j] * nodal[j // 2, j % 2]
 
 
 @part
@@ -85,12 +90,26 @@ def _near_floor(arrays: Arrays, window: tuple[int, int]) -> Window:
     dofs = window_dofs(arrays.vertex.shape[0], window)
     block = residual(arrays.rim, dofs, dofs)
     shapes, compliance = np.empty((dofs.shape[0], arrays.rim.shapes.shape[1])), np.empty(block.shape)
+    _cut_out(shapes, compliance, arrays.rim.shapes, block, dofs)
+    return Window(NearFloor(window[0], arrays.vertex), shapes, compliance)
+
+
+@loop
+def _cut_out(shapes: Any, compliance: Any, all_shapes: Any, block: Any, dofs: Any) -> None:
+    """Fill in modes and symmetric compliance at some dofs of the rim."""
     for i in range(dofs.shape[0]):
         for k in range(shapes.shape[1]):
-            shapes[i, k] = arrays.rim.shapes[dofs[i], k]
+            shapes[i, k] = all_shapes[dofs[i], k]
         for j in range(dofs.shape[0]):
             compliance[i, j] = (block[i, j] + block[j, i]) / 2
-    return Window(NearFloor(window[0], arrays.vertex), shapes, compliance)
+
+
+@loop
+def _bend(moved: Any, shapes: Any, pos: Any) -> None:
+    """Add the modes' displacement of the whole rim."""
+    for i in range(moved.shape[0]):
+        for k in range(shapes.shape[1]):
+            moved[i] += shapes[i, k] * pos[3 + k]
 
 
 def _solved(
@@ -101,9 +120,7 @@ def _solved(
     low, high = old.res.low, old.res.high
     if old.res.normal == 0:  # a bent rim comes down anywhere
         moved = np.zeros(arrays.rim.shapes.shape[0])
-        for i in range(moved.shape[0]):
-            for k in range(arrays.rim.shapes.shape[1]):
-                moved[i] += arrays.rim.shapes[i, k] * expected[3 + k]
+        _bend(moved, arrays.rim.shapes, expected)
         low, high = below_floor(arrays.theta, expected[2], expected[1], moved)
     margin = 0.3 * (high - low) + 0.1 * arrays.element
     found = Stage(False, expected, expected, np.empty((0, 0)), old.window, old.u, old.nodal, old.res, old.bristles)
@@ -137,11 +154,10 @@ def floor_forces(arrays: Arrays, pos: Any, vel: Any, acc: Any) -> Any:
     return inertia(arrays.frame, pos, vel, acc, 1.0)[0]
 
 
-@part
-def held_energy(arrays: Arrays, pos: Any, vel: Any) -> float:
-    """What the coordinates hold by themselves."""
-    kinetic, gravity, strain = energies(arrays.frame, pos, vel)
-    return kinetic + gravity + strain
+@loop
+def held(arrays: Arrays, pos: Any, vel: Any) -> tuple[float, float, float]:
+    """What the coordinates hold by themselves, see :class:`flexible.models.state.Model`."""
+    return energies(arrays.frame, pos, vel)
 
 
 @part
@@ -216,9 +232,9 @@ class ReducedHoop(RimContact):
             return self.stage(old, mode, damper, predictor, near, first)
         return found
 
-    def energies(self, state: State) -> tuple[float, float, float]:
+    def energies(self, state: State, held: Energies | None = None) -> Energies:
         """Kinetic, gravity, ring strain (of the modes and of the static part)."""
-        kinetic, gravity, strain = self.held(state.pos, state.vel)
+        kinetic, gravity, strain = held or self.held(state.pos, state.vel)
         if state.res.normal > 0:
             moved = self.ring.rim_shapes[self.ring.dofs(*state.window)] @ state.pos[3:]
             strain += float(state.nodal.ravel() @ (state.u.ravel() - moved)) / 2
@@ -227,7 +243,7 @@ class ReducedHoop(RimContact):
     def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:
         """See :class:`flexible.models.state.Model`."""
         kinetic, gravity, strain = energies(self.ring.frame, pos, vel)
-        return kinetic, gravity, strain
+        return float(kinetic), float(gravity), float(strain)
 
     def forces(self, pos: Array, vel: Array, acc: Array) -> Array:
         """See :class:`flexible.models.state.Model`."""

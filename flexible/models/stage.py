@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import part, written_out
+from rigid.kernel.compile import loop, written_out
 
-from ..contact.forces import forces_in_newton
-from ..contact.newton import move, reached, round_off, share_before_bend
+from ..contact.forces import contact_forces, first_forces
+from ..contact.newton import left_by_newton, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
 from ..contact.vectors import largest, plus, solve_dense
 from ..ring.frame import Frame, inertia
@@ -63,7 +63,7 @@ class Solved(NamedTuple):
     contact: Contact
 
 
-@part
+@loop
 def _misfit(residual: Any, own: Any, contact: Contact, window: Window, pos: Any, u: Any, scale: float) -> None:
     """What frame, modes and window lack of equilibrium."""
     m, nodes = own.shape[0], window.shapes.shape[0]
@@ -83,7 +83,7 @@ def _misfit(residual: Any, own: Any, contact: Contact, window: Window, pos: Any,
         residual[m + k] = scale * (u[k // 2, k % 2] - moved)
 
 
-@part
+@loop
 def _assemble(matrix: Any, own: Any, contact: Any, window: Window, scale: float) -> None:
     """Newton's matrix for frame, modes and window, out of the tangents of inertia and contact."""
     # in loops: an assignment of slices would compile numpy's broadcasting with all its messages
@@ -130,14 +130,19 @@ def solve_stage(
     residual = np.empty(size)
     update = np.zeros(size)
     iterations = -1
-    damping, last = 1.0, np.inf
+    damping, last, before_last = 1.0, np.inf, np.inf
     way, reach = 0.0, np.inf
     softest = largest(window.compliance)
     damper = pulling(damper, True)
     for iteration in range(MOST_ITERATIONS):
         pos, vel, acc = reached(predictor, d)
-        contact = forces_in_newton(pos[:3], u, window.rim, law, mode, before, damper, iteration == 0)
-        tangent, res = contact.tangent, contact.res
+        # a tangent is a good part of what forces cost, and nothing is asked of the last one
+        goes_on = left_by_newton(last, before_last) > tolerance
+        if iteration == 0:
+            contact = first_forces(pos[:3], u, window.rim, law, mode, before, damper, goes_on)
+        else:
+            contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper, goes_on)
+        res = contact.res
         share = share_before_bend(res, way, reach)
         if share < 1:
             move(d, u, damping * (1 - share), update[:m], update[m:])
@@ -155,19 +160,21 @@ def solve_stage(
         # a ring softer than the foundation moves by its compliance times what the forces may be off
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
             if damper.pulls and res.eta < 0:
-                damper, last = pulling(damper, False), np.inf
+                damper, last, before_last = pulling(damper, False), np.inf, np.inf
                 continue
             iterations = iteration
             break
         worst = max(worst, astray)
-        _assemble(matrix, own_tangent, tangent, window, scale)
+        if contact.tangent.shape[0] == 0:
+            contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper, not goes_on)
+        _assemble(matrix, own_tangent, contact.tangent, window, scale)
         update = solve_dense(matrix, residual)
         if not np.isfinite(largest(update)):
             break
         damping = 1.0
         if iteration > 3 and worst > last:
             damping = 0.5
-        last = worst
+        last, before_last = worst, last
         move(d, u, -damping, update[:m], update[m:])
     if contact.outside:
         iterations = -2

@@ -13,6 +13,7 @@ from ..contact.points.data import Bristles, Damper, Resultants
 from .stage import Predictor, Stage
 
 Array = NDArray[np.float64]
+Energies = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -74,10 +75,10 @@ class Model(Protocol):
         Whatever fails in it is a stage that is not ok, or a LinAlgError.
         """
 
-    def energies(self, state: State) -> tuple[float, float, float]:
-        """Kinetic, gravity, ring strain."""
+    def energies(self, state: State, held: Energies | None = None) -> Energies:
+        """Kinetic, gravity, ring strain; ``held`` is what the coordinates hold of them, where that is known."""
 
-    def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:
+    def held(self, pos: Array, vel: Array) -> Energies:
         """Of these, what the coordinates hold by themselves, the ring's static displacements left out."""
 
     def forces(self, pos: Array, vel: Array, acc: Array) -> Array:
@@ -131,9 +132,9 @@ class Books:
     off_floor: float = 0.0
 
 
-def record(model: Model, state: State, books: Books) -> Record:
-    """What is kept of an instant."""
-    kinetic, gravity, strain = model.energies(state)
+def record(model: Model, state: State, books: Books, held: Energies | None = None) -> Record:
+    """What is kept of an instant; ``held`` as in :meth:`Model.energies`."""
+    kinetic, gravity, strain = model.energies(state, held)
     res = state.res
     return Record(
         t=state.t,

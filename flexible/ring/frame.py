@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit, part
+from rigid.kernel.compile import loop, part
 
 
 class Body(NamedTuple):
@@ -67,7 +67,7 @@ class _Sums(NamedTuple):
     turned_a: Any
 
 
-@part
+@loop
 def _disk(body: Body, instant: _Instant, force: Any, tangent: Any) -> None:
     """Forces of the disk, and their tangent."""
     s, c, w, alpha, ax, ay, r1, r2 = instant
@@ -91,12 +91,19 @@ def _disk(body: Body, instant: _Instant, force: Any, tangent: Any) -> None:
 
 @part
 def _ring_sums(frame: Frame, pos: Any, vel: Any, acc: Any) -> _Sums:
+    n = frame.modal.shape[0]
+    turned, turned_v, turned_a = np.zeros(n), np.zeros(n), np.zeros(n)
+    s1, s2, s1_v, s2_v, s1_a, s2_a, moment, rate, spin = _add_up(frame, pos, vel, acc, (turned, turned_v, turned_a))
+    return _Sums(s1, s2, s1_v, s2_v, s1_a, s2_a, moment, rate, spin, turned, turned_v, turned_a)
+
+
+@loop
+def _add_up(frame: Frame, pos: Any, vel: Any, acc: Any, to: Any) -> Any:
     modal, gyro = frame.modal, frame.gyro
-    n = modal.shape[0]
+    turned, turned_v, turned_a = to
     s1, s2, s1_v, s2_v, s1_a, s2_a = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     moment, rate, spin = frame.body.ring_inertia, 0.0, 0.0
-    turned, turned_v, turned_a = np.zeros(n), np.zeros(n), np.zeros(n)
-    for i in range(n):
+    for i in range(turned.shape[0]):
         q, qv, qa = pos[3 + i], vel[3 + i], acc[3 + i]
         s1 += modal[i, 1] * q
         s2 += modal[i, 2] * q
@@ -107,15 +114,15 @@ def _ring_sums(frame: Frame, pos: Any, vel: Any, acc: Any) -> _Sums:
         moment += (2 * modal[i, 4] + q) * q
         rate += (modal[i, 4] + q) * qv
         spin += modal[i, 3] * qa
-        for j in range(n):
+        for j in range(turned.shape[0]):
             turned[i] += gyro[i, j] * pos[3 + j]
             turned_v[i] += gyro[i, j] * vel[3 + j]
             turned_a[i] += gyro[i, j] * acc[3 + j]
         spin += qa * turned[i]
-    return _Sums(s1, s2, s1_v, s2_v, s1_a, s2_a, moment, rate, spin, turned, turned_v, turned_a)
+    return s1, s2, s1_v, s2_v, s1_a, s2_a, moment, rate, spin
 
 
-@part
+@loop
 def _ring_by_pose(frame: Frame, instant: _Instant, sums: _Sums, force: Any, tangent: Any) -> None:
     """What the ring adds to the forces on (V, h, phi), and the tangent of these and of the modes' by them."""
     s, c, w, alpha, ax, ay, r1, r2 = instant
@@ -146,7 +153,7 @@ def _ring_by_pose(frame: Frame, instant: _Instant, sums: _Sums, force: Any, tang
     tangent[2, 2] += fx_phi - s2 * a1_phi + s1 * a2_phi + sums.moment * r2 + 2 * sums.rate * r1
 
 
-@part
+@loop
 def _ring_by_modes(
     frame: Frame, instant: _Instant, sums: _Sums, pos: Any, vel: Any, acc: Any, force: Any, tangent: Any
 ) -> None:
@@ -156,7 +163,8 @@ def _ring_by_modes(
     a1_phi, a2_phi = a2 + s * r2, -a1 + c * r2
     gyro, n = frame.gyro, frame.modal.shape[0]
     for i in range(n):
-        square, l1, l2, rotation, stretching = frame.modal[i]
+        square, l1, l2 = frame.modal[i, 0], frame.modal[i, 1], frame.modal[i, 2]
+        rotation, stretching = frame.modal[i, 3], frame.modal[i, 4]
         q, qv, qa = pos[3 + i], vel[3 + i], acc[3 + i]
         turned = rotation + sums.turned[i]
         force[3 + i] = (
@@ -212,7 +220,7 @@ def inertia(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     return force, tangent
 
 
-@jit
+@loop
 def energies(frame: Frame, pos: Any, vel: Any) -> tuple[float, float, float]:
     """Kinetic energy, gravity (0 with the hoop's centre at the floor) and strain energy of the modes."""
     body, modal, gyro = frame.body, frame.modal, frame.gyro

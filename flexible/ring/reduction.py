@@ -15,7 +15,7 @@ from numba.extending import register_jitable
 from numpy.typing import NDArray
 
 from rigid import Scene
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, loop
 
 from .fem import COLUMNS, Ring, membrane_stiffness, ring_of
 from .frame import Body, Frame
@@ -42,7 +42,7 @@ def window_dofs(elements: int, window: tuple[int, int]) -> Any:
     return dofs
 
 
-@register_jitable
+@loop
 def is_known(rim: Rim, columns: Any) -> bool:
     """Whether the compliance is known in these columns."""
     known = True
@@ -55,6 +55,12 @@ def is_known(rim: Rim, columns: Any) -> bool:
 def residual(rim: Rim, rows: Any, columns: Any) -> Any:
     """Static compliance but for what the modes hold of it, in columns that are known."""
     block, held = np.empty((rows.shape[0], columns.shape[0])), np.zeros((rows.shape[0], columns.shape[0]))
+    _fill_residual(rim, rows, columns, block, held)
+    return block
+
+
+@loop
+def _fill_residual(rim: Rim, rows: Any, columns: Any, block: Any, held: Any) -> None:
     for k in range(rim.shapes.shape[1]):
         for i in range(rows.shape[0]):
             for j in range(columns.shape[0]):
@@ -62,7 +68,6 @@ def residual(rim: Rim, rows: Any, columns: Any) -> Any:
     for i in range(rows.shape[0]):
         for j in range(columns.shape[0]):
             block[i, j] = rim.unit[rows[i], columns[j]] / rim.stiffness - held[i, j]
-    return block
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from copy import copy
 from dataclasses import replace
 from typing import NamedTuple
 
-from ..models.state import Books, Model, State, record
+from ..models.state import Books, Energies, Model, State, record
 from .course import Course, Marched
 from .events import MODE_ENDS, TURN, Ends, locate, passed, watches
 from .methods import ESDIRK3, Method
@@ -94,8 +94,8 @@ def march(
     def stands() -> Course:
         return Course(state, h, attempts, turns, stalls, copy(books), records, len(records))
 
-    def note(state: State) -> None:
-        records.append(record(model, state, books))
+    def note(state: State, held: Energies | None = None) -> None:
+        records.append(record(model, state, books, held))
         if keep is not None:
             keep(state)
 
@@ -133,7 +133,7 @@ def march(
         stalls = stalls + 1 if trial.state.t - state.t < SHORTEST else 0
         turns += event == TURN
         state = _free(model, trial.state)
-        note(state)
+        note(state, trial.held)
         if progress is not None:
             progress(state)
         if _over(state, ends, turns):

@@ -9,9 +9,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba.extending import register_jitable
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, loop, part
 
 from ..contact.points.data import Bristles, Damper, Resultants
 from ..contact.vectors import largest, plus, times
@@ -25,9 +24,9 @@ def solved(model: Any, old: Any, mode: int, damper: Damper, predictor: Predictor
     return model.stage(old, mode, damper, predictor, near, first)
 
 
-def held_energy(model: Any, pos: Any, vel: Any) -> Any:
-    """What the coordinates hold."""
-    return sum(model.held(pos, vel))
+def held(model: Any, pos: Any, vel: Any) -> Any:
+    """See ``held`` of :class:`flexible.models.state.Model`."""
+    return model.held(pos, vel)
 
 
 def floor_forces(model: Any, pos: Any, vel: Any, acc: Any) -> Any:
@@ -67,6 +66,7 @@ class Taken(NamedTuple):
     damped: float
     numerical: float  # energy of frame and ring that the floor's work does not account for, lost to the integrator
     off_floor: float
+    held: Any  # kinetic energy, gravity and strain energy of the coordinates at its end
 
 
 class _Known(NamedTuple):
@@ -87,7 +87,7 @@ class _Known(NamedTuple):
     feet: Any
 
 
-@register_jitable
+@part
 def _nothing_known(stages: int, n: int) -> _Known:
     """Room for so many stages."""
     pos, vel, acc = np.zeros((stages, n)), np.zeros((stages, n)), np.zeros((stages, n))
@@ -97,14 +97,14 @@ def _nothing_known(stages: int, n: int) -> _Known:
     )
 
 
-@jit
+@loop
 def _store(rows: Any, i: int, values: Any) -> None:
     """Write a row; an assignment of slices would compile numpy's broadcasting with all its messages."""
     for k in range(values.shape[0]):
         rows[i, k] = values[k]
 
 
-@register_jitable
+@loop
 def _write_down(known: _Known, i: int, pos: Any, vel: Any, acc: Any, res: Resultants) -> None:
     """A stage that is solved."""
     _store(known.pos, i, pos)
@@ -114,7 +114,7 @@ def _write_down(known: _Known, i: int, pos: Any, vel: Any, acc: Any, res: Result
     known.elastic[i], known.eta[i], known.stored[i] = res.elastic, res.eta, res.normal_energy
 
 
-@jit
+@loop
 def _sum(h: float, weights: Any, values: Any, count: int) -> float:
     """``h`` times the first of the values, each with its weight."""
     total = 0.0
@@ -123,7 +123,7 @@ def _sum(h: float, weights: Any, values: Any, count: int) -> float:
     return h * total
 
 
-@jit
+@part
 def _advanced(start: Any, h: float, weights: Any, rows: Any, count: int) -> Any:
     """``start`` and ``h`` times the first of the rows, each with its weight."""
     result = start.copy()
@@ -133,7 +133,7 @@ def _advanced(start: Any, h: float, weights: Any, rows: Any, count: int) -> Any:
     return result
 
 
-@register_jitable
+@part
 def _expected(table: Table, acc: Any, i: int) -> Any:
     """Accelerations of stage ``i``, by those of the two known ones that are nearest in time."""
     if i == 1:
@@ -142,7 +142,7 @@ def _expected(table: Table, acc: Any, i: int) -> Any:
     return plus(times(1 + share, acc[near]), -share, acc[next_near])
 
 
-@jit
+@loop
 def _along(force: Any, end: Any, start: Any) -> float:
     """Work of a force between two positions."""
     work = 0.0
@@ -151,7 +151,7 @@ def _along(force: Any, end: Any, start: Any) -> float:
     return work
 
 
-@register_jitable
+@loop
 def _widening(old: Any, later: float) -> float:
     """Length of the patch so much later over what it is: like N_el^(1/3), a parabola's.
 
@@ -162,7 +162,7 @@ def _widening(old: Any, later: float) -> float:
     return float(min(max(1 + later * old.elastic_rate / old.res.elastic, 0.1), 10.0) ** (1 / 3))
 
 
-@register_jitable
+@loop
 def _damped(table: Table, known: _Known) -> float:
     """What the normal damper takes, the integral of (eta - 1) over the springs' energy."""
     stored, touches = known.stored, True
@@ -185,7 +185,7 @@ def _damped(table: Table, known: _Known) -> float:
     return damped
 
 
-@register_jitable
+@loop
 def _work(table: Table, force: Any, way: Any) -> float:
     """Work of a force along a way, both known at the stages."""
     total = 0.0
@@ -195,7 +195,7 @@ def _work(table: Table, force: Any, way: Any) -> float:
     return total
 
 
-@register_jitable
+@part
 def _posed(old: Any, h: float, table: Table, known: _Known, i: int, damping: Any) -> tuple[Predictor, Damper]:
     """What stage ``i`` of a step is to solve."""
     beta, weights = table.gamma * h, table.a[i]
@@ -211,7 +211,7 @@ def _posed(old: Any, h: float, table: Table, known: _Known, i: int, damping: Any
     return Predictor(pos, vel, beta, times(beta**2, _expected(table, known.acc, i))), damper
 
 
-@register_jitable
+@part
 def _at_once(old: Any, known: _Known) -> tuple[Predictor, Damper]:
     """The same of a step of no length: rates stay what they are."""
     eta = old.res.eta if old.res.elastic > 0 else 1.0
@@ -266,9 +266,10 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
         if known.normal[i] == 0:
             off_floor += h * table.b[i]
     drag_work = _work(table, known.drag, known.way)
-    numerical = 0.0
+    numerical, after = 0.0, (0.0, 0.0, 0.0)
     if ok and h > 0:
-        numerical = held_energy(model, old.pos, old.vel) - held_energy(model, known.pos[end], known.vel[end])
+        before, after = held(model, old.pos, old.vel), held(model, known.pos[end], known.vel[end])
+        numerical = before[0] + before[1] + before[2] - (after[0] + after[1] + after[2])
         for i in range(stages):
             force = floor_forces(model, known.pos[i], known.vel[i], known.acc[i])
             for j in range(1, stages):
@@ -278,12 +279,12 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
         known.slip_velocity[end], known.elastic_rate[end], feet, error,
         _sum(h, table.b, known.normal, stages), _sum(h, table.b, known.friction, stages),
         res.beyond + _work(table, known.friction, known.way) - drag_work, _damped(table, known) - drag_work,
-        numerical, off_floor,
+        numerical, off_floor, after,
     )  # fmt: skip
 
 
 #: the same of the arrays of a reduced hoop
 take_compiled = jit(
-    take, solved=reduced.solved_in_step, held_energy=reduced.held_energy, floor_forces=reduced.floor_forces,
+    take, solved=reduced.solved_in_step, held=reduced.held, floor_forces=reduced.floor_forces,
     momentum_error=reduced.momentum_error,
 )  # fmt: skip

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..models.reduced import start_of
-from ..models.state import Model, State
+from ..models.state import Energies, Model, State
 from .methods import ESDIRK3, Method
 from .stages import Taken, take, take_compiled
 
@@ -31,6 +31,7 @@ class Step:
     damped: float
     numerical: float  # energy of frame and ring that the floor's work does not account for, lost to the integrator
     off_floor: float
+    held: Energies | None = None  # by the coordinates at its end
 
 
 def attempt(model: Model, old: State, h: float, method: Method = ESDIRK3) -> Step | None:
@@ -47,7 +48,7 @@ def attempt(model: Model, old: State, h: float, method: Method = ESDIRK3) -> Ste
     )  # fmt: skip
     return Step(
         state, taken.error, (float(taken.normal_impulse), float(taken.friction_impulse)), float(taken.friction_work),
-        float(taken.damped), float(taken.numerical), float(taken.off_floor),
+        float(taken.damped), float(taken.numerical), float(taken.off_floor), taken.held,
     )  # fmt: skip
 
 

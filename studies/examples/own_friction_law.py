@@ -17,7 +17,7 @@ LINES = {
         ("from . import brush, patch, regularised", "from . import brush, patch, regularised, tanh_law"),
         ("(Patch, Brush, Regularised)", "(Patch, Brush, Regularised, tanh_law.Tanh)"),
         ("    return regularised.tractions", "    if law.law == tanh_law.CODE:\n        return tanh_law.tractions"
-         "(points, foundation, carried, mode, load, slip, law)\n    return regularised.tractions"),
+         "(forces, points, foundation, carried, mode, load, slip, law)\n    return regularised.tractions"),
     ],
 }  # fmt: skip
 RUN = """

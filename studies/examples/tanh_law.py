@@ -3,17 +3,19 @@
 from math import sqrt, tanh
 
 from flexible.contact.laws.law import Law
-from flexible.contact.points.bristles import point_forces
+from flexible.contact.points.bristles import keep_touching
 from flexible.contact.points.data import Shared, Tractions
 from rigid import Friction
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import loop
 
 CODE = 3
 
 
-@jit
-def tractions(points, foundation, carried, mode, load, slip, law):  # type: ignore[no-untyped-def]
-    carried.stretch[:] = 0.0  # nothing is stored
+@loop
+def tractions(forces, points, foundation, carried, mode, load, slip, law):  # type: ignore[no-untyped-def]
+    for i in range(len(carried.stretch)):
+        carried.stretch[i] = 0.0  # nothing is stored
+    keep_touching(forces.keeps, points.gap)
     share = tanh(slip.velocity / law.slip_scale)
     shared = Shared(
         load.elastic > 0,
@@ -23,7 +25,7 @@ def tractions(points, foundation, carried, mode, load, slip, law):  # type: igno
         0.0,
         sqrt(slip.velocity**2 + law.slip_scale**2) / slip.rate,  # how far Newton may go at once
     )
-    return Tractions(point_forces(points.gap.shape[0]), shared, 0.0, 0.0, points.gap < 0, 0.0)
+    return Tractions(shared, 0.0, 0.0, 0.0)
 
 
 class Tanh(Law):

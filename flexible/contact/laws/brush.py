@@ -18,9 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Friction
-from rigid.kernel.compile import part
+from rigid.kernel.compile import loop
 
-from ..points.bristles import add_pull, cling, point_forces, rolled_in, touching, weights
+from ..points.bristles import add_pull, cling, keep_touching, rolled_in, weigh
 from ..points.data import Bristles, Resultants, Shared, Tractions
 from .law import Law, PatchState, Rolling
 
@@ -29,33 +29,35 @@ Array = NDArray[np.float64]
 CODE = 1
 
 
-@part
-def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
+@loop
+def tractions(
+    forces: Any, points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any
+) -> Any:  # fmt: skip
     """See :class:`flexible.contact.laws.law.Law`."""
-    total = points.gap.shape[0]
     stretch, sliding = carried.stretch, carried.sliding
-    forces = point_forces(total)
     # a brush pulls nothing at its edges, and is held to the pressure, which ends on a straight gap
-    weight, weight_by = weights(points, carried, law.spacing, False, False)
+    weigh(forces, points, carried, law.spacing, False, False)
+    keep_touching(forces.keeps, points.gap)
     energy, stuck = 0.0, 0.0
-    for i in range(total):
-        if weight[i] == 0:
+    for i in range(stretch.shape[0]):
+        weight = forces.weight[i]
+        if weight == 0:
             continue
         pressure = -law.eps_n * min(points.gap[i], 0.0)
         limit = (law.mu if sliding[i] != 0 else law.mu_s) * load.eta * pressure
         if abs(law.eps_t * stretch[i]) > limit:
             sliding[i] = 1 if stretch[i] < 0 else -1
-            forces.share[i] = weight[i] * sliding[i] * law.mu * pressure
+            forces.share[i] = weight * sliding[i] * law.mu * pressure
             traction = sliding[i] * law.mu * load.eta * pressure
             stretch[i] = -traction / law.eps_t
-            forces.by_gap[i, 2] = -weight[i] * sliding[i] * law.mu * load.eta * law.eps_n
+            forces.by_gap[i, 2] = -weight * sliding[i] * law.mu * load.eta * law.eps_n
         else:
             sliding[i] = 0
-            traction = cling(forces, carried, i, weight[i], law.eps_t)
-            stuck += weight[i]
-        add_pull(forces, i, traction, weight, weight_by)
-        energy += weight[i] * traction**2 / (2 * law.eps_t)
-    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, stuck, touching(points), 0.0)
+            traction = cling(forces, carried, i, law.eps_t)
+            stuck += weight
+        add_pull(forces, i, traction)
+        energy += weight * traction**2 / (2 * law.eps_t)
+    return Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, stuck, 0.0)
 
 
 def effective_mu_s(mu_s: float, mu: float) -> float:

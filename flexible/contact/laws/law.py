@@ -48,7 +48,8 @@ class Law:
     code : int
         In compiled code, one for each law.
     tractions : compiled function
-        ``tractions(points, foundation, carried, mode, load, slip, parameters) -> Tractions``: what pulls at
+        ``tractions(forces, points, foundation, carried, mode, load, slip, parameters) -> Tractions``: fills in the
+        ``forces``, zero before (:class:`~flexible.contact.points.data.PointForces`), that pull at
         ``points`` (:class:`~flexible.contact.points.detection.Points`) pressed by ``foundation``, with bristles
         ``carried`` to the end of the step; stretches and directions of the bristles are brought up to date in place.
         See :mod:`flexible.contact.points.data` for the rest.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from rigid import Scene
-from rigid.kernel.compile import written_out
+from rigid.kernel.compile import loop
 
 from . import brush, patch, regularised
 from .brush import Brush
@@ -16,14 +16,16 @@ from .regularised import Regularised
 LAWS: dict[str, type[Law]] = {law.name: law for law in (Patch, Brush, Regularised)}
 
 
-@written_out
-def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
+@loop
+def tractions(
+    forces: Any, points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any
+) -> Any:  # fmt: skip
     """What the scene's law answers; see :class:`flexible.contact.laws.law.Law`."""
     if law.law == patch.CODE:
-        return patch.tractions(points, foundation, carried, mode, load, slip, law)
+        return patch.tractions(forces, points, foundation, carried, mode, load, slip, law)
     if law.law == brush.CODE:
-        return brush.tractions(points, foundation, carried, mode, load, slip, law)
-    return regularised.tractions(points, foundation, carried, mode, load, slip, law)
+        return brush.tractions(forces, points, foundation, carried, mode, load, slip, law)
+    return regularised.tractions(forces, points, foundation, carried, mode, load, slip, law)
 
 
 def rigid_limit(scene: Scene) -> Scene:

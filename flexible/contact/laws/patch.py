@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Friction, Kind
-from rigid.kernel.compile import part, written_out
+from rigid.kernel.compile import loop
 
-from ..points.bristles import add_pull, cling, point_forces, rolled_in, touching, weights
+from ..points.bristles import add_pull, cling, keep_touching, rolled_in, weigh
 from ..points.data import Bristles, Parameters, Resultants, Shared, Tractions
 from ..points.normal import force_by_gaps
 from .law import Law, PatchState, Rolling
@@ -26,45 +26,45 @@ CODE = 0
 STICK, SLIDE_RIGHT, SLIDE_LEFT = 0, 1, -1  # SLIDE_RIGHT: friction pushes the hoop to the right (spinning)
 
 
-@part
-def _stick(points: Any, carried: Any, load: Any, slip: Any, law: Any) -> Any:
+@loop
+def _stick(forces: Any, points: Any, carried: Any, load: Any, slip: Any, law: Any) -> Any:
     """Bristles without a limit, and the damper's drag."""
+    weigh(forces, points, carried, law.spacing, True, True)
+    keep_touching(forces.keeps, points.gap)
     total = points.gap.shape[0]
-    forces = point_forces(total)
-    weight, weight_by = weights(points, carried, law.spacing, True, True)
-    keeps = touching(points)
     energy, stuck = 0.0, 0.0
     for i in range(total):
-        if weight[i] != 0:
+        weight = forces.weight[i]
+        if weight != 0:
             carried.sliding[i] = 0
-            traction = cling(forces, carried, i, weight[i], law.eps_t)
-            stuck += weight[i]
-            add_pull(forces, i, traction, weight, weight_by)
-            energy += weight[i] * traction**2 / (2 * law.eps_t)
+            traction = cling(forces, carried, i, law.eps_t)
+            stuck += weight
+            add_pull(forces, i, traction)
+            energy += weight * traction**2 / (2 * law.eps_t)
         # a point just past the edge that points leave still bounds the bristles behind it
         if carried.touched[i] and points.gap[i] >= 0:
             before = i > 0 and not points.last[i - 1] and points.gap[i - 1] < 0
             behind = i + 1 < total and not points.last[i] and points.gap[i + 1] < 0
-            keeps[i] = before or behind
+            forces.keeps[i] = before or behind
     dragging = load.elastic > 0 and slip.drag > 0
     drag = -slip.drag * (slip.way - slip.way_0) if dragging else 0.0
     shared = Shared(dragging, drag, -slip.drag if dragging else 0.0, 0.0, drag, np.inf)
-    return Tractions(forces, shared, energy, stuck, keeps, 0.0)
+    return Tractions(shared, energy, stuck, 0.0)
 
 
-@part
-def _slide(points: Any, foundation: Any, carried: Any, mode: int, load: Any, law: Any) -> Any:
+@loop
+def _slide(forces: Any, points: Any, foundation: Any, carried: Any, mode: int, load: Any, law: Any) -> Any:
     """mu N, shared like the foundation's forces; bristles that take it over will pull as much in all."""
-    total = points.gap.shape[0]
-    forces = point_forces(total)
-    weight, _ = weights(points, carried, law.spacing, True, False)
+    weigh(forces, points, carried, law.spacing, True, False)
+    keep_touching(forces.keeps, points.gap)
+    weight = forces.weight
     lumped = 0.0
-    for i in range(total):
+    for i in range(weight.shape[0]):
         lumped -= law.eps_n * weight[i] * min(points.gap[i], 0.0)
     even = load.elastic / lumped if lumped > 0 else 1.0
     force_by_gaps(forces.by_gap, load.eta * mode * law.mu, foundation)
     energy, held, pulled = 0.0, 0.0, 0.0
-    for i in range(total):
+    for i in range(weight.shape[0]):
         forces.share[i] = mode * law.mu * foundation.force[i]
         forces.force[i] = load.eta * forces.share[i]
         held -= weight[i] * law.eps_t * carried.stretch[i]
@@ -74,15 +74,17 @@ def _slide(points: Any, foundation: Any, carried: Any, mode: int, load: Any, law
         pulled -= weight[i] * law.eps_t * carried.stretch[i]
         energy += weight[i] * law.eps_t * carried.stretch[i] ** 2 / 2
     feet = (pulled - held) / (law.eps_t * foundation.length) if foundation.length > 0 else 0.0
-    return Tractions(forces, Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0, touching(points), feet)
+    return Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0, feet)
 
 
-@written_out
-def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
+@loop
+def tractions(
+    forces: Any, points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any
+) -> Any:  # fmt: skip
     """See :class:`flexible.contact.laws.law.Law`."""
     if mode == STICK:
-        return _stick(points, carried, load, slip, law)
-    return _slide(points, foundation, carried, mode, load, law)
+        return _stick(forces, points, carried, load, slip, law)
+    return _slide(forces, points, foundation, carried, mode, load, law)
 
 
 def sharing(parameters: Parameters, ratio: float) -> tuple[Parameters, int]:

@@ -12,9 +12,9 @@ from math import inf, sqrt
 from typing import Any
 
 from rigid import Friction
-from rigid.kernel.compile import part
+from rigid.kernel.compile import loop
 
-from ..points.bristles import point_forces, touching
+from ..points.bristles import keep_touching
 from ..points.data import Bristles, Resultants, Shared, Tractions
 from .law import Law, PatchState, Rolling
 
@@ -22,11 +22,14 @@ CODE = 2
 _MOST = 0.999  # of mu N that a creep is sought for: the rest is sliding
 
 
-@part
-def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any) -> Any:
+@loop
+def tractions(
+    forces: Any, points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any
+) -> Any:  # fmt: skip
     """See :class:`flexible.contact.laws.law.Law`."""
     for i in range(carried.stretch.shape[0]):
         carried.stretch[i] = 0.0
+    keep_touching(forces.keeps, points.gap)
     speed = sqrt(slip.velocity**2 + law.slip_scale**2)
     coefficient = -law.mu * slip.velocity / speed
     by_velocity = -law.mu * law.slip_scale**2 / speed**3
@@ -39,7 +42,7 @@ def tractions(points: Any, foundation: Any, carried: Any, mode: int, load: Any, 
         speed / slip.rate if slip.rate > 0 else inf,
     )
     stuck = foundation.length if abs(slip.velocity) < law.slip_scale else 0.0
-    return Tractions(point_forces(points.gap.shape[0]), shared, 0.0, stuck, touching(points), 0.0)
+    return Tractions(shared, 0.0, stuck, 0.0)
 
 
 class Regularised(Law):

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit, part
+from rigid.kernel.compile import jit, loop
 
 from .data import Bristles, Damper, Parameters, PointForces, Resultants, Slip
 from .rim import lift
@@ -45,7 +45,7 @@ class _Entry(NamedTuple):
     shift: float  # derivative of that angle by phi, the fraction fixed
 
 
-@part
+@loop
 def _entry(points: Any, i: int, dphi: float, turn: float, ratio: float) -> _Entry:
     """When a point that was off the floor when the step began touched.
 
@@ -83,26 +83,24 @@ def _entry(points: Any, i: int, dphi: float, turn: float, ratio: float) -> _Entr
     return _Entry(s, angle, 2 * half * half, -(1 - s) / slope, by_phi, speed, shift)
 
 
-@part
-def carry(points: Any, bristles: Any, dphi: float, damper: Damper, slip: Slip, moved: float) -> Any:
-    """Bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered since.
+@loop
+def carry(
+    carried: Carried, points: Any, bristles: Bristles, dphi: float, damper: Damper, slip: Slip, moved: float
+) -> None:
+    """Fill in the bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered.
 
     The way of a point that entered is that of rolling, plus a parabola in time that ends with the velocity of the
     stage, ``ratio (move - start)`` over the stage's length: a long step then sees the slip at its end and not its mean,
     which would leave the friction of a short patch undamped. ``moved`` is the patch's way without the rolling. A point
     that enters behind a sliding edge goes on sliding.
     """
+    stretch, rate, by_gap, by_phi, touched, sliding, way, mean, pull = carried
     number, flags = bristles.number, bristles.sliding
     ratio, turn = damper.ratio, damper.turning_0 + damper.ratio * dphi
     start = slip.way_0 - (slip.way - moved) * (1 - 1 / ratio)
-    total = points.gap.shape[0]
-    stretch, rate = np.zeros(total), np.zeros(total)
-    by_gap, by_phi = np.zeros(total), np.zeros(total)
-    touched, sliding = np.zeros(total, np.bool_), np.zeros(total, np.int8)
-    way, mean, pull = np.zeros(total), np.zeros(total), np.zeros(total)
     slip_ending = ratio * (slip.way - slip.way_0)
     p = 0
-    for i in range(total):
+    for i in range(stretch.shape[0]):
         j, move = points.number[i], points.move[i]
         while p < number.shape[0] and number[p] < j:
             p += 1
@@ -129,7 +127,6 @@ def carry(points: Any, bristles: Any, dphi: float, damper: Damper, slip: Slip, m
             by_phi[i] = by_rest * entry.by_phi + (1 - rate[i]) * lifted - entry.shift * lifted_in
             if flags.shape[0] > 0:
                 sliding[i] = flags[0] if j < number[0] else flags[-1]
-    return Carried(stretch, rate, by_gap, by_phi, touched, sliding, way, mean, pull)
 
 
 @jit
@@ -146,16 +143,16 @@ def edge_of_patch(g_in: float, g_out: float, inner: float) -> tuple[float, float
     return f, -(1 - f) * (1 + f) / slope, -f * (1 + f) / 2 / slope, f * (1 - f) / 2 / slope
 
 
-@part
-def weights(points: Any, carried: Any, spacing: float, curved: bool, sticks: bool) -> tuple[Any, Any]:
-    """Length of patch that belongs to each point, and its derivatives by the gaps of (n, 5) points around it.
+@loop
+def weigh(forces: PointForces, points: Any, carried: Any, spacing: float, curved: bool, sticks: bool) -> None:
+    """Fill in the length of patch that belongs to each point, and its derivatives by the gaps of points around it.
 
     ``curved`` puts the edge on the gap's parabola; a friction that ends with the pressure ends where that does, on a
     straight gap. Where all of the patch ``sticks``, bristles stay stretched up to where points leave.
     """
+    weight, by = forces.weight, forces.weight_by
     gap = points.gap
     total = gap.shape[0]
-    weight, by = np.zeros(total), np.zeros((total, 5))
     for i in range(total - 1):
         if points.last[i] or (gap[i] >= 0 and gap[i + 1] >= 0):
             continue
@@ -185,39 +182,31 @@ def weights(points: Any, carried: Any, spacing: float, curved: bool, sticks: boo
             by[inside, 2] += spacing * f_in / 2
             by[inside, 2 + way] += spacing * f_out / 2
             by[inside, 2 - way] += spacing * f_inner / 2
-    return weight, by
 
 
-@part
-def touching(points: Any) -> Any:
-    """Which points are below the floor."""
-    flags = np.empty(points.gap.shape[0], np.bool_)
-    for i in range(flags.shape[0]):
-        flags[i] = points.gap[i] < 0
-    return flags
+@loop
+def keep_touching(keeps: Any, gap: Any) -> None:
+    """Mark the points below the floor."""
+    for i in range(keeps.shape[0]):
+        keeps[i] = gap[i] < 0
 
 
-@part
-def point_forces(total: int) -> PointForces:
-    """Room for the forces of so many points."""
-    return PointForces(np.zeros(total), np.zeros(total), np.zeros(total), np.zeros(total), np.zeros((total, 5)))
-
-
-@part
-def cling(forces: Any, carried: Any, i: int, weight: float, eps_t: float) -> float:
+@loop
+def cling(forces: Any, carried: Any, i: int, eps_t: float) -> float:
     """Traction of a point that sticks; what it answers to its abscissa, gap and phi is written down."""
+    weight = forces.weight[i]
     forces.by_abscissa[i] = -eps_t * weight * carried.rate[i]
     forces.by_gap[i, 2] = -eps_t * weight * carried.by_gap[i]
     forces.by_phi[i] = -eps_t * weight * carried.by_phi[i]
     return -eps_t * carried.stretch[i]
 
 
-@part
-def add_pull(forces: Any, i: int, traction: float, weight: Any, weight_by: Any) -> None:
+@loop
+def add_pull(forces: Any, i: int, traction: float) -> None:
     """Add a point's traction on the length of patch that belongs to it."""
-    forces.force[i] = weight[i] * traction
+    forces.force[i] = forces.weight[i] * traction
     for q in range(5):
-        forces.by_gap[i, q] += traction * weight_by[i, q]
+        forces.by_gap[i, q] += traction * forces.weight_by[i, q]
 
 
 def rolled_in(

@@ -104,6 +104,9 @@ class PointForces(NamedTuple):
     by_abscissa: Any  # (n,)
     by_phi: Any  # (n,)
     by_gap: Any  # (n, 5) by the gaps of two points before, the point, two points behind
+    weight: Any  # (n,) length of patch that belongs to each
+    weight_by: Any  # (n, 5) its derivatives by those gaps
+    keeps: Any  # (n,) whose bristles outlast the step, not 0
 
 
 class Shared(NamedTuple):
@@ -118,13 +121,11 @@ class Shared(NamedTuple):
 
 
 class Tractions(NamedTuple):
-    """What a friction law answers."""
+    """What a friction law answers, besides the forces of the points."""
 
-    points: PointForces
     shared: Shared
     energy: float  # stored
     stuck: float  # length of the patch that sticks
-    keeps: Any  # (n,) bool: whose bristles outlast the step
     feet: float  # how far the feet of the bristles slid in the step, where all slide
 
 

@@ -11,13 +11,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import part
+from rigid.kernel.compile import loop
 
 from .data import Before, Rim
 from .rim import element_at, gap_at, lift, shape_functions, sideways, upward, vertex_angle
 
+TURNED_ON = 8  # points to one whose sine and cosine are computed: as many roundings
 
-@part
+
+@loop
 def _lowest(height: float, psi_start: float, width: float, y0: float, y1: float, y2: float) -> tuple[float, float]:
     """Where in an element, 0..1, the gap is least, and how large it is there."""
     c1, c2 = -3 * y0 + 4 * y1 - y2, 2 * y0 - 4 * y1 + 2 * y2
@@ -35,7 +37,7 @@ def _lowest(height: float, psi_start: float, width: float, y0: float, y1: float,
     return lowest, base + c1 * lowest + c2 * lowest**2 + lift(psi_start + lowest * width)
 
 
-@part
+@loop
 def _touching(height: float, psi_start: float, width: float, y0: float, y1: float, y2: float) -> tuple[float, float]:
     """Part [low, high] of an element, in 0..1, where the gap is negative; low > high when there is none."""
     c1, c2 = -3 * y0 + 4 * y1 - y2, 2 * y0 - 4 * y1 + 2 * y2
@@ -45,7 +47,7 @@ def _touching(height: float, psi_start: float, width: float, y0: float, y1: floa
     lowest, bottom = _lowest(height, psi_start, width, y0, y1, y2)
     if min(bottom, at_start, at_end) >= 0:
         return 1.0, 0.0
-    edges = np.array([0.0, 1.0])
+    low, high = 0.0, 1.0
     curvature = width**2 * cos(psi_start + lowest * width) + 2 * c2
     for side in range(2):
         end_gap = at_start if side == 0 else at_end
@@ -60,11 +62,15 @@ def _touching(height: float, psi_start: float, width: float, y0: float, y1: floa
             if slope * (far - lowest) <= 0:
                 break
             s -= value / slope
-        edges[side] = min(max(s, 0.0), 1.0)
-    return edges[0], edges[1]
+        s = min(max(s, 0.0), 1.0)
+        if side == 0:
+            low = s
+        else:
+            high = s
+    return low, high
 
 
-@part
+@loop
 def least_gap(pose: Any, u: Any, rim: Rim) -> float:
     """The least gap of a window of rim elements."""
     s, c = sin(pose[2]), cos(pose[2])
@@ -82,28 +88,40 @@ def least_gap(pose: Any, u: Any, rim: Rim) -> float:
     return least
 
 
-@part
-def _candidates(height: float, phi: float, y: Any, rim: Rim, spacing: float) -> Any:
-    """Ranges of points that touch or border on a touching one, merged; rows (first, last)."""
-    first, vertex, count = rim.first, rim.vertex, (y.shape[0] - 1) // 2
-    ranges = np.empty((count, 2), np.int64)
+@loop
+def find(pose: Any, u: Any, rim: Rim, spacing: float, ranges: Any) -> tuple[int, int]:
+    """Ranges of points that touch or border on a touching one, merged, as rows (first, last).
+
+    Returns
+    -------
+    ranged, total : int
+        How many there are, and how many points are in them.
+    """
+    height, phi = pose[1], pose[2]
+    s, c = sin(phi), cos(phi)
+    first, vertex = rim.first, rim.vertex
     n = 0
-    for i in range(count):
+    for i in range(ranges.shape[0]):
         start = vertex_angle(vertex, first + i)
         width = vertex_angle(vertex, first + i + 1) - start
-        low, high = _touching(height, phi - pi + start, width, y[2 * i], y[2 * i + 1], y[2 * i + 2])
+        k = 2 * i
+        y0, y1, y2 = (
+            upward(u[k, 0], u[k, 1], s, c),
+            upward(u[k + 1, 0], u[k + 1, 1], s, c),
+            upward(u[k + 2, 0], u[k + 2, 1], s, c),
+        )
+        low, high = _touching(height, phi - pi + start, width, y0, y1, y2)
         if low > high:
             continue
         j_low = int(ceil((start + low * width) / spacing)) - 1
         j_high = int(floor((start + high * width) / spacing)) + 1
         # the edges are estimates: the range must begin and end with a point off the floor, or with the element
         first_point, last_point = int(ceil(start / spacing)) - 1, int(floor((start + width) / spacing)) + 1
-        for j, end in ((j_low, first_point), (j_high, last_point)):
-            way = -1 if end == first_point else 1
+        for side in range(2):
+            j, end, way = (j_low, first_point, -1) if side == 0 else (j_high, last_point, 1)
             while way * (end - j) > 0:
-                s = (j * spacing - start) / width
-                bend = -3 * y[2 * i] + 4 * y[2 * i + 1] - y[2 * i + 2]
-                rise = y[2 * i] + s * (bend + s * (2 * y[2 * i] - 4 * y[2 * i + 1] + 2 * y[2 * i + 2]))
+                x = (j * spacing - start) / width
+                rise = y0 + x * (-3 * y0 + 4 * y1 - y2 + x * (2 * y0 - 4 * y1 + 2 * y2))
                 if gap_at(height, phi - pi + j * spacing, rise) >= 0:
                     break
                 j += way
@@ -116,7 +134,10 @@ def _candidates(height: float, phi: float, y: Any, rim: Rim, spacing: float) -> 
         else:
             ranges[n, 0], ranges[n, 1] = j_low, j_high
             n += 1
-    return ranges[:n]
+    total = 0
+    for r in range(n):
+        total += ranges[r, 1] - ranges[r, 0] + 1
+    return n, total
 
 
 class Points(NamedTuple):
@@ -137,42 +158,24 @@ class Points(NamedTuple):
     lifted: Any  # height of the undeformed circle there over its lowest point
 
 
-@part
-def gather(pose: Any, u: Any, rim: Rim, spacing: float, before: Before) -> tuple[Any, bool]:
-    """The points that touch and those that border on them, for a window of rim elements.
-
-    Returns
-    -------
-    points : Points
-    outside : bool
-        Whether the window is too short for them.
-    """
-    nodes = u.shape[0]
-    count = (nodes - 1) // 2
-    first, vertex = rim.first, rim.vertex
+@loop
+def place(
+    points: Points, ranges: Any, ranged: int, pose: Any, u: Any, rim: Rim, spacing: float, before: Before
+) -> bool:  # fmt: skip
+    """Fill in the points of so many ranges; whether the window of rim elements is too short for them."""
+    number, last, local, shape, arm_x, arm_y, gap, gap_old, move, rolled, angle, sines, lifted = points
+    first, vertex, count = rim.first, rim.vertex, (u.shape[0] - 1) // 2
     old_pose, u_old = before.pose, before.u
     height, phi, phi_old = pose[1], pose[2], old_pose[2]
     s, c, s_old, c_old = sin(phi), cos(phi), sin(phi_old), cos(phi_old)
     dv, dphi = pose[0] - old_pose[0], phi - phi_old
-    y = np.empty(nodes)
-    for i in range(nodes):
-        y[i] = upward(u[i, 0], u[i, 1], s, c)
-    ranges = _candidates(height, phi, y, rim, spacing)
-    total = 0
-    for r in range(ranges.shape[0]):
-        total += ranges[r, 1] - ranges[r, 0] + 1
-    number, local, last = np.empty(total, np.int64), np.empty(total, np.int64), np.zeros(total, np.bool_)
-    shape = np.empty((total, 3))
-    arm_x, arm_y, gap = np.empty(total), np.empty(total), np.empty(total)
-    gap_old, move = np.empty(total), np.empty(total)
-    rolled, angle = np.empty(total), np.empty(total)
-    sines, lifted = np.empty(total), np.empty(total)
     outside = False
-    # sines and cosines of psi/2 give all others: they are what a point costs
+    # sines and cosines of psi/2 give all others; as they are what a point costs, most are turned on from the last ones
     s_turn, c_turn, s_half, c_half = sin(dphi / 2), cos(dphi / 2), sin(dphi / 4), cos(dphi / 4)
+    s_next, c_next, sine, cosine = sin(spacing / 2), cos(spacing / 2), 0.0, 1.0
     rolls = dphi - 2 * s_turn
     m = 0
-    for r in range(ranges.shape[0]):
+    for r in range(ranged):
         element = min(max(element_at(vertex, ranges[r, 0] * spacing), first), first + count - 1)
         start, end = vertex_angle(vertex, element), vertex_angle(vertex, element + 1)
         for j in range(ranges[r, 0], ranges[r, 1] + 1):
@@ -190,7 +193,10 @@ def gather(pose: Any, u: Any, rim: Rim, spacing: float, before: Before) -> tuple
             v2 = n0 * u_old[k, 1] + n1 * u_old[k + 1, 1] + n2 * u_old[k + 2, 1]
             ux, uy = sideways(u1, u2, s, c), upward(u1, u2, s, c)
             psi = phi - pi + theta
-            sine, cosine = sin(psi / 2), cos(psi / 2)
+            if (j - ranges[r, 0]) % TURNED_ON == 0:
+                sine, cosine = sin(psi / 2), cos(psi / 2)
+            else:
+                sine, cosine = sine * c_next + cosine * s_next, cosine * c_next - sine * s_next
             lifted[m], lifted_old = 2 * sine**2, 2 * (sine * c_turn - cosine * s_turn) ** 2
             number[m], local[m] = j, k
             shape[m, 0], shape[m, 1], shape[m, 2] = n0, n1, n2
@@ -201,5 +207,5 @@ def gather(pose: Any, u: Any, rim: Rim, spacing: float, before: Before) -> tuple
             rolled[m] = rolls + 4 * s_turn * (sine * c_half - cosine * s_half) ** 2
             move[m] = dv + ux - sideways(v1, v2, s_old, c_old)
             m += 1
-        last[m - 1] = True
-    return Points(number, last, local, shape, arm_x, arm_y, gap, gap_old, move, rolled, angle, sines, lifted), outside
+        last[m - 1] = 1
+    return outside

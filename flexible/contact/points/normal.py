@@ -8,9 +8,7 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple
 
-import numpy as np
-
-from rigid.kernel.compile import part
+from rigid.kernel.compile import loop
 
 
 class Foundation(NamedTuple):
@@ -23,63 +21,55 @@ class Foundation(NamedTuple):
     length: float  # of the patch
 
 
-@part
-def _cell(ga: float, gb: float, unit: float, out: Any) -> None:
+@loop
+def _cell(ga: float, gb: float, unit: float) -> tuple[float, float, float, float, float, float]:
     """Energy of one cell with gap from ``ga`` to ``gb``, its gradient and second derivatives.
 
-    ``out``: energy, -d/da, -d/db, aa, ab, bb; ``unit`` is eps_n times the spacing.
+    Returned: energy, -d/da, -d/db, aa, ab, bb; ``unit`` is eps_n times the spacing.
     """
-    swapped = gb < 0 <= ga
-    if swapped:
-        ga, gb = gb, ga
-    if ga >= 0:
-        for i in range(6):
-            out[i] = 0.0
-    elif gb < 0:
-        out[0] = unit * (ga * ga + ga * gb + gb * gb) / 6
-        out[1] = -unit * (2 * ga + gb) / 6
-        out[2] = -unit * (2 * gb + ga) / 6
-        out[3] = out[5] = unit / 3
-        out[4] = unit / 6
-    else:
-        q = ga / (gb - ga)
-        out[0] = -unit * ga * ga * q / 6
-        out[1] = unit * ga * (3 * q + q * q) / 6
-        out[2] = -unit * ga * q * q / 6
-        out[3] = -unit * (6 * q + 6 * q * q + 2 * q**3) / 6
-        out[4] = unit * (3 * q * q + 2 * q**3) / 6
-        out[5] = -unit * 2 * q**3 / 6
-    if swapped:
-        out[1], out[2] = out[2], out[1]
-        out[3], out[5] = out[5], out[3]
+    if ga >= 0 and gb >= 0:
+        return 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    if ga < 0 and gb < 0:
+        energy = unit * (ga * ga + ga * gb + gb * gb) / 6
+        return energy, -unit * (2 * ga + gb) / 6, -unit * (2 * gb + ga) / 6, unit / 3, unit / 6, unit / 3
+    low, high = min(ga, gb), max(ga, gb)
+    q = low / (high - low)
+    energy = -unit * low * low * q / 6
+    at_low, at_high = unit * low * (3 * q + q * q) / 6, -unit * low * q * q / 6
+    by_low, both = -unit * (6 * q + 6 * q * q + 2 * q**3) / 6, unit * (3 * q * q + 2 * q**3) / 6
+    by_high = -unit * 2 * q**3 / 6
+    if ga < gb:
+        return energy, at_low, at_high, by_low, both, by_high
+    return energy, at_high, at_low, by_high, both, by_low
 
 
-@part
-def press(gap: Any, last: Any, eps_n: float, spacing: float) -> Any:
-    """Normal forces of points with these gaps; ``last`` marks points whose next one is no neighbour."""
-    total = gap.shape[0]
-    force, diagonal, coupling = np.zeros(total), np.zeros(total), np.zeros(total)
+@loop
+def press(gap: Any, last: Any, eps_n: float, spacing: float, to: Any) -> tuple[float, float]:
+    """Normal forces of points with these gaps; ``last`` marks points whose next one is no neighbour.
+
+    Fills in the arrays of a :class:`Foundation`, and returns its energy and length.
+    """
+    force, diagonal, coupling = to.force, to.diagonal, to.coupling
     energy, length = 0.0, 0.0
-    out = np.empty(6)
-    for i in range(total - 1):
+    for i in range(gap.shape[0] - 1):
         ga, gb = gap[i], gap[i + 1]
         if last[i] or (ga >= 0 and gb >= 0):
             continue
-        _cell(ga, gb, eps_n * spacing, out)
-        energy += out[0]
-        force[i] += out[1]
-        force[i + 1] += out[2]
-        diagonal[i] += out[3]
-        coupling[i] = out[4]
-        diagonal[i + 1] += out[5]
+        stored, at_a, at_b, aa, ab, bb = _cell(ga, gb, eps_n * spacing)
+        energy += stored
+        force[i] += at_a
+        force[i + 1] += at_b
+        diagonal[i] += aa
+        coupling[i] = ab
+        diagonal[i + 1] += bb
         if ga < 0 and gb < 0:
             length += spacing
         else:
             length += spacing * (ga / (ga - gb) if ga < 0 else gb / (gb - ga))
-    return Foundation(force, diagonal, coupling, energy, length)
+    return energy, length
 
 
-@part
+@loop
 def force_by_gaps(by_gap: Any, factor: float, foundation: Foundation) -> None:
     """Add ``factor`` times the derivatives of the points' normal forces by the gaps around them.
 
@@ -93,16 +83,14 @@ def force_by_gaps(by_gap: Any, factor: float, foundation: Foundation) -> None:
             by_gap[i, 1] -= factor * coupling[i - 1]
 
 
-@part
-def sum_by_gaps(factors: Any, foundation: Foundation) -> Any:
+@loop
+def sum_by_gaps(factors: Any, foundation: Foundation, to: Any) -> None:
     """Derivative of the sum of the points' normal forces, each times its factor, by the gap of each point."""
     diagonal, coupling = foundation.diagonal, foundation.coupling
     total = diagonal.shape[0]
-    result = np.empty(total)
     for i in range(total):
-        result[i] = -factors[i] * diagonal[i]
+        to[i] = -factors[i] * diagonal[i]
         if i > 0:
-            result[i] -= factors[i - 1] * coupling[i - 1]
+            to[i] -= factors[i - 1] * coupling[i - 1]
         if i + 1 < total:
-            result[i] -= factors[i + 1] * coupling[i]
-    return result
+            to[i] -= factors[i + 1] * coupling[i]

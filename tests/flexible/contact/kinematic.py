@@ -31,7 +31,7 @@ class Floor:
         rim = Rim(element_at(VERTEX, pi - pose[2]) - 6, VERTEX)
         flat = np.zeros((2 * 13 + 1, 2))
         before = Before(self.pose, flat, self.bristles)
-        return contact_forces(pose, flat, rim, self.law, self.mode, before, damper)
+        return contact_forces(pose, flat, rim, self.law, self.mode, before, damper, True)
 
     def move(self, dv, dphi, damper=UNDAMPED):
         """One step; returns the resultants."""

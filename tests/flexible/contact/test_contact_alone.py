@@ -91,13 +91,13 @@ def test_tangent_of_the_contact(name, mode, damping):
     rim = Rim(element_at(VERTEX, pi - phi) - 1, VERTEX)
     flat = np.zeros((9, 2))
     old = np.array([0.0, -depth, phi])
-    start = contact_forces(old, flat, rim, law, mode, Before(old, flat, no_bristles()), damper)
+    start = contact_forces(old, flat, rim, law, mode, Before(old, flat, no_bristles()), damper, True)
     bristles = start.bristles._replace(stretch=-1e-6 * rng.random(len(start.bristles.stretch)))
     before = Before(old, flat, bristles)
     x = np.concatenate([[-2e-6, -1.05 * depth, phi + 0.004], 1e-7 * rng.standard_normal(18)])
 
     def contact(x):
-        return contact_forces(x[:3], x[3:].reshape(-1, 2), rim, law, mode, before, damper)
+        return contact_forces(x[:3], x[3:].reshape(-1, 2), rim, law, mode, before, damper, True)
 
     def forces(x):
         found = contact(x)
@@ -147,7 +147,9 @@ def test_tangent_of_points_that_enter(name, way):
     before = Before(np.array([0.0, 0.3 * depth, phi]), flat, no_bristles())
 
     def contact(x):
-        return contact_forces(x[:3], x[3:].reshape(-1, 2), rim, law, STICK, before, UNDAMPED)  # the brush's only mode
+        return contact_forces(
+            x[:3], x[3:].reshape(-1, 2), rim, law, STICK, before, UNDAMPED, True
+        )  # the brush's only mode
 
     x = np.concatenate([[2e-6, -depth, phi + way * 0.004], 1e-8 * np.sin(np.arange(18))])
     found = contact(x)

@@ -27,7 +27,7 @@ def forces(lifted, moved=0.0):
     raised = -2 * np.sin(psi / 2) ** 2 + np.array(lifted, dtype=float)
     u = np.column_stack([-raised, np.zeros(9)]) + moved  # at phi = pi the disk's first axis points down
     pose = np.array([0.0, -1e-5, PHI])
-    return contact_forces(pose, u, rim, LAW, SLIDE_RIGHT, Before(pose, u, no_bristles()), UNDAMPED)
+    return contact_forces(pose, u, rim, LAW, SLIDE_RIGHT, Before(pose, u, no_bristles()), UNDAMPED, True)
 
 
 LEFT = [4e-5, 2e-5, 0, 2e-5, 4e-5, 4e-5, 4e-5, 4e-5, 4e-5]

@@ -188,7 +188,7 @@ def newton_errors(hoop, old, beta, dphi):
     for _ in range(7):
         pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
         u = pos[3:][dofs].reshape(-1, 2)
-        contact = contact_forces(pos[:3], u, rim, hoop.law.parameters, SLIDE_RIGHT, before, UNDAMPED)
+        contact = contact_forces(pos[:3], u, rim, hoop.law.parameters, SLIDE_RIGHT, before, UNDAMPED, True)
         assert contact.res.normal > 0
         own = inertia(ring, pos, vel, acc, beta)
         frame, rest = own.frame - contact.force, own.ring.copy()

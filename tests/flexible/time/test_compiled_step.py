@@ -31,7 +31,7 @@ def agree(one, other, tolerance):
         found = getattr(other, name)
         if name in ("ok", "window"):
             assert found == value
-        elif isinstance(value, tuple):
+        elif hasattr(value, "_asdict"):
             agree(value, found, tolerance)
         else:
             assert np.allclose(found, value, rtol=tolerance, atol=tolerance), name
