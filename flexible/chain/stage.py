@@ -13,8 +13,8 @@ import numpy as np
 
 from rigid.kernel.compile import jit, part
 
-from ..contact.forces import contact_forces, first_forces
-from ..contact.newton import move, reached, round_off, share_before_bend
+from ..contact.forces import contact_forces, raise_patch
+from ..contact.newton import RAISES, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, pulling
 from ..contact.vectors import largest
 from .bordered import FRAME, Factors, factor, nothing_factored, solve
@@ -78,14 +78,17 @@ def solve_stage(
     chained, stale = factors.core, True
     softest = largest(facing.missing)
     damper = pulling(damper, True)
-    for iteration in range(MOST_ITERATIONS):
+    iteration, raises = -1, RAISES
+    while iteration < MOST_ITERATIONS:
         pos, vel, acc = reached(predictor, d)
-        begins = iteration == 0
-        if begins:
-            contact = first_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper, begins)
-        else:
-            contact = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper, not begins)
+        # always with a tangent, but not by a plain True, for which contact_forces would be compiled once more
+        contact = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper, raises >= 0)
         res = contact.res
+        if raises > 0 and raise_patch(pos[:FRAME], u, facing.rim, law, before, damper, res):
+            raises -= 1
+            continue
+        raises = 0
+        iteration += 1
         share = share_before_bend(res, way, reach)
         if share < 1:
             move(d, u, damping * (1 - share), update, update_u)

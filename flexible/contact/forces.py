@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel.compile import jit, loop, written_out
+from rigid.kernel.compile import jit, loop
 
 from .assembly import X, Y, add_outer, add_spread, direct, gather, share_out, spread, tangents
 from .laws.listing import tractions
@@ -274,23 +274,20 @@ def _too_low(pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, dampe
     return 1.5 * res.elastic / (law.eps_n * res.length) * (1 - (damper.elastic_0 / res.elastic) ** (2 / 3))
 
 
-@written_out
-def first_forces(
-    pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper, differentiates: bool
-) -> Contact:  # fmt: skip
-    """:func:`contact_forces` where Newton begins, with the rim ``u`` moved to where its patch is about as it was.
+@loop
+def raise_patch(
+    pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, damper: Damper, res: Resultants
+) -> bool:  # fmt: skip
+    """Move the rim where Newton begins to where its patch is about as it was; whether that was necessary.
 
     A soft ring follows the floor. With a frame that has moved and a rim that has not, the patch is off the floor, and
     the next guess, without its forces, far below it; or so deep that the damper, which multiplies by the stage's rate,
     makes N hundreds of times what it will be. From either Newton takes tens of iterations to come back.
     """
-    contact = contact_forces(pose, u, rim, law, mode, before, damper, differentiates)
-    for _ in range(3):
-        raised = _too_low(pose, u, rim, law, before, damper, contact.res)
-        if raised == 0:
-            break
-        for i in range(u.shape[0]):
-            u[i, 0] += raised * cos(pose[2])
-            u[i, 1] -= raised * sin(pose[2])
-        contact = contact_forces(pose, u, rim, law, mode, before, damper, differentiates)
-    return contact
+    raised = _too_low(pose, u, rim, law, before, damper, res)
+    if raised == 0:
+        return False
+    for i in range(u.shape[0]):
+        u[i, 0] += raised * cos(pose[2])
+        u[i, 1] -= raised * sin(pose[2])
+    return True

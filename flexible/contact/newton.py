@@ -11,6 +11,8 @@ from rigid.kernel.compile import loop, part
 from .points.data import Contact, Damper, Resultants
 from .vectors import add, largest, plus, times
 
+RAISES = 3  # of a patch where Newton begins, see :func:`flexible.contact.forces.raise_patch`
+
 
 @part
 def reached(predictor: Any, d: Any) -> tuple[Any, Any, Any]:

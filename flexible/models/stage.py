@@ -12,8 +12,8 @@ import numpy as np
 
 from rigid.kernel.compile import loop, written_out
 
-from ..contact.forces import contact_forces, first_forces
-from ..contact.newton import left_by_newton, move, reached, round_off, share_before_bend
+from ..contact.forces import contact_forces, raise_patch
+from ..contact.newton import RAISES, left_by_newton, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
 from ..contact.vectors import largest, plus, solve_dense
 from ..ring.frame import Frame, inertia
@@ -134,15 +134,17 @@ def solve_stage(
     way, reach = 0.0, np.inf
     softest = largest(window.compliance)
     damper = pulling(damper, True)
-    for iteration in range(MOST_ITERATIONS):
+    iteration, raises = -1, RAISES
+    asked = raises > 0  # for a tangent; nowhere a plain True, for which contact_forces would be compiled once more
+    while iteration < MOST_ITERATIONS:
         pos, vel, acc = reached(predictor, d)
-        # a tangent is a good part of what forces cost, and nothing is asked of the last one
-        goes_on = left_by_newton(last, before_last) > tolerance
-        if iteration == 0:
-            contact = first_forces(pos[:3], u, window.rim, law, mode, before, damper, goes_on)
-        else:
-            contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper, goes_on)
+        contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper, asked)
         res = contact.res
+        if raises > 0 and raise_patch(pos[:3], u, window.rim, law, before, damper, res):
+            raises -= 1
+            continue
+        raises = 0
+        iteration += 1
         share = share_before_bend(res, way, reach)
         if share < 1:
             move(d, u, damping * (1 - share), update[:m], update[m:])
@@ -160,13 +162,15 @@ def solve_stage(
         # a ring softer than the foundation moves by its compliance times what the forces may be off
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
             if damper.pulls and res.eta < 0:
-                damper, last, before_last = pulling(damper, False), np.inf, np.inf
+                damper, last, before_last, asked = pulling(damper, False), np.inf, np.inf, iteration > 0
                 continue
             iterations = iteration
             break
         worst = max(worst, astray)
-        if contact.tangent.shape[0] == 0:
-            contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper, not goes_on)
+        if not asked:  # the last one was not the last
+            asked = not asked
+            iteration -= 1
+            continue
         _assemble(matrix, own_tangent, contact.tangent, window, scale)
         update = solve_dense(matrix, residual)
         if not np.isfinite(largest(update)):
@@ -175,6 +179,8 @@ def solve_stage(
         if iteration > 3 and worst > last:
             damping = 0.5
         last, before_last = worst, last
+        # a tangent is a good part of what forces cost, and nothing is asked of the last one
+        asked = left_by_newton(last, before_last) > tolerance
         move(d, u, -damping, update[:m], update[m:])
     if contact.outside:
         iterations = -2
