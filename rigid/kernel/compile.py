@@ -79,7 +79,7 @@ def part(function: F) -> F:
 
 
 def loop(function: F) -> F:
-    """Mark a part that makes no array: it reads and fills those that it is given, and returns some to other loops alone.
+    """Mark a part that makes no array: it reads and fills those it is given, and returns some to other loops alone.
 
     Compiled code counts the users of every array, one by one of those in a named tuple, wherever it is named. Here it
     does not; with all of a contact's parts counted, that took a quarter of a step's time.
