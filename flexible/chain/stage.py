@@ -13,7 +13,7 @@ import numpy as np
 
 from rigid.kernel.compile import jit, part
 
-from ..contact.forces import forces_in_newton
+from ..contact.guess import forces_in_newton
 from ..contact.newton import move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, pulling
 from ..contact.vectors import largest

@@ -23,13 +23,13 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel.compile import jit, part, written_out
+from rigid.kernel.compile import jit, part
 
 from .assembly import X, Y, add_outer, add_spread, directions, gathered, slip_by_gaps, spread, tangents
 from .laws.listing import tractions
 from .points.bristles import carry
 from .points.data import Before, Bristles, Contact, Damper, Load, Parameters, Resultants, Rim, Slip
-from .points.detection import gather, least_gap
+from .points.detection import gather
 from .points.normal import force_by_gaps, press
 from .points.rim import gap_at, lift, sideways, upward, vertex_angle
 from .vectors import add, dot, plus, times
@@ -240,40 +240,3 @@ def contact_forces(
     for i in range(nodes):
         nodal[i, 0], nodal[i, 1] = force[3 + 2 * i], force[4 + 2 * i]
     return Contact(force[:3].copy(), nodal, tangent, res, bristles, outside)
-
-
-@part
-def _too_low(pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, damper: Damper, res: Resultants) -> float:
-    """How much farther down the rim is than where its patch is about as deep as before the step; 0 where it is well.
-
-    A patch of the depth delta and the length L has N_el = (2/3) eps_n L delta, whatever the rim's curvature, and N_el
-    grows like delta^(3/2).
-    """
-    if res.elastic == 0:
-        least = least_gap(before.pose, before.u, rim)
-        return least - least_gap(pose, u, rim) if least < 0 else 0.0
-    if damper.relaxation == 0 or damper.elastic_0 <= 0 or abs(res.eta - 1) < 1:
-        return 0.0
-    return 1.5 * res.elastic / (law.eps_n * res.length) * (1 - (damper.elastic_0 / res.elastic) ** (2 / 3))
-
-
-@written_out
-def forces_in_newton(
-    pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper, begins: bool
-) -> Contact:  # fmt: skip
-    """:func:`contact_forces`; where Newton ``begins``, with the rim ``u`` moved to where its patch is about as it was.
-
-    A soft ring follows the floor. With a frame that has moved and a rim that has not, the patch is off the floor, and
-    the next guess, without its forces, far below it; or so deep that the damper, which multiplies by the stage's rate,
-    makes N hundreds of times what it will be. From either Newton takes tens of iterations to come back.
-    """
-    contact = contact_forces(pose, u, rim, law, mode, before, damper)
-    for _ in range(3 if begins else 0):
-        raised = _too_low(pose, u, rim, law, before, damper, contact.res)
-        if raised == 0:
-            break
-        for i in range(u.shape[0]):
-            u[i, 0] += raised * cos(pose[2])
-            u[i, 1] -= raised * sin(pose[2])
-        contact = contact_forces(pose, u, rim, law, mode, before, damper)
-    return contact

@@ -12,7 +12,7 @@ import numpy as np
 
 from rigid.kernel.compile import part, written_out
 
-from ..contact.forces import forces_in_newton
+from ..contact.guess import forces_in_newton
 from ..contact.newton import move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
 from ..contact.vectors import largest, plus
