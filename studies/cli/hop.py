@@ -32,7 +32,11 @@ if TYPE_CHECKING:
     "contact.stiffness, friction.mu, ...) for a map; evenly in the logarithm, evenly from 0. Or KEY=VALUE,VALUE,...",
 )
 @click.option(
-    "--bisections", type=click.IntRange(0, 30), default=4, metavar="N", help="Of each threshold, 4 by default."
+    "--bisections",
+    type=click.IntRange(0, 30),
+    default=4,
+    metavar="N",
+    help="Of each threshold, 4 by default; 0 is the map alone.",
 )
 @click.option(
     "--rtol",
@@ -42,6 +46,9 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--turns", type=click.IntRange(1, 100), metavar="N", help="Roll to this turn, in place of the scene's end."
+)
+@click.option(
+    "--whole", is_flag=True, help="Roll every hoop to its end, also where it has hopped by its first turn and may stop."
 )
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
@@ -61,6 +68,7 @@ def hop(
     bisections: int,
     rtol: float | None,
     turns: int | None,
+    whole: bool,
     law: str | None,
     level: str | None,
     workers: int | None,
@@ -81,10 +89,11 @@ def hop(
         described = described.replace(contact={"law": law})
     if turns is not None:
         described = described.replace(run=Run(turns=turns))
-    asked = map_of(described, over, rtol=rtol or RTOL, bisections=bisections, level=level)
+    asked = map_of(described, over, rtol=rtol or RTOL, bisections=bisections, level=level, whole=whole)
     target = results_folder(out)
     say: Callable[[str], None] = (lambda sentence: None) if as_json else announce
-    say(f"{asked.count} rolls, and up to {3 * (bisections + 2)} more for each threshold line.")
+    more = f", and up to {3 * (bisections + 2)} more for each threshold line" if bisections else ""
+    say(f"{asked.count} rolls{more}.")
     with bar(f"{asked.count} rolls") as progress, pool(workers, scheduler) as place:
         if scheduler is None:
             _compile(asked)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import degrees, sin
+from math import degrees, inf, sin
 from typing import Protocol
 
 import matplotlib
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from flexible.models.state import State
 from flexible.output.body import lowest, outline, whole
-from rigid import Scene
+from rigid import Run, Scene
 
 from ..plots.style import OKABE_ITO, RIGID, STYLE, blank
 from .energies import Roll
@@ -54,7 +54,9 @@ class Chosen:
 
     def __init__(self, case: HopCase, number: int) -> None:
         self.case, self.hop = case, case.hops[number]
-        motion = roll(case.scene, history=True)
+        until = (self.hop["t"] + (1 + AROUND) * self.hop["duration"]) / case.scene.time_unit + LEAST
+        last = min(until * case.scene.time_unit, case.scene.run.t_end or inf)
+        motion = roll(case.scene.replace(run=Run(t_end=last)), history=True)
         self.steps: Roll = steps_of(motion)
         self.unit = case.scene.time_unit
         start = self.hop["t"] / self.unit

@@ -22,9 +22,11 @@ from rigid.output.units import Length, Number, Time, in_units, without_units
 from ..running.files import StudyError
 from .energies import HopEnergies, Roll, hop_energies
 from .rule import DECADE, Scales, scales_of
+from .threshold import hops_in, windows
 
-SOLVER = f"{__name__}:roll"
-"""The name under which cases call it."""
+WHOLE = f"{__name__}:roll"
+SOLVER = f"{__name__}:roll_until_decided"
+"""The names under which cases call it."""
 
 STIFFNESS = "ring.bending_stiffness"
 
@@ -69,6 +71,8 @@ class RollingMotion(FlexibleMotion):
     """In R and sqrt(R/g)."""
     swept: float = 0.0
     """The largest angle that the disk comes down from its release."""
+    whole: bool = True
+    """Whether it was to roll to the end of the scene's run, and did not end where all was decided."""
 
     def to_dict(self) -> dict[str, Any]:
         """What a study keeps; phases of a chattering patch may be thousands and are left out."""
@@ -77,6 +81,7 @@ class RollingMotion(FlexibleMotion):
             **{name: told[name] for name in ("scene", "ended", "completed", "energy_ledger", "steps")},
             "t_end": self.t_end,
             "swept": self.swept,
+            "whole": self.whole,
             "scales": dataclasses.asdict(in_units(self.scales, self.scene)),
             "flights": [dataclasses.asdict(flight) for flight in self.flights],
         }
@@ -135,6 +140,8 @@ class HopMap:
     bisections: int = 4
     level: str | None = None
     """Of the ring; the scene's own by default."""
+    whole: bool = False
+    """Whether rolls of the map go on to their end where all is decided by the first turn."""
     scenes: tuple[Scene, ...] = field(init=False)
     """One for each value of the second key, ready to roll."""
 
@@ -164,7 +171,32 @@ class HopMap:
 
 def roll(scene: Scene, *, history: bool = False, progress: Callable[[float], None] | None = None) -> RollingMotion:
     """Roll the hoop of a scene; with ``history`` its steps and states are kept."""
-    motion = simulate(scene, history=True, progress=progress, most_steps=MOST_STEPS)
+    return _rolled(simulate(scene, history=True, progress=progress, most_steps=MOST_STEPS), history)
+
+
+def roll_until_decided(
+    scene: Scene, *, history: bool = False, progress: Callable[[float], None] | None = None
+) -> RollingMotion:
+    """The same, ended at the rigid hoop's first turn if by then it is decided where the hoop hops.
+
+    It is decided if the disk has passed the bottom and the hoop has hopped by the strictest of the rule's constants.
+    What has hopped rings, and most of its steps would be taken in the chatter of its way back.
+    """
+    turn = next((turn.t for turn in rigid_motion(scene).turns), None)
+    if turn is None or scene.run.t_end is None or turn >= scene.run.t_end:
+        return roll(scene, history=history, progress=progress)
+    early = simulate(scene.replace(run=Run(t_end=turn)), history=True, progress=progress, most_steps=MOST_STEPS)
+    found = _rolled(early, history)
+    told, places = found.to_dict(), windows(scene)
+    constants = (1.0, *DECADE)
+    open_ = [hops_in(told, places[where], least, whole=False) is None for where in places for least in constants]
+    if not any(open_) or not early.completed:
+        return dataclasses.replace(found, whole=not early.completed)
+    return _rolled(simulate(scene, history=True, progress=progress, most_steps=MOST_STEPS, resume=early), history)
+
+
+def _rolled(motion: FlexibleMotion, history: bool) -> RollingMotion:
+    """The motion with its flights; without ``history`` its steps are let go."""
     values = {entry.name: getattr(motion, entry.name) for entry in dataclasses.fields(FlexibleMotion)}
     found = RollingMotion(**values) if not motion.kept else _with_flights(values, steps_of(motion))
     return found if history else dataclasses.replace(found, history=None, kept=())

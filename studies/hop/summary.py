@@ -171,7 +171,9 @@ def case_sheet(study: HopStudy) -> Sheet:
 def _far(case: HopCase) -> str:
     if not case.motion["completed"]:
         return "no"
-    return "yes" if case.whole else "to its pulse"
+    if case.whole:
+        return "yes"
+    return "to its pulse" if case.motion.get("whole", True) else "to its turn"
 
 
 def _share(hop: dict[str, Any] | None, *names: str) -> str:

@@ -109,7 +109,7 @@ class HopCase:
     """As it was run."""
     outcome: Outcome
     whole: bool = True
-    """Whether it was to roll to the end of the map's run, and not only through the first pulse."""
+    """Whether it was to roll to the end of the map's run, and not only through the pulse or until all was decided."""
 
     @property
     def motion(self) -> Mapping[str, Any]:
@@ -128,7 +128,7 @@ class HopCase:
 
     @property
     def height(self) -> float | None:
-        """Of the highest hop; None where the roll stopped early without any."""
+        """Of the highest hop as far as it was rolled; None where the roll stopped early without any."""
         if self.hops or self.motion["completed"]:
             return max((hop["height"] for hop in self.hops), default=0.0)
         return None
