@@ -47,9 +47,7 @@ if TYPE_CHECKING:
 @click.option(
     "--turns", type=click.IntRange(1, 100), metavar="N", help="Roll to this turn, in place of the scene's end."
 )
-@click.option(
-    "--whole", is_flag=True, help="Roll every hoop to its end, also where it has hopped by its first turn and may stop."
-)
+@click.option("--whole", is_flag=True, help="Roll every hoop to its end, also where all is decided before.")
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--level",

@@ -141,7 +141,7 @@ class HopMap:
     level: str | None = None
     """Of the ring; the scene's own by default."""
     whole: bool = False
-    """Whether rolls of the map go on to their end where all is decided by the first turn."""
+    """Whether rolls of the map go on to their end where all is decided before."""
     scenes: tuple[Scene, ...] = field(init=False)
     """One for each value of the second key, ready to roll."""
 
@@ -177,22 +177,33 @@ def roll(scene: Scene, *, history: bool = False, progress: Callable[[float], Non
 def roll_until_decided(
     scene: Scene, *, history: bool = False, progress: Callable[[float], None] | None = None
 ) -> RollingMotion:
-    """The same, ended at the rigid hoop's first turn if by then it is decided where the hoop hops.
+    """The same, ended behind the first pulse or at the first turn if by then it is decided where the hoop hops.
 
-    It is decided if the disk has passed the bottom and the hoop has hopped by the strictest of the rule's constants.
-    What has hopped rings, and most of its steps would be taken in the chatter of its way back.
+    It is decided if the disk has passed the pulse and the hoop has hopped by the strictest of the rule's constants.
+    What has hopped rings, and most of its steps would be taken in the chatter of its way on.
     """
-    turn = next((turn.t for turn in rigid_motion(scene).turns), None)
-    if turn is None or scene.run.t_end is None or turn >= scene.run.t_end:
-        return roll(scene, history=history, progress=progress)
-    early = simulate(scene.replace(run=Run(t_end=turn)), history=True, progress=progress, most_steps=MOST_STEPS)
-    found = _rolled(early, history)
-    told, places = found.to_dict(), windows(scene)
-    constants = (1.0, *DECADE)
-    open_ = [hops_in(told, places[where], least, whole=False) is None for where in places for least in constants]
-    if not any(open_) or not early.completed:
-        return dataclasses.replace(found, whole=not early.completed)
-    return _rolled(simulate(scene, history=True, progress=progress, most_steps=MOST_STEPS, resume=early), history)
+    places, constants = windows(scene), (1.0, *DECADE)
+    earlier: FlexibleMotion | None = None
+    for t_end in _looks(scene):
+        earlier = simulate(
+            scene.replace(run=Run(t_end=t_end)), history=True, progress=progress, most_steps=MOST_STEPS, resume=earlier
+        )
+        found = _rolled(earlier, history)
+        told = found.to_dict()
+        asked = [hops_in(told, window, least, whole=False) for window in places.values() for least in constants]
+        if not earlier.completed or None not in asked:
+            return dataclasses.replace(found, whole=not earlier.completed or t_end == scene.run.t_end)
+    assert earlier is not None
+    return _rolled(earlier, history)
+
+
+def _looks(scene: Scene) -> list[float]:
+    """When it is asked whether all is decided: behind the pulse, at the rigid hoop's first turn, at the end."""
+    assert scene.run.t_end is not None
+    turns = [turn.t for turn in rigid_motion(scene).turns[:1]]
+    pulse = through_the_pulse(scene).run.t_end
+    assert pulse is not None
+    return sorted(t for t in {pulse, *turns, scene.run.t_end} if t <= scene.run.t_end)
 
 
 def _rolled(motion: FlexibleMotion, history: bool) -> RollingMotion:

@@ -173,7 +173,7 @@ def _far(case: HopCase) -> str:
         return "no"
     if case.whole:
         return "yes"
-    return "to its pulse" if case.motion.get("whole", True) else "to its turn"
+    return "to its pulse" if case.motion.get("whole", True) else "till decided"
 
 
 def _share(hop: dict[str, Any] | None, *names: str) -> str:
