@@ -15,7 +15,7 @@ from ..running.files import to_json, write_text
 from .shared.options import SceneKey, SceneName, as_json, out_folder, results_folder, scheduler, workers
 
 if TYPE_CHECKING:
-    from ..hop.roll import HopMap
+    from ..hop.rolling.roll import HopMap
     from ..hop.study import HopStudy
 
 
@@ -77,7 +77,7 @@ def hop(
     Hoops released at rest roll, flexible throughout, over a range of bending stiffness and one key more; every flight
     is listed with where it begins, how high it goes and where its energy came from.
     """
-    from ..hop.roll import RTOL
+    from ..hop.rolling.roll import RTOL
     from ..hop.study import hop_study
     from ..running.progress import announce, bar
     from ..running.workers import pool
@@ -161,7 +161,7 @@ def map_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> HopMap:
     """
     import numpy as np
 
-    from ..hop.roll import DEFAULT, STIFFNESS, HopMap
+    from ..hop.rolling.roll import DEFAULT, STIFFNESS, HopMap
 
     ranges = [parse_over(text) for text in over]
     keys = [key for key, _ in ranges]

@@ -21,9 +21,9 @@ from flexible.output.body import lowest, outline, whole
 from rigid import Run, Scene
 
 from ..plots.style import OKABE_ITO, RIGID, STYLE, blank
-from .energies import Roll
-from .roll import roll, spans, steps_of
-from .threshold import SYMBOL, HopCase, Line
+from .rolling.energies import Roll
+from .rolling.roll import roll, spans, steps_of
+from .rolling.threshold import SYMBOL, HopCase, Line
 
 HEIGHTS = (1e-4, 1e-1)
 """Of a hop over R, between which colours run."""

@@ -13,9 +13,9 @@ from rigid.output import summary
 from ..running.case import Case, Outcome
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
-from .roll import SOLVER, STIFFNESS, WHOLE, Ask, HopMap
-from .rule import DECADE
-from .threshold import TOLD, WHERE, HopCase, Line, windows
+from .rolling.roll import SOLVER, STIFFNESS, WHOLE, Ask, HopMap
+from .rolling.rule import DECADE
+from .rolling.threshold import TOLD, WHERE, HopCase, Line, windows
 
 if TYPE_CHECKING:
     import pandas

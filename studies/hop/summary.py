@@ -6,9 +6,9 @@ from math import degrees, isfinite
 from typing import Any
 
 from ..plots.sheet import Column, Sheet, number
-from .rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG
+from .rolling.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG
+from .rolling.threshold import SYMBOL, Bracket, HopCase, Line, rigid_hops
 from .study import HopStudy
-from .threshold import SYMBOL, Bracket, HopCase, Line, rigid_hops
 
 PLACES = {
     "anywhere": "leaves the floor anywhere",

@@ -13,9 +13,9 @@ from third_hop import LIFTS
 from rigid import SceneError, load_scene, simulate
 from studies import StudyError, hop_study
 from studies.cli.hop import map_of, parse_over
-from studies.hop.roll import DEFAULT, from_rest, spans, through_the_pulse
-from studies.hop.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG, Scales
-from studies.hop.threshold import Window, bracket, hops_in, windows
+from studies.hop.rolling.roll import DEFAULT, from_rest, spans, through_the_pulse
+from studies.hop.rolling.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG, Scales
+from studies.hop.rolling.threshold import Window, bracket, hops_in, windows
 
 SCENE = "paper-3.3-heavier"
 

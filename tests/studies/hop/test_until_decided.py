@@ -7,9 +7,9 @@ import dataclasses
 import pytest
 
 from rigid import Run, Scene, load_scene
-from studies.hop.roll import from_rest, roll, roll_until_decided
-from studies.hop.rule import DECADE
-from studies.hop.threshold import hops_in, windows
+from studies.hop.rolling.roll import from_rest, roll, roll_until_decided
+from studies.hop.rolling.rule import DECADE
+from studies.hop.rolling.threshold import hops_in, windows
 
 
 def scene_of(bending_stiffness: float, turns: int) -> Scene:

@@ -14,7 +14,7 @@ from typing import Any
 
 from rigid import Kind, Run, Scene, simulate
 
-from ..running.case import Outcome
+from ...running.case import Outcome
 
 SYMBOL = "E I/(m g R²)"
 

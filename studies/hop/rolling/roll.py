@@ -19,7 +19,7 @@ from rigid import Run, Scene, scene_from_dict, scene_to_dict
 from rigid import simulate as rigid_motion
 from rigid.output.units import Length, Number, Time, in_units, without_units
 
-from ..running.files import StudyError
+from ...running.files import StudyError
 from .energies import HopEnergies, Roll, hop_energies
 from .rule import DECADE, Scales, scales_of
 from .threshold import hops_in, windows
@@ -55,7 +55,7 @@ class Flight:
     height: Length[float]
     """Of the rim's lowest point, the largest on the way."""
     prominence: Number[float]
-    """See :meth:`studies.hop.rule.Scales.prominence`."""
+    """See :meth:`studies.hop.rolling.rule.Scales.prominence`."""
     swept: Number[float]
     """The largest angle that the disk has come down from its release by then: tells the first pass of the bottom."""
     energies: HopEnergies | None = None
