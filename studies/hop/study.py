@@ -60,10 +60,11 @@ class HopStudy:
         return pandas.DataFrame(rows)
 
     def plot(self) -> Figure:
-        """The map: heights of the highest hops where there is a second key, else where each hop begins."""
-        from .figures import height_map, hop_map
+        """The map where there is a second key, else where each hop begins."""
+        from .figures import hop_map
+        from .maps import map_figure
 
-        return height_map(self) or hop_map(self)
+        return map_figure(self) or hop_map(self)
 
     def __repr__(self) -> str:
         return summary.text(self._title(), self._lines())
@@ -94,6 +95,7 @@ class HopStudy:
                     continue
                 row: dict[str, Any] = {} if self.second is None else {self.second: line.value}
                 row |= line.threshold(where).to_dict()
+                row["omega_1_t"] = line.turning(where)
                 row["at_a_third_of_the_tolerance"] = line.holds(where)
                 row["by_rule"] = {f"{f:.3g}": line.threshold(where, f).to_dict() for f in DECADE}
                 rows.append(row)

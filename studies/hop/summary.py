@@ -189,8 +189,12 @@ def _units(study: HopStudy) -> tuple[str, str, str]:
     return time, "R" if study.scene.hoop.R == 1 else "m", energy
 
 
-def scaling_sentence(study: HopStudy) -> list[str]:
-    """The power of k with which the thresholds fall, where the map is over k."""
+def scaling_sentences(study: HopStudy) -> list[str]:
+    """The power of k with which the thresholds fall, where the map is over k; and how sudden the pulse is at them."""
+    return [*_power_of_k(study), *_suddenness(study)]
+
+
+def _power_of_k(study: HopStudy) -> list[str]:
     if study.second != "hoop.k":
         return []
     import numpy as np
@@ -210,10 +214,25 @@ def scaling_sentence(study: HopStudy) -> list[str]:
     return [f"Over k the threshold goes like: {'; '.join(said)}. The wall gives way inside the pulse below 1.3/k."]
 
 
+def _suddenness(study: HopStudy) -> list[str]:
+    said = []
+    for where in PLACES:
+        found = [line.turning(where) for line in study.lines if where in line.windows]
+        known = [number(value, 2) for value in sorted(value for value in found if value is not None)]
+        if known:
+            said.append(f"{where} {' to '.join([*known[:1], *known[1:][-1:]])}")
+    if not said:
+        return []
+    return [
+        f"At the thresholds ω₁t* is {'; '.join(said)}: ω₁ the slowest vibration of the ring about its weld, exp(-ω₁t*) "
+        "how much of it is in the pulse of the rigid hoop."
+    ]
+
+
 def hop_sheets(study: HopStudy) -> list[Any]:
     """All of it, as the screen shows it."""
     return [
-        answer(study), *verdict(study), *scaling_sentence(study), rule_sentence(study), threshold_sheet(study),
+        answer(study), *verdict(study), *scaling_sentences(study), rule_sentence(study), threshold_sheet(study),
         case_sheet(study), *unfinished_sentences(study),
     ]  # fmt: skip
 

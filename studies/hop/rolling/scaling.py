@@ -12,6 +12,7 @@ ring.
 
 from __future__ import annotations
 
+from functools import cache
 from math import asinh, cos, cosh, pi, sqrt
 
 from scipy.integrate import quad
@@ -31,6 +32,7 @@ def pulse_time(scene: Scene) -> float:
     return float(quad(slowness, 0.0, 2 * asinh(sqrt(zeta) / 2))[0])
 
 
+@cache
 def suddenness(scene: Scene) -> float:
     """E I/(m g R^2) at which omega_1 t* = 1, omega_1 the slowest vibration of the ring about its weld.
 

@@ -10,11 +10,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from math import asin, isfinite, pi, sqrt
-from typing import Any
+from typing import Any, Protocol
 
 from rigid import Kind, Run, Scene, simulate
 
 from ...running.case import Outcome
+from .scaling import suddenness
 
 SYMBOL = "E I/(m g R²)"
 
@@ -189,9 +190,30 @@ class Line:
         """Below which it hops there."""
         return bracket(self.answers(where, least))
 
+    def turning(self, where: str) -> float | None:
+        """omega_1 t* at the threshold, see :mod:`studies.hop.rolling.scaling`; None without one, or without a mass."""
+        value, sudden = self.threshold(where).value, suddenness(self.scene)
+        return sqrt(value / sudden) if value is not None and sudden > 0 else None
+
     def holds(self, where: str) -> bool | None:
         """Whether a third of the tolerance says the same at both ends of the bracket; None where it does not say."""
         found = self.threshold(where)
         finer = self.answers(where, cases=self.finer)
         said = (finer.get(found.low), finer.get(found.high))
         return None if None in said else said == (True, False)
+
+
+class Mapped(Protocol):
+    """What is drawn of a study."""
+
+    @property
+    def scene(self) -> Scene:
+        """From which all starts."""
+
+    @property
+    def second(self) -> str | None:
+        """The key besides the bending stiffness."""
+
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """The rolls by its values."""
