@@ -14,7 +14,7 @@ import numpy as np
 from rigid.kernel.compile import jit, part
 
 from ..contact.guess import forces_in_newton
-from ..contact.newton import move, reached, round_off, share_before_bend
+from ..contact.newton import breaks_loose, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, pulling
 from ..contact.vectors import largest
 from .bordered import FRAME, Factors, factor, nothing_factored, solve
@@ -74,6 +74,7 @@ def solve_stage(
     update, update_u = np.zeros(d.shape[0]), np.zeros(2 * m)
     iterations, damping, last = -1, 1.0, np.inf
     way, reach = 0.0, np.inf
+    stuck, halved = 0.0, 0
     factors = nothing_factored()
     chained, stale = factors.core, True
     softest = largest(facing.missing)
@@ -83,11 +84,13 @@ def solve_stage(
         contact = forces_in_newton(pos[:FRAME], u, facing.rim, law, mode, before, damper, iteration == 0)
         res = contact.res
         share = share_before_bend(res, way, reach)
+        if breaks_loose(res, stuck, halved):
+            share, halved = 0.5, halved + 1
         if share < 1:
             move(d, u, damping * (1 - share), update, update_u)
             damping *= share
             continue
-        way, reach = res.way, res.reach
+        way, reach, stuck, halved = res.way, res.reach, res.stuck, 0
         q, frame, force = balance(chain, pos, vel, acc)
         touch = touch_of(rod, q, facing, place, inner, u)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces

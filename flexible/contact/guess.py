@@ -25,7 +25,7 @@ def _too_low(pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, dampe
     if res.elastic == 0:
         least = least_gap(before.pose, before.u, rim)
         return least - least_gap(pose, u, rim) if least < 0 else 0.0
-    if damper.relaxation == 0 or damper.elastic_0 <= 0 or abs(res.eta - 1) < 1:
+    if damper.relaxation == 0 or damper.elastic_0 <= 0 or abs(res.eta - 1) < 0.1:
         return 0.0
     return 1.5 * res.elastic / (law.eps_n * res.length) * (1 - (damper.elastic_0 / res.elastic) ** (2 / 3))
 

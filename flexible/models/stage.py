@@ -13,7 +13,7 @@ import numpy as np
 from rigid.kernel.compile import part, written_out
 
 from ..contact.guess import forces_in_newton
-from ..contact.newton import move, reached, round_off, share_before_bend
+from ..contact.newton import breaks_loose, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
 from ..contact.vectors import largest, plus
 from ..ring.frame import Frame, inertia
@@ -132,6 +132,7 @@ def solve_stage(
     iterations = -1
     damping, last = 1.0, np.inf
     way, reach = 0.0, np.inf
+    stuck, halved = 0.0, 0
     softest = largest(window.compliance)
     damper = pulling(damper, True)
     for iteration in range(MOST_ITERATIONS):
@@ -139,11 +140,13 @@ def solve_stage(
         contact = forces_in_newton(pos[:3], u, window.rim, law, mode, before, damper, iteration == 0)
         tangent, res = contact.tangent, contact.res
         share = share_before_bend(res, way, reach)
+        if breaks_loose(res, stuck, halved):
+            share, halved = 0.5, halved + 1
         if share < 1:
             move(d, u, damping * (1 - share), update[:m], update[m:])
             damping *= share
             continue
-        way, reach = res.way, res.reach
+        way, reach, stuck, halved = res.way, res.reach, res.stuck, 0
         own, own_tangent = inertia(frame, pos, vel, acc, predictor.beta)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
         _misfit(residual, own, contact, window, pos, u, scale)
