@@ -20,7 +20,7 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from numpy.typing import NDArray
 
 from ..plots.style import RIGID, STYLE, blank
-from .rolling.scaling import suddenness
+from .rolling.scaling import duration
 from .rolling.threshold import SYMBOL, WHERE, HopCase, Line, Mapped
 
 Array = NDArray[np.float64]
@@ -28,8 +28,8 @@ Array = NDArray[np.float64]
 HEIGHTS = (1e-4, 1e-1)
 """Of a hop over R, between which colours run."""
 
-TURNS = 3.0
-"""omega_1 t* that is drawn, see :mod:`studies.hop.rolling.scaling`."""
+TIMES_DURATION = 12.0
+"""E I tau^2 that is drawn; thresholds anywhere have it within a factor of 1.6, see :mod:`studies.hop.rolling.scaling`."""
 
 PLACES = {
     "bottom": ("at φ = π, the contact under the disk", "#D55E00"),
@@ -121,10 +121,9 @@ def _lines(study: Mapped, axes: Axes) -> list[Artist]:
         known = [line.threshold(where).value if where in line.windows else None for line in study.lines]
         axes.plot([np.nan if value is None else value for value in known], values, **solid)  # a gap where there is none
     keys.append(Line2D([], [], label="thresholds: anywhere, in the pulse, at φ = π", **solid))
-    sudden = np.array([TURNS**2 * suddenness(line.scene) for line in study.lines])
-    if sudden.min() > 0:
-        label = f"$\\omega_1 t^* = {TURNS:g}$: the pulse is sudden for the ring"
-        keys += axes.plot(sudden, values, "--", color=RIGID, lw=1.3, label=label, path_effects=HALO)
+    durations = np.array([duration(line.scene) or np.nan for line in study.lines])
+    label = f"{TIMES_DURATION:g}/τ², τ the time of the rigid pulse"
+    keys += axes.plot(TIMES_DURATION / durations**2, values, "--", color=RIGID, lw=1.3, label=label, path_effects=HALO)
     if study.second == "hoop.k":
         label = "1.3/k: the wall gives way"
         keys += axes.plot(1.3 / values, values, ":", color=RIGID, lw=1.6, label=label, path_effects=HALO)

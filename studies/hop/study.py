@@ -96,6 +96,7 @@ class HopStudy:
                 row: dict[str, Any] = {} if self.second is None else {self.second: line.value}
                 row |= line.threshold(where).to_dict()
                 row["omega_1_t"] = line.turning(where)
+                row["times_duration_squared"] = line.times_duration(where)
                 row["at_a_third_of_the_tolerance"] = line.holds(where)
                 row["by_rule"] = {f"{f:.3g}": line.threshold(where, f).to_dict() for f in DECADE}
                 rows.append(row)

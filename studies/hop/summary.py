@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import degrees, isfinite
 from typing import Any
 
@@ -215,18 +216,28 @@ def _power_of_k(study: HopStudy) -> list[str]:
 
 
 def _suddenness(study: HopStudy) -> list[str]:
+    turning = _in_all_lines(study, lambda line, where: line.turning(where))
+    duration = _in_all_lines(study, lambda line, where: line.times_duration(where))
+    said = []
+    if duration:
+        said.append(f"At the thresholds {SYMBOL} times τ²g/R, τ the time of the rigid pulse, is {duration}.")
+    if turning:
+        said.append(
+            f"ω₁t* is {turning} there: ω₁ the slowest vibration of the ring about its weld, exp(-ω₁t*) how much of it "
+            "is in the pulse of the rigid hoop."
+        )
+    return said
+
+
+def _in_all_lines(study: HopStudy, value: Callable[[Line, str], float | None]) -> str:
+    """Least and largest value at the thresholds of each place."""
     said = []
     for where in PLACES:
-        found = [line.turning(where) for line in study.lines if where in line.windows]
-        known = [number(value, 2) for value in sorted(value for value in found if value is not None)]
+        found = [value(line, where) for line in study.lines if where in line.windows]
+        known = [number(each, 3) for each in sorted(each for each in found if each is not None)]
         if known:
-            said.append(f"{where} {' to '.join([*known[:1], *known[1:][-1:]])}")
-    if not said:
-        return []
-    return [
-        f"At the thresholds ω₁t* is {'; '.join(said)}: ω₁ the slowest vibration of the ring about its weld, exp(-ω₁t*) "
-        "how much of it is in the pulse of the rigid hoop."
-    ]
+            said.append(f"{' to '.join([*known[:1], *known[1:][-1:]])} {where}")
+    return ", ".join(said)
 
 
 def hop_sheets(study: HopStudy) -> list[Any]:

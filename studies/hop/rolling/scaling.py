@@ -7,7 +7,7 @@ nearest such times are t_bottom +- i t*,
     t* = integral of sqrt((zeta + 2 - 2 cosh y)/(2 (cos phi_0 + cosh y))) dy from 0 to 2 arsinh(sqrt(zeta)/2).
 
 What a pulse holds of a frequency omega falls like exp(-omega t*), and with it what it leaves in a vibration of the
-ring.
+ring. Slips make the pulse another one; its duration tau, over which the rigid N exceeds M g, knows of them.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from math import asinh, cos, cosh, pi, sqrt
 
 from scipy.integrate import quad
 
-from rigid import Scene
+from rigid import Run, Scene, simulate
 
 from .rule import slowest_period
 
@@ -40,3 +40,11 @@ def suddenness(scene: Scene) -> float:
     """
     period = slowest_period(scene.to_dimensionless().replace(ring={"bending_stiffness": 1.0}))
     return (period / (2 * pi * pulse_time(scene))) ** 2
+
+
+@cache
+def duration(scene: Scene) -> float | None:
+    """tau of the rigid hoop's first pulse, in sqrt(R/g); None without one."""
+    motion = simulate(scene.to_dimensionless().replace(run=Run(until="pulse")))
+    pulse = next((pulse for pulse in motion.pulses if not pulse.cut), None)
+    return None if pulse is None else float(pulse.t_end - pulse.t_start)

@@ -15,7 +15,7 @@ from typing import Any, Protocol
 from rigid import Kind, Run, Scene, simulate
 
 from ...running.case import Outcome
-from .scaling import suddenness
+from .scaling import duration, suddenness
 
 SYMBOL = "E I/(m g R²)"
 
@@ -194,6 +194,11 @@ class Line:
         """omega_1 t* at the threshold, see :mod:`studies.hop.rolling.scaling`; None without one, or without a mass."""
         value, sudden = self.threshold(where).value, suddenness(self.scene)
         return sqrt(value / sudden) if value is not None and sudden > 0 else None
+
+    def times_duration(self, where: str) -> float | None:
+        """E I tau^2 at the threshold, E I over m g R^2 and tau, the time of the rigid pulse, over sqrt(R/g)."""
+        value, tau = self.threshold(where).value, duration(self.scene)
+        return value * tau**2 if value is not None and tau is not None else None
 
     def holds(self, where: str) -> bool | None:
         """Whether a third of the tolerance says the same at both ends of the bracket; None where it does not say."""

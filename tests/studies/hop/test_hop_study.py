@@ -223,6 +223,10 @@ def test_thresholds_are_told_in_the_time_of_the_pulse_too():
     values = {where: line.turning(where) / np.sqrt(line.threshold(where).value) for where in LIFTS}
     assert values["anywhere"] == pytest.approx(values["pulse"])
     assert values["anywhere"] ** -2 == pytest.approx(suddenness(line.scene))
+    pulse = simulate(line.scene).pulses[0]
+    for where in LIFTS:
+        expected = line.threshold(where).value * (pulse.t_end - pulse.t_start) ** 2
+        assert line.times_duration(where) == pytest.approx(expected)
     assert rolled(0, "hoop.mass_ratio=0,0.1").lines[0].turning("pulse") is None, "no mass, no vibration"
 
 
