@@ -4,6 +4,7 @@
 ``laws``      friction laws, a file each
 ``assembly``  from points to unknowns
 ``forces``    all of it together: forces, tangent, state of the patch
+``guess``     the same where Newton begins: the rim moved to where the forces say something
 ``newton``    what Newton on a stage with these forces is alike for all rings
 ``vectors``   sums and products of whole vectors, in loops
 """
