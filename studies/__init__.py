@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     __version__: str
 
     from .atlas.study import Atlas, atlas_of
-    from .hop.roll import HopMap
+    from .hop.rolling.roll import HopMap
     from .hop.study import HopStudy, hop_study
     from .limit.study import LimitStudy, limit_study
     from .running.files import StudyError
@@ -46,7 +46,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "Atlas": "atlas.study",
     "atlas_of": "atlas.study",
-    "HopMap": "hop.roll",
+    "HopMap": "hop.rolling.roll",
     "HopStudy": "hop.study",
     "hop_study": "hop.study",
     "LimitStudy": "limit.study",

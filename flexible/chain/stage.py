@@ -13,8 +13,9 @@ import numpy as np
 
 from rigid.kernel.compile import jit, part
 
-from ..contact.forces import contact_forces, raise_patch
-from ..contact.newton import RAISES, move, reached, round_off, share_before_bend
+from ..contact.forces import contact_forces
+from ..contact.guess import GUESSES, guess_again
+from ..contact.newton import breaks_loose, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, pulling
 from ..contact.vectors import largest
 from .bordered import FRAME, Factors, factor, nothing_factored, solve
@@ -74,27 +75,30 @@ def solve_stage(
     update, update_u = np.zeros(d.shape[0]), np.zeros(2 * m)
     iterations, damping, last = -1, 1.0, np.inf
     way, reach = 0.0, np.inf
+    stuck, halved = 0.0, 0
     factors = nothing_factored()
     chained, stale = factors.core, True
     softest = largest(facing.missing)
     damper = pulling(damper, True)
-    iteration, raises = -1, RAISES
+    iteration, guesses = -1, GUESSES
     while iteration < MOST_ITERATIONS:
         pos, vel, acc = reached(predictor, d)
         # always with a tangent, but not by a plain True, for which contact_forces would be compiled once more
-        contact = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper, raises >= 0)
+        contact = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper, guesses <= GUESSES)
         res = contact.res
-        if raises > 0 and raise_patch(pos[:FRAME], u, facing.rim, law, before, damper, res):
-            raises -= 1
-            continue
-        raises = 0
+        if guesses > 0:
+            guesses = guess_again(pos[:FRAME], u, facing.rim, law, before, damper, contact, guesses)
+            if guesses >= 0:
+                continue
         iteration += 1
         share = share_before_bend(res, way, reach)
+        if breaks_loose(res, stuck, halved):
+            share, halved = 0.5, halved + 1
         if share < 1:
             move(d, u, damping * (1 - share), update, update_u)
             damping *= share
             continue
-        way, reach = res.way, res.reach
+        way, reach, stuck, halved = res.way, res.reach, res.stuck, 0
         q, frame, force = balance(chain, pos, vel, acc)
         touch = touch_of(rod, q, facing, place, inner, u)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces

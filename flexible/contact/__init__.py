@@ -5,6 +5,7 @@
 ``room``      the few arrays that all of them are parts of
 ``assembly``  from points to unknowns
 ``forces``    all of it together: forces, tangent, state of the patch
+``guess``     the same where Newton begins: the rim moved to where the forces say something
 ``newton``    what Newton on a stage with these forces is alike for all rings
 ``vectors``   sums and products of whole vectors, small systems
 """

@@ -29,7 +29,7 @@ from .assembly import X, Y, add_outer, add_spread, direct, gather, share_out, sp
 from .laws.listing import tractions
 from .points.bristles import carry
 from .points.data import Before, Bristles, Contact, Damper, Load, Parameters, Resultants, Rim, Slip
-from .points.detection import find, least_gap, place
+from .points.detection import find, place
 from .points.normal import force_by_gaps, press, sum_by_gaps
 from .points.rim import gap_at, lift, sideways, upward, vertex_angle
 from .room import PULL, SCRATCH, Room, carried_in, forces_in, foundation_in, keep, points_in, room_for
@@ -257,37 +257,3 @@ def contact_forces(
     keep(room, bristles)
     share_out(room.unknowns[1], frame, nodal)
     return Contact(frame, nodal, room.tangent, res, bristles, outside)
-
-
-@loop
-def _too_low(pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, damper: Damper, res: Resultants) -> float:
-    """How much farther down the rim is than where its patch is about as deep as before the step; 0 where it is well.
-
-    A patch of the depth delta and the length L has N_el = (2/3) eps_n L delta, whatever the rim's curvature, and N_el
-    grows like delta^(3/2).
-    """
-    if res.elastic == 0:
-        least = least_gap(before.pose, before.u, rim)
-        return least - least_gap(pose, u, rim) if least < 0 else 0.0
-    if damper.relaxation == 0 or damper.elastic_0 <= 0 or abs(res.eta - 1) < 1:
-        return 0.0
-    return 1.5 * res.elastic / (law.eps_n * res.length) * (1 - (damper.elastic_0 / res.elastic) ** (2 / 3))
-
-
-@loop
-def raise_patch(
-    pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, damper: Damper, res: Resultants
-) -> bool:  # fmt: skip
-    """Move the rim where Newton begins to where its patch is about as it was; whether that was necessary.
-
-    A soft ring follows the floor. With a frame that has moved and a rim that has not, the patch is off the floor, and
-    the next guess, without its forces, far below it; or so deep that the damper, which multiplies by the stage's rate,
-    makes N hundreds of times what it will be. From either Newton takes tens of iterations to come back.
-    """
-    raised = _too_low(pose, u, rim, law, before, damper, res)
-    if raised == 0:
-        return False
-    for i in range(u.shape[0]):
-        u[i, 0] += raised * cos(pose[2])
-        u[i, 1] -= raised * sin(pose[2])
-    return True

@@ -11,7 +11,7 @@ from rigid.kernel.compile import loop, part
 from .points.data import Contact, Damper, Resultants
 from .vectors import add, largest, plus, times
 
-RAISES = 3  # of a patch where Newton begins, see :func:`flexible.contact.forces.raise_patch`
+HALVINGS = 6  # of a step of Newton that breaks a patch loose
 
 
 @part
@@ -37,6 +37,16 @@ def share_before_bend(res: Resultants, way: float, reach: float) -> float:
     """
     step = abs(res.way - way)
     return reach / step if res.elastic > 0 and step > 1.5 * reach else 1.0
+
+
+@loop
+def breaks_loose(res: Resultants, stuck: float, halved: int) -> bool:
+    """Whether a step of Newton after which no point of a patch sticks, where a share of it did, is to be halved.
+
+    It may pass the bristles' reach on both sides; and where all slide nothing tells where they would stick. A patch
+    that does break loose still does so after a 64th of the step.
+    """
+    return bool(stuck > 0 and res.stuck == 0 and res.elastic > 0 and halved < HALVINGS)
 
 
 @loop

@@ -12,8 +12,9 @@ import numpy as np
 
 from rigid.kernel.compile import loop, written_out
 
-from ..contact.forces import contact_forces, raise_patch
-from ..contact.newton import RAISES, left_by_newton, move, reached, round_off, share_before_bend
+from ..contact.forces import contact_forces
+from ..contact.guess import GUESSES, guess_again
+from ..contact.newton import breaks_loose, left_by_newton, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
 from ..contact.vectors import largest, plus, solve_dense
 from ..ring.frame import Frame, inertia
@@ -132,25 +133,28 @@ def solve_stage(
     iterations = -1
     damping, last, before_last = 1.0, np.inf, np.inf
     way, reach = 0.0, np.inf
+    stuck, halved = 0.0, 0
     softest = largest(window.compliance)
     damper = pulling(damper, True)
-    iteration, raises = -1, RAISES
-    asked = raises > 0  # for a tangent; nowhere a plain True, for which contact_forces would be compiled once more
+    iteration, guesses = -1, GUESSES
+    asked = guesses > 0  # for a tangent; nowhere a plain True, for which contact_forces would be compiled once more
     while iteration < MOST_ITERATIONS:
         pos, vel, acc = reached(predictor, d)
         contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper, asked)
         res = contact.res
-        if raises > 0 and raise_patch(pos[:3], u, window.rim, law, before, damper, res):
-            raises -= 1
-            continue
-        raises = 0
+        if guesses > 0:
+            guesses = guess_again(pos[:3], u, window.rim, law, before, damper, contact, guesses)
+            if guesses >= 0:
+                continue
         iteration += 1
         share = share_before_bend(res, way, reach)
+        if breaks_loose(res, stuck, halved):
+            share, halved = 0.5, halved + 1
         if share < 1:
             move(d, u, damping * (1 - share), update[:m], update[m:])
             damping *= share
             continue
-        way, reach = res.way, res.reach
+        way, reach, stuck, halved = res.way, res.reach, res.stuck, 0
         own, own_tangent = inertia(frame, pos, vel, acc, predictor.beta)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
         _misfit(residual, own, contact, window, pos, u, scale)

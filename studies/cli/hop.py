@@ -16,7 +16,7 @@ from ..running.solvers import levels_of, missing, prepare
 from .shared.options import SceneKey, SceneName, as_json, out_folder, results_folder, scheduler, workers
 
 if TYPE_CHECKING:
-    from ..hop.roll import HopMap
+    from ..hop.rolling.roll import HopMap
     from ..hop.study import HopStudy
 
 
@@ -33,7 +33,11 @@ if TYPE_CHECKING:
     "contact.stiffness, friction.mu, ...) for a map; evenly in the logarithm, evenly from 0. Or KEY=VALUE,VALUE,...",
 )
 @click.option(
-    "--bisections", type=click.IntRange(0, 30), default=4, metavar="N", help="Of each threshold, 4 by default."
+    "--bisections",
+    type=click.IntRange(0, 30),
+    default=4,
+    metavar="N",
+    help="Of each threshold, 4 by default; 0 is the map alone.",
 )
 @click.option(
     "--rtol",
@@ -44,6 +48,7 @@ if TYPE_CHECKING:
 @click.option(
     "--turns", type=click.IntRange(1, 100), metavar="N", help="Roll to this turn, in place of the scene's end."
 )
+@click.option("--whole", is_flag=True, help="Roll every hoop to its end, also where all is decided before.")
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--level",
@@ -62,6 +67,7 @@ def hop(
     bisections: int,
     rtol: float | None,
     turns: int | None,
+    whole: bool,
     law: str | None,
     level: str | None,
     workers: int | None,
@@ -72,7 +78,7 @@ def hop(
     Hoops released at rest roll, flexible throughout, over a range of bending stiffness and one key more; every flight
     is listed with where it begins, how high it goes and where its energy came from.
     """
-    from ..hop.roll import RTOL
+    from ..hop.rolling.roll import RTOL
     from ..hop.study import hop_study
     from ..running.progress import announce, bar
     from ..running.workers import pool
@@ -82,10 +88,11 @@ def hop(
         described = described.replace(contact={"law": law})
     if turns is not None:
         described = described.replace(run=Run(turns=turns))
-    asked = map_of(described, over, rtol=rtol or RTOL, bisections=bisections, level=level)
+    asked = map_of(described, over, rtol=rtol or RTOL, bisections=bisections, level=level, whole=whole)
     target = results_folder(out)
     say: Callable[[str], None] = (lambda sentence: None) if as_json else announce
-    say(f"{asked.count} rolls, and up to {3 * (bisections + 2)} more for each threshold line.")
+    more = f", and up to {3 * (bisections + 2)} more for each threshold line" if bisections else ""
+    say(f"{asked.count} rolls{more}.")
     with bar(f"{asked.count} rolls") as progress, pool(workers, scheduler) as place:
         if scheduler is None:
             prepare(*missing(levels_of(_ends_of(asked))))  # one process for all workers
@@ -150,7 +157,7 @@ def map_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> HopMap:
     """
     import numpy as np
 
-    from ..hop.roll import DEFAULT, STIFFNESS, HopMap
+    from ..hop.rolling.roll import DEFAULT, STIFFNESS, HopMap
 
     ranges = [parse_over(text) for text in over]
     keys = [key for key, _ in ranges]

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import degrees, sin
-from typing import Protocol
+from math import degrees, inf, sin
 
 import matplotlib
 import numpy as np
@@ -13,40 +12,21 @@ from matplotlib.collections import PathCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 from numpy.typing import NDArray
 
 from flexible.models.state import State
 from flexible.output.body import lowest, outline, whole
-from rigid import Scene
+from rigid import Run, Scene
 
 from ..plots.style import OKABE_ITO, RIGID, STYLE, blank
-from .energies import Roll
-from .roll import roll, spans, steps_of
-from .threshold import SYMBOL, HopCase, Line
-
-HEIGHTS = (1e-4, 1e-1)
-"""Of a hop over R, between which colours run."""
+from .maps import HEIGHTS, in_plain_numbers, map_figure
+from .rolling.energies import Roll
+from .rolling.roll import roll, spans, steps_of
+from .rolling.threshold import SYMBOL, HopCase, Line, Mapped
 
 AROUND = 1.5
 """Of a hop's duration is shown before and after it, and no less than ``LEAST``."""
 LEAST = 0.25
-
-
-class Mapped(Protocol):
-    """What is drawn of a study."""
-
-    @property
-    def scene(self) -> Scene:
-        """From which all starts."""
-
-    @property
-    def second(self) -> str | None:
-        """The key besides the bending stiffness."""
-
-    @property
-    def lines(self) -> tuple[Line, ...]:
-        """The rolls by its values."""
 
 
 class Chosen:
@@ -54,7 +34,9 @@ class Chosen:
 
     def __init__(self, case: HopCase, number: int) -> None:
         self.case, self.hop = case, case.hops[number]
-        motion = roll(case.scene, history=True)
+        until = (self.hop["t"] + (1 + AROUND) * self.hop["duration"]) / case.scene.time_unit + LEAST
+        last = min(until * case.scene.time_unit, case.scene.run.t_end or inf)
+        motion = roll(case.scene.replace(run=Run(t_end=last)), history=True)
         self.steps: Roll = steps_of(motion)
         self.unit = case.scene.time_unit
         start = self.hop["t"] / self.unit
@@ -142,59 +124,8 @@ def _line(axes: Axes, study: Mapped, line: Line) -> PathCollection | None:
     stiffness = [case.bending_stiffness for case in cases]
     axes.set(xscale="log", title=name, ylim=(0, 360), yticks=range(0, 361, 90),
              xlim=(min(stiffness) / 1.2, max(stiffness) * 1.2))  # fmt: skip
-    _in_plain_numbers(axes)
+    in_plain_numbers(axes.xaxis)
     return dots if len(points) else None
-
-
-def _in_plain_numbers(axes: Axes) -> None:
-    """Ticks of a logarithmic axis of stiffness: 1, 3, 10, 30, ..."""
-    axes.xaxis.set_major_locator(FixedLocator([m * 10.0**n for n in range(-12, 13) for m in (1, 3)]))
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.xaxis.set_minor_locator(NullLocator())
-
-
-def height_map(study: Mapped) -> Figure | None:
-    """Height of the highest hop over bending stiffness and the second key, with the thresholds."""
-    if study.second is None:
-        return None
-    with matplotlib.rc_context(STYLE):
-        figure = blank(8.4, 5.0)
-        axes = figure.subplots()
-        values = np.array([line.value for line in study.lines], dtype=float)
-        stiffness = np.array([case.bending_stiffness for case in study.lines[0].mapped])
-        R = study.scene.hoop.R
-        heights = np.array([[_height(case, R) for case in line.mapped] for line in study.lines])
-        even = values.min() > 0 and len(values) > 2
-        axes.set(xscale="log", yscale="log" if even else "linear", xlabel=SYMBOL, ylabel=study.second)
-        painted = axes.pcolormesh(
-            stiffness, values, np.where(heights > 0, np.clip(heights, *HEIGHTS), np.nan), norm=LogNorm(*HEIGHTS),
-            cmap="viridis_r", shading="nearest",
-        )  # fmt: skip
-        for line in study.lines:
-            for case in line.mapped:
-                if not case.motion["completed"]:
-                    axes.plot(case.bending_stiffness, line.value, "x", color="0.3", markersize=4)
-        for where, style in (("anywhere", "-"), ("pulse", "--"), ("bottom", ":")):
-            known = [(line.threshold(where).value, line.value) for line in study.lines if where in line.windows]
-            known = [pair for pair in known if pair[0] is not None]
-            if known:
-                axes.plot(*np.array(known).T, style, color=OKABE_ITO["friction_loss"], marker="o", ms=4,
-                          label=f"hops below: {where}")  # fmt: skip
-        if study.second == "hoop.k":
-            axes.plot(1.3 / values, values, color=RIGID, lw=1, label="1.3/k: the wall gives way")
-        axes.set_xlim(stiffness.min() / 1.25, stiffness.max() * 1.25)
-        if axes.get_legend_handles_labels()[0]:
-            axes.legend(loc="upper right", frameon=True)
-        axes.set_yticks(values, [f"{value:g}" for value in values])
-        axes.minorticks_off()
-        _in_plain_numbers(axes)
-        axes.grid(False)
-        figure.colorbar(painted, ax=axes, label="height of the highest hop over R (white: none)")
-        return figure
-
-
-def _height(case: HopCase, R: float) -> float:
-    return np.nan if case.height is None else case.height / R
 
 
 def energies_figure(found: Chosen) -> Figure:
@@ -288,7 +219,7 @@ def _closed(points: np.ndarray) -> np.ndarray:
 
 def of_hop(study: Mapped, found: Chosen | None) -> dict[str, Figure]:
     """All figures by name."""
-    drawn = {"map": height_map(study), "where": hop_map(study)}
+    drawn = {"map": map_figure(study), "where": hop_map(study)}
     if found is not None:
         drawn |= {"energies": energies_figure(found), "liftoff": liftoff_figure(found)}
     return {name: figure for name, figure in drawn.items() if figure is not None}

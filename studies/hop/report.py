@@ -11,7 +11,7 @@ from .summary import (
     answer,
     case_sheet,
     rule_sentence,
-    scaling_sentence,
+    scaling_sentences,
     threshold_sheet,
     unfinished_sentences,
     verdict,
@@ -19,9 +19,10 @@ from .summary import (
 
 CAPTIONS = {
     "map": """\
-Height of the highest hop between release and end, over the bending stiffness and the second key; white: no hop.
-Lines: the bending stiffness below which the hoop leaves the floor anywhere, within its first pulse, and under the disk.
-A cross marks a roll that stopped before its end.""",
+Where the hoop hops, over the bending stiffness and the second key; a roll that hops at several places has the colour of
+the rarest. Lines: the bending stiffness below which it leaves the floor anywhere, within its first pulse, and under the
+disk. A cross marks a roll that stopped before its end. On the right where the first hop begins, and the height of the
+highest as far as it was rolled; white: none.""",
     "where": """\
 Where each hop begins and how high it goes. Light band: the first pulse, the angles at which the rigid hoop's N exceeds
 the weight; dark: the contact is under the disk. A cross marks how far a roll came that stopped before its end.""",
@@ -53,7 +54,7 @@ def hop_report(
         "title": "Does an elastic hoop hop?",
         "verdict": answer(study),
         "lines": verdict(study),
-        "sentences": [*scaling_sentence(study), rule_sentence(study), *unfinished_sentences(study)],
+        "sentences": [*scaling_sentences(study), rule_sentence(study), *unfinished_sentences(study)],
         "sheets": [threshold_sheet(study).to_dict(), case_sheet(study).to_dict()],
         "numbers": numbers,
         "images": {name: (CAPTIONS.get(name, name), file) for name, file in images.items()},

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 from rigid import Scene, scene_to_dict
 from rigid.output import summary
 
-from ..running.case import Case
+from ..running.case import Case, Outcome
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
-from .roll import SOLVER, STIFFNESS, Ask, HopMap
-from .rule import DECADE
-from .threshold import TOLD, WHERE, HopCase, Line, windows
+from .rolling.roll import SOLVER, STIFFNESS, WHOLE, Ask, HopMap
+from .rolling.rule import DECADE
+from .rolling.threshold import TOLD, WHERE, HopCase, Line, windows
 
 if TYPE_CHECKING:
     import pandas
@@ -60,10 +60,11 @@ class HopStudy:
         return pandas.DataFrame(rows)
 
     def plot(self) -> Figure:
-        """The map: heights of the highest hops where there is a second key, else where each hop begins."""
-        from .figures import height_map, hop_map
+        """The map where there is a second key, else where each hop begins."""
+        from .figures import hop_map
+        from .maps import map_figure
 
-        return height_map(self) or hop_map(self)
+        return map_figure(self) or hop_map(self)
 
     def __repr__(self) -> str:
         return summary.text(self._title(), self._lines())
@@ -94,6 +95,8 @@ class HopStudy:
                     continue
                 row: dict[str, Any] = {} if self.second is None else {self.second: line.value}
                 row |= line.threshold(where).to_dict()
+                row["omega_1_t"] = line.turning(where)
+                row["times_duration_squared"] = line.times_duration(where)
                 row["at_a_third_of_the_tolerance"] = line.holds(where)
                 row["by_rule"] = {f"{f:.3g}": line.threshold(where, f).to_dict() for f in DECADE}
                 rows.append(row)
@@ -121,13 +124,13 @@ def hop_study(
     def run(asks: list[Ask]) -> list[tuple[int, HopCase]]:
         """Rolls, those that are not asked whole only through the pulse where that decides."""
         scenes = [asked.scene_of(ask) for ask in asks]
-        cases = [Case(SOLVER, scene, cut=True) for scene in scenes]
+        cases = [Case(WHOLE if asked.whole else SOLVER, scene, cut=True) for scene in scenes]
         # the map is most of the work
         low, high = (0.0, 0.8) if stage == 0 else (0.8 + 0.2 * (stage - 1) / rounds, 0.8 + 0.2 * stage / rounds)
         told = None if progress is None else (lambda share: progress(low + (high - low) * share))
         outcomes = run_cases(cases, pool or Here(), out, told, say=say)
         found = [
-            (ask.line, HopCase(ask.stiffness, scene, outcome, ask.whole))
+            (ask.line, HopCase(ask.stiffness, scene, outcome, ask.whole and _to_its_end(outcome)))
             for ask, scene, outcome in zip(asks, scenes, outcomes, strict=True)
         ]
         late = [not (ask.whole or _through(lines[ask.line], case)) for ask, (_, case) in zip(asks, found, strict=True)]
@@ -138,7 +141,8 @@ def hop_study(
 
     lines: list[Line] = []
     stiffness = sorted(set(asked.stiffness))
-    found = run([Ask(n, s, asked.rtol, True) for n in range(len(asked.scenes)) for s in stiffness])
+    # softest first: they are the dearest, and none is left alone at the end
+    found = run([Ask(n, s, asked.rtol, True) for s in stiffness for n in range(len(asked.scenes))])
     lines = [
         Line(value, scene, windows(scene), tuple(case for m, case in found if m == n))
         for n, (value, scene) in enumerate(zip(asked.values, asked.scenes, strict=True))
@@ -149,11 +153,18 @@ def hop_study(
             [Ask(n, s, asked.rtol, w) for n, line in enumerate(lines) for s, w in sorted(_middles(line).items())]
         )
         lines = [_with(line, between=[case for m, case in more if m == n]) for n, line in enumerate(lines)]
+    if not asked.bisections:
+        return HopStudy(asked.scene, asked.second, tuple(lines))
     stage += 1
     finer = asked.rtol / FINER
     more = run([Ask(n, s, finer, w) for n, line in enumerate(lines) for s, w in sorted(_ends(line).items())])
     lines = [_with(line, finer=[case for m, case in more if m == n]) for n, line in enumerate(lines)]
     return HopStudy(asked.scene, asked.second, tuple(lines))
+
+
+def _to_its_end(outcome: Outcome) -> bool:
+    """Whether a roll went on to its end where all was decided before."""
+    return bool((outcome.motion or {}).get("whole", True))
 
 
 def _with(line: Line, between: list[HopCase] | None = None, finer: list[HopCase] | None = None) -> Line:

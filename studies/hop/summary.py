@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import degrees, isfinite
 from typing import Any
 
 from ..plots.sheet import Column, Sheet, number
-from .rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG
+from .rolling.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG
+from .rolling.threshold import SYMBOL, Bracket, HopCase, Line, rigid_hops
 from .study import HopStudy
-from .threshold import SYMBOL, Bracket, HopCase, Line, rigid_hops
 
 PLACES = {
     "anywhere": "leaves the floor anywhere",
@@ -171,7 +172,9 @@ def case_sheet(study: HopStudy) -> Sheet:
 def _far(case: HopCase) -> str:
     if not case.motion["completed"]:
         return "no"
-    return "yes" if case.whole else "to its pulse"
+    if case.whole:
+        return "yes"
+    return "to its pulse" if case.motion.get("whole", True) else "till decided"
 
 
 def _share(hop: dict[str, Any] | None, *names: str) -> str:
@@ -187,8 +190,12 @@ def _units(study: HopStudy) -> tuple[str, str, str]:
     return time, "R" if study.scene.hoop.R == 1 else "m", energy
 
 
-def scaling_sentence(study: HopStudy) -> list[str]:
-    """The power of k with which the thresholds fall, where the map is over k."""
+def scaling_sentences(study: HopStudy) -> list[str]:
+    """The power of k with which the thresholds fall, where the map is over k; and how sudden the pulse is at them."""
+    return [*_power_of_k(study), *_suddenness(study)]
+
+
+def _power_of_k(study: HopStudy) -> list[str]:
     if study.second != "hoop.k":
         return []
     import numpy as np
@@ -208,10 +215,35 @@ def scaling_sentence(study: HopStudy) -> list[str]:
     return [f"Over k the threshold goes like: {'; '.join(said)}. The wall gives way inside the pulse below 1.3/k."]
 
 
+def _suddenness(study: HopStudy) -> list[str]:
+    turning = _in_all_lines(study, lambda line, where: line.turning(where))
+    duration = _in_all_lines(study, lambda line, where: line.times_duration(where))
+    said = []
+    if duration:
+        said.append(f"At the thresholds {SYMBOL} times τ²g/R, τ the time of the rigid pulse, is {duration}.")
+    if turning:
+        said.append(
+            f"ω₁t* is {turning} there: ω₁ the slowest vibration of the ring about its weld, exp(-ω₁t*) how much of it "
+            "is in the pulse of the rigid hoop."
+        )
+    return said
+
+
+def _in_all_lines(study: HopStudy, value: Callable[[Line, str], float | None]) -> str:
+    """Least and largest value at the thresholds of each place."""
+    said = []
+    for where in PLACES:
+        found = [value(line, where) for line in study.lines if where in line.windows]
+        known = [number(each, 3) for each in sorted(each for each in found if each is not None)]
+        if known:
+            said.append(f"{' to '.join([*known[:1], *known[1:][-1:]])} {where}")
+    return ", ".join(said)
+
+
 def hop_sheets(study: HopStudy) -> list[Any]:
     """All of it, as the screen shows it."""
     return [
-        answer(study), *verdict(study), *scaling_sentence(study), rule_sentence(study), threshold_sheet(study),
+        answer(study), *verdict(study), *scaling_sentences(study), rule_sentence(study), threshold_sheet(study),
         case_sheet(study), *unfinished_sentences(study),
     ]  # fmt: skip
 

@@ -13,6 +13,10 @@ UNDAMPED = "hoop study stiffness paper-3.3-massless --damping 0 --json"
 PULSE = "hoop flexible paper-3.3-light --out first-pulse --fields"
 FILM = "hoop view first-pulse --gif first-pulse.gif --field hoop_stress --frames 90"
 ATLAS = "hoop study atlas --json --out atlas"
+HOP = (
+    "hoop study hop paper-3.3-heavier --law brush --over ring.bending_stiffness=1.82:1e4:21 "
+    "--over hoop.k=0.05:0.5:12 --bisections 2 --json --out hop"
+)
 RIGID = "hoop bench rigid --peers --json --out bench"
 FLEXIBLE = "hoop bench flexible --peers --json --out bench"
 SCALING = "hoop bench scaling --json --out bench"
@@ -39,6 +43,7 @@ PICTURES = (
     Picture("distance.png", (STUDY,), "study/distance.png"),
     Picture("first-pulse.gif", (PULSE, FILM), "first-pulse.gif"),
     Picture("atlas.png", (ATLAS,), "atlas/atlas.png"),
+    Picture("hop.png", (HOP,), "hop/map.png"),
     Picture("bench-rigid.png", (RIGID,), "bench/bench-rigid.png"),
     Picture("bench-flexible.png", (FLEXIBLE,), "bench/bench-flexible.png"),
     Picture("bench-scaling.png", (SCALING,), "bench/bench-scaling.png"),

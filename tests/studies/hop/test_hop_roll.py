@@ -12,8 +12,8 @@ from scipy.integrate import trapezoid
 
 from flexible.output.body import lowest, outline, whole
 from rigid import Friction, Hoop, Kind, Release, Run, Scene, scene_to_dict, simulate
-from studies.hop.energies import Roll
-from studies.hop.roll import RollingMotion, roll, spans, steps_of
+from studies.hop.rolling.energies import Roll
+from studies.hop.rolling.roll import RollingMotion, roll, spans, steps_of
 from studies.plots.page import toml
 
 RTOL = 3e-4

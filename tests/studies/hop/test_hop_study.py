@@ -13,9 +13,12 @@ from third_hop import LIFTS
 from rigid import SceneError, load_scene, simulate
 from studies import StudyError, hop_study
 from studies.cli.hop import map_of, parse_over
-from studies.hop.roll import DEFAULT, from_rest, spans, through_the_pulse
-from studies.hop.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG, Scales
-from studies.hop.threshold import Window, bracket, hops_in, windows
+from studies.hop.maps import place
+from studies.hop.rolling.roll import DEFAULT, from_rest, spans, through_the_pulse
+from studies.hop.rolling.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG, Scales
+from studies.hop.rolling.scaling import suddenness
+from studies.hop.rolling.threshold import HopCase, Line, Window, bracket, hops_in, windows
+from studies.running.case import Outcome
 
 SCENE = "paper-3.3-heavier"
 
@@ -182,11 +185,49 @@ def test_json_is_the_contract(hoop):
 
 @pytest.mark.usefixtures("leaping")
 def test_a_study_is_drawn_from_python():
-    """Over one key where hops begin, over two the heights with the thresholds."""
+    """Over one key where hops begin, over two the map with the thresholds."""
     one = rolled(0).plot()
     assert one.axes[0].get_ylabel() == "φ at lift-off [°]"
     two = rolled(0, "hoop.k=0.1,0.2").plot()
-    assert two.axes[0].get_ylabel() == "hoop.k"
+    assert two.axes[0].get_ylabel() == "radius of the disk over that of the hoop, k"
+
+
+@pytest.mark.usefixtures("leaping")
+def test_a_map_shows_the_rarest_place_of_each_roll():
+    """Its hops begin under the disk, at 3.6 in the pulse and at 4.5 behind it, each below its stiffness in LIFTS."""
+    for line in rolled(0, "hoop.k=0.1,0.2").lines:
+        for case in line.mapped:
+            below = [where for where in ("bottom", "pulse", "anywhere") if case.bending_stiffness < LIFTS[where]]
+            rarest = next(iter(below), "nowhere")
+            assert place(case, line) == {"anywhere": "behind"}.get(rarest, rarest)
+
+
+def test_a_place_in_a_map_may_be_on_the_way_down_or_unknown():
+    line = rolled_by({"completed": True, "flights": [{"swept": 0.5, "prominence": 2.0}]})
+    assert place(line.mapped[0], line) == "before"
+    line = rolled_by({"completed": False, "flights": []})
+    assert place(line.mapped[0], line) is None
+
+
+def rolled_by(motion: dict) -> Line:
+    """A line of one roll that did this."""
+    scene = load_scene(SCENE)
+    outcome = Outcome("", "", {}, "", motion={"swept": 1.0, "scales": None, "t_end": 1.0} | motion)
+    return Line(None, scene, windows(scene), (HopCase(5.0, scene, outcome),))
+
+
+@pytest.mark.usefixtures("leaping")
+def test_thresholds_are_told_in_the_time_of_the_pulse_too():
+    """omega_1 goes with the root of the stiffness: the products go like the roots of the thresholds."""
+    line = rolled(6).lines[0]
+    values = {where: line.turning(where) / np.sqrt(line.threshold(where).value) for where in LIFTS}
+    assert values["anywhere"] == pytest.approx(values["pulse"])
+    assert values["anywhere"] ** -2 == pytest.approx(suddenness(line.scene))
+    pulse = simulate(line.scene).pulses[0]
+    for where in LIFTS:
+        expected = line.threshold(where).value * (pulse.t_end - pulse.t_start) ** 2
+        assert line.times_duration(where) == pytest.approx(expected)
+    assert rolled(0, "hoop.mass_ratio=0,0.1").lines[0].turning("pulse") is None, "no mass, no vibration"
 
 
 def test_a_map_goes_on_where_it_was(leaping, tmp_path, monkeypatch):

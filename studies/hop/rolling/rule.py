@@ -49,12 +49,16 @@ def _over(value: float, least: float) -> float:
     return max(value, 0.0) / least if least > 0 else inf
 
 
-def scales_of(scene: Scene, sag: float) -> Scales:
-    """The scales of a scene in which the hoop's centre stands ``sag`` below R at its release."""
+def slowest_period(scene: Scene) -> float:
+    """Of the ring's vibrations about the weld, in sqrt(R/g); 0 of one without mass."""
     from flexible.ring.reduction import reduce
 
-    period = 0.0
-    if scene.hoop.mass_ratio > 0:
-        period = 2 * pi / float(np.sqrt(reduce(scene, 1).frame.modal[0, 0]))
+    if scene.hoop.mass_ratio == 0:
+        return 0.0
+    return 2 * pi / float(np.sqrt(reduce(scene, 1).frame.modal[0, 0]))
+
+
+def scales_of(scene: Scene, sag: float) -> Scales:
+    """The scales of a scene in which the hoop's centre stands ``sag`` below R at its release."""
     half_width = (1.5 * (1 + scene.hoop.mass_ratio) / scene.contact.stiffness) ** (1 / 3)
-    return Scales(half_width**2 / 2, sag, period)
+    return Scales(half_width**2 / 2, sag, slowest_period(scene))

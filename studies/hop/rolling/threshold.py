@@ -10,11 +10,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from math import asin, isfinite, pi, sqrt
-from typing import Any
+from typing import Any, Protocol
 
 from rigid import Kind, Run, Scene, simulate
 
-from ..running.case import Outcome
+from ...running.case import Outcome
+from .scaling import duration, suddenness
 
 SYMBOL = "E I/(m g R²)"
 
@@ -109,7 +110,7 @@ class HopCase:
     """As it was run."""
     outcome: Outcome
     whole: bool = True
-    """Whether it was to roll to the end of the map's run, and not only through the first pulse."""
+    """Whether it was to roll to the end of the map's run, and not only through the pulse or until all was decided."""
 
     @property
     def motion(self) -> Mapping[str, Any]:
@@ -128,7 +129,7 @@ class HopCase:
 
     @property
     def height(self) -> float | None:
-        """Of the highest hop; None where the roll stopped early without any."""
+        """Of the highest hop as far as it was rolled; None where the roll stopped early without any."""
         if self.hops or self.motion["completed"]:
             return max((hop["height"] for hop in self.hops), default=0.0)
         return None
@@ -189,9 +190,35 @@ class Line:
         """Below which it hops there."""
         return bracket(self.answers(where, least))
 
+    def turning(self, where: str) -> float | None:
+        """omega_1 t* at the threshold, see :mod:`studies.hop.rolling.scaling`; None without one, or without a mass."""
+        value, sudden = self.threshold(where).value, suddenness(self.scene)
+        return sqrt(value / sudden) if value is not None and sudden > 0 else None
+
+    def times_duration(self, where: str) -> float | None:
+        """E I tau^2 at the threshold, E I over m g R^2 and tau, the time of the rigid pulse, over sqrt(R/g)."""
+        value, tau = self.threshold(where).value, duration(self.scene)
+        return value * tau**2 if value is not None and tau is not None else None
+
     def holds(self, where: str) -> bool | None:
         """Whether a third of the tolerance says the same at both ends of the bracket; None where it does not say."""
         found = self.threshold(where)
         finer = self.answers(where, cases=self.finer)
         said = (finer.get(found.low), finer.get(found.high))
         return None if None in said else said == (True, False)
+
+
+class Mapped(Protocol):
+    """What is drawn of a study."""
+
+    @property
+    def scene(self) -> Scene:
+        """From which all starts."""
+
+    @property
+    def second(self) -> str | None:
+        """The key besides the bending stiffness."""
+
+    @property
+    def lines(self) -> tuple[Line, ...]:
+        """The rolls by its values."""

@@ -19,12 +19,14 @@ from rigid import Run, Scene, scene_from_dict, scene_to_dict
 from rigid import simulate as rigid_motion
 from rigid.output.units import Length, Number, Time, in_units, without_units
 
-from ..running.files import StudyError
+from ...running.files import StudyError
 from .energies import HopEnergies, Roll, hop_energies
 from .rule import DECADE, Scales, scales_of
+from .threshold import hops_in, windows
 
-SOLVER = f"{__name__}:roll"
-"""The name under which cases call it."""
+WHOLE = f"{__name__}:roll"
+SOLVER = f"{__name__}:roll_until_decided"
+"""The names under which cases call it."""
 
 STIFFNESS = "ring.bending_stiffness"
 
@@ -53,7 +55,7 @@ class Flight:
     height: Length[float]
     """Of the rim's lowest point, the largest on the way."""
     prominence: Number[float]
-    """See :meth:`studies.hop.rule.Scales.prominence`."""
+    """See :meth:`studies.hop.rolling.rule.Scales.prominence`."""
     swept: Number[float]
     """The largest angle that the disk has come down from its release by then: tells the first pass of the bottom."""
     energies: HopEnergies | None = None
@@ -69,6 +71,8 @@ class RollingMotion(FlexibleMotion):
     """In R and sqrt(R/g)."""
     swept: float = 0.0
     """The largest angle that the disk comes down from its release."""
+    whole: bool = True
+    """Whether it was to roll to the end of the scene's run, and did not end where all was decided."""
 
     def to_dict(self) -> dict[str, Any]:
         """What a study keeps; phases of a chattering patch may be thousands and are left out."""
@@ -77,6 +81,7 @@ class RollingMotion(FlexibleMotion):
             **{name: told[name] for name in ("scene", "ended", "completed", "energy_ledger", "steps")},
             "t_end": self.t_end,
             "swept": self.swept,
+            "whole": self.whole,
             "scales": dataclasses.asdict(in_units(self.scales, self.scene)),
             "flights": [dataclasses.asdict(flight) for flight in self.flights],
         }
@@ -135,6 +140,8 @@ class HopMap:
     bisections: int = 4
     level: str | None = None
     """Of the ring; the scene's own by default."""
+    whole: bool = False
+    """Whether rolls of the map go on to their end where all is decided before."""
     scenes: tuple[Scene, ...] = field(init=False)
     """One for each value of the second key, ready to roll."""
 
@@ -164,7 +171,43 @@ class HopMap:
 
 def roll(scene: Scene, *, history: bool = False, progress: Callable[[float], None] | None = None) -> RollingMotion:
     """Roll the hoop of a scene; with ``history`` its steps and states are kept."""
-    motion = simulate(scene, history=True, progress=progress, most_steps=MOST_STEPS)
+    return _rolled(simulate(scene, history=True, progress=progress, most_steps=MOST_STEPS), history)
+
+
+def roll_until_decided(
+    scene: Scene, *, history: bool = False, progress: Callable[[float], None] | None = None
+) -> RollingMotion:
+    """The same, ended behind the first pulse or at the first turn if by then it is decided where the hoop hops.
+
+    It is decided if the disk has passed the pulse and the hoop has hopped by the strictest of the rule's constants.
+    What has hopped rings, and most of its steps would be taken in the chatter of its way on.
+    """
+    places, constants = windows(scene), (1.0, *DECADE)
+    earlier: FlexibleMotion | None = None
+    for t_end in _looks(scene):
+        earlier = simulate(
+            scene.replace(run=Run(t_end=t_end)), history=True, progress=progress, most_steps=MOST_STEPS, resume=earlier
+        )
+        found = _rolled(earlier, history)
+        told = found.to_dict()
+        asked = [hops_in(told, window, least, whole=False) for window in places.values() for least in constants]
+        if not earlier.completed or None not in asked:
+            return dataclasses.replace(found, whole=not earlier.completed or t_end == scene.run.t_end)
+    assert earlier is not None
+    return _rolled(earlier, history)
+
+
+def _looks(scene: Scene) -> list[float]:
+    """When it is asked whether all is decided: behind the pulse, at the rigid hoop's first turn, at the end."""
+    assert scene.run.t_end is not None
+    turns = [turn.t for turn in rigid_motion(scene).turns[:1]]
+    pulse = through_the_pulse(scene).run.t_end
+    assert pulse is not None
+    return sorted(t for t in {pulse, *turns, scene.run.t_end} if t <= scene.run.t_end)
+
+
+def _rolled(motion: FlexibleMotion, history: bool) -> RollingMotion:
+    """The motion with its flights; without ``history`` its steps are let go."""
     values = {entry.name: getattr(motion, entry.name) for entry in dataclasses.fields(FlexibleMotion)}
     found = RollingMotion(**values) if not motion.kept else _with_flights(values, steps_of(motion))
     return found if history else dataclasses.replace(found, history=None, kept=())

@@ -1,0 +1,75 @@
+"""Where Newton on a stage begins: the rim near the floor is moved to where the contact's forces say something.
+
+Newton's matrix knows where the rim is by its forces alone; see :func:`guess_again`.
+"""
+
+from __future__ import annotations
+
+from math import cos, sin
+from typing import Any
+
+from rigid.kernel.compile import loop
+
+from .points.data import Before, Bristles, Contact, Damper, Parameters, Resultants, Rim
+from .points.detection import least_gap
+
+GUESSES = 4  # three that raise the patch, and one along the floor
+
+
+@loop
+def _too_low(pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, damper: Damper, res: Resultants) -> float:
+    """How much farther down the rim is than where its patch is about as deep as before the step; 0 where it is well.
+
+    A patch of the depth delta and the length L has N_el = (2/3) eps_n L delta, whatever the rim's curvature, and N_el
+    grows like delta^(3/2).
+    """
+    if res.elastic == 0:
+        least = least_gap(before.pose, before.u, rim)
+        return least - least_gap(pose, u, rim) if least < 0 else 0.0
+    if damper.relaxation == 0 or damper.elastic_0 <= 0 or abs(res.eta - 1) < 0.1:
+        return 0.0
+    return 1.5 * res.elastic / (law.eps_n * res.length) * (1 - (damper.elastic_0 / res.elastic) ** (2 / 3))
+
+
+@loop
+def _sticking(bristles: Bristles) -> int:
+    """How many points stick."""
+    number = 0
+    for i in range(bristles.sliding.shape[0]):
+        number += bristles.sliding[i] == 0
+    return number
+
+
+@loop
+def _shift(u: Any, phi: float, along: float, up: float) -> None:
+    """Move all nodes, in the world's axes."""
+    s, c = sin(phi), cos(phi)
+    for i in range(u.shape[0]):
+        u[i, 0] += along * s + up * c
+        u[i, 1] += along * c - up * s
+
+
+@loop
+def guess_again(
+    pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, damper: Damper, contact: Contact, guesses: int
+) -> int:
+    """Move the rim ``u`` to where its patch is about as it was; how many guesses are left, -1 if ``contact`` is well.
+
+    A soft ring follows the floor. With a frame that has moved and a rim that has not, the patch is off the floor, and
+    the next guess, without its forces, far below it; or so deep that the damper, which multiplies by the stage's rate,
+    makes N hundreds of times what it will be. From either Newton takes tens of iterations to come back.
+
+    Along the floor it is the same: bristles break within some 1e-7 R, and where all points slide by the guess, friction
+    says nothing of where they would stick, so that Newton goes to and fro between -mu N and mu N without end. A patch
+    of which some points stuck is tried where it goes on without a slip.
+    """
+    if guesses > 1:
+        raised = _too_low(pose, u, rim, law, before, damper, contact.res)
+        if raised != 0:
+            _shift(u, pose[2], 0.0, raised)
+            return guesses - 1
+    slides = contact.res.elastic > 0 and _sticking(contact.bristles) == 0
+    if slides and _sticking(before.bristles) > 0:
+        _shift(u, pose[2], damper.way_0 - contact.res.way, 0.0)
+        return 0
+    return -1

@@ -1,0 +1,57 @@
+"""The time of a pulse and the frequencies in it; the stiffness at which the ring's slowest vibration is one of them."""
+
+from __future__ import annotations
+
+from math import pi, radians, sqrt
+
+import numpy as np
+import pytest
+from scipy.integrate import trapezoid
+
+from rigid import Friction, Hoop, Release, Run, Scene, simulate
+from studies.hop.rolling.rule import slowest_period
+from studies.hop.rolling.scaling import pulse_time, suddenness
+
+
+def rolling(k: float, mass_ratio: float, phi0: float = 10.0) -> Scene:
+    """Friction for a roll without a slip."""
+    return Scene(Hoop(k=k, r=1.02, mass_ratio=mass_ratio), Friction(50, 50), Release(radians(phi0)), Run(t_end=12.0))
+
+
+@pytest.mark.parametrize(("k", "mass_ratio"), [(0.1, 0.1), (0.3, 0.1), (0.1, 0.02)])
+def test_the_spectrum_of_a_pulse_falls_with_its_time(k, mass_ratio):
+    """N goes like (t - i t*)^(-4/3) at its singularity, so its transform like omega^(1/3) exp(-omega t*).
+
+    By trapezoids over a window that is smooth itself, from omega t* = 4 on, where what the window cuts is below 1 % of
+    the transform; there the next power of 1/(omega t*) changes the slope by some per cents.
+    """
+    scene = rolling(k, mass_ratio)
+    motion, width = simulate(scene), pulse_time(scene)
+    t = np.linspace(0, 12, 20001)
+    bottom = t[np.argmax(motion.at(t).omega)]
+    u = np.linspace(-12, 12, 8001) * width
+    force = motion.at(bottom + u).normal_force * np.exp(-((u / (5 * width)) ** 4))
+    omega = np.linspace(4, 8, 9) / width
+    transform = np.abs([trapezoid(force * np.cos(w * u), u) for w in omega])
+    slope = np.polyfit(omega * width, np.log(transform / omega ** (1 / 3)), 1)[0]
+    assert slope == pytest.approx(-1, abs=0.05)
+
+
+def test_the_time_of_a_light_ring_is_pi_zeta_over_8():
+    """zeta small, from the top: phidot^2 = 4/(zeta + psi^2) about the bottom, so t* = pi zeta/8, but for zeta^2."""
+    scene = rolling(0.1, 0.02, phi0=0.1)
+    zeta = scene.hoop.constants.zeta
+    assert zeta < 0.1
+    assert pulse_time(scene) == pytest.approx(pi * zeta / 8, rel=zeta)
+
+
+def test_at_the_suddenness_the_slowest_vibration_turns_by_one_radian_in_it():
+    scene = rolling(0.1, 0.1)
+    sudden = scene.replace(ring={"bending_stiffness": suddenness(scene)})
+    assert 2 * pi / slowest_period(sudden) * pulse_time(sudden) == pytest.approx(1.0)
+    four = scene.replace(ring={"bending_stiffness": 4 * suddenness(scene)})
+    assert slowest_period(four) == pytest.approx(slowest_period(sudden) / sqrt(4))
+
+
+def test_a_ring_without_mass_has_no_vibration_to_leave():
+    assert suddenness(rolling(0.1, 0.0)) == 0.0
