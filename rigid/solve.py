@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from .kernel import layout as at
 from .kernel.compile import compiled
+from .kernel.spectral import compiled_workspace, workspace
 from .lists import Deferred, Listing, Row
 from .motion import Array, Motion, Side, States
 from .output.file import Stored, read
@@ -73,7 +74,7 @@ class _Workspace(threading.local):
 
     def __init__(self) -> None:
         self.events = np.zeros(LOG_RECORDS * at.WIDTH)
-        self.work = np.zeros((at.SERIES, at.ORDER + 1))
+        self.work = compiled_workspace()
 
 
 _workspace = _Workspace()
@@ -90,7 +91,7 @@ def _run(par: list[float], state: list[float]) -> tuple[int, list[list[float]], 
     left = float(STEPS)
     if _interpreted_steps < PATIENCE:
         events: Any = [0.0] * (LOG_RECORDS * at.WIDTH)
-        work: Any = [[0.0] * (at.ORDER + 1) for _ in range(at.SERIES)]
+        work: Any = workspace()
         code = at.MORE
         while code == at.MORE and _interpreted_steps < PATIENCE:
             allowance = float(PATIENCE - _interpreted_steps)
@@ -269,7 +270,7 @@ class Sampler:
         flat = [number for row in padded for number in row]
         if _interpreted_steps < PATIENCE and len(times) < PATIENCE:
             out: Any = [0.0] * (len(times) * width)
-            work: Any = [[0.0] * (at.ORDER + 1) for _ in range(at.SERIES)]
+            work: Any = workspace()[0]
             events = [0.0] * (16 * at.WIDTH)
             state = [0.0] * at.STATE
             instant.entry_sample(constants, flat, owner.tolist(), times.tolist(), out, work, state, events)

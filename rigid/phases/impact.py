@@ -19,7 +19,7 @@ from math import inf, sqrt
 from ..kernel.angle import trig
 from ..kernel.compile import kernel
 from ..kernel.layout import ANGLE, ECC, GYR, MU, MU_S, OMEGA, ONE_MINUS_E, SLIP, TOP, UN, XDOT, YDOT
-from .slipping import JAM
+from .slipping.series import JAM
 
 
 @kernel

@@ -39,8 +39,8 @@ from .flight import fly
 from .pointmass import drop, roll_point_mass, skimming_acceleration
 from .rolling.closed_form import rolling_acceleration, rolling_forces
 from .rolling.phase import roll_on
-from .slipping import JAM, normal_force, slipping_acceleration
-from .slipping_phase import NOTHING_YET, carry, end_of_slip, step
+from .slipping.series import JAM, normal_force, slipping_acceleration
+from .slipping.step import NOTHING_YET, carry, end_of_slip, step
 
 MOST_STEPS = 400_000  # in one phase: beyond the work bound of the motion itself
 COLUMNS = 9  # phi, omega, x_C, height of the contact point, slip velocity, N, F, energy, phiddot

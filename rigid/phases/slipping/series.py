@@ -17,9 +17,9 @@ from __future__ import annotations
 
 from math import exp, log
 
-from ..kernel.angle import trig
-from ..kernel.compile import kernel
-from ..kernel.layout import (
+from ...kernel.angle import trig
+from ...kernel.compile import kernel
+from ...kernel.layout import (
     ECC,
     GYR,
     ONE_MINUS_E,

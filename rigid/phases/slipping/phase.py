@@ -1,0 +1,156 @@
+"""A slipping phase: Taylor steps in tau, cut at every event, so that each event is the end of a step.
+
+When D has fallen to round-off the configuration is frozen: the rest of the slip is an impact
+(:mod:`rigid.phases.impact`).
+
+Events: the slip stops, lift-off (1 - e c phidot^2 = 0), a turn, the bottom, N = M g, and the end of the run.
+All are roots of the step's own polynomials.
+"""
+
+# mypy: allow-untyped-defs
+from __future__ import annotations
+
+from math import inf
+
+from ...kernel.angle import next_angle, trig
+from ...kernel.compile import kernel
+from ...kernel.layout import (  # fmt: skip
+    ANGLE,
+    ECC,
+    FIRST_PULSE,
+    FLIGHT,
+    GAP,
+    GYR,
+    IMPACT,
+    LOSSLESS_TURNS,
+    MODE,
+    MORE,
+    MU,
+    OMEGA,
+    ONE_MINUS_E,
+    ORDER,
+    P_OPEN,
+    P_PEAK,
+    PHASE_OVER,
+    PULSE_OVER,
+    RECORDS,
+    REST,
+    S_B,
+    S_D,
+    S_H,
+    S_N1,
+    S_OMEGA,
+    S_P,
+    S_SIN,
+    S_SLIP,
+    S_T,
+    S_YDOT,
+    SKID,
+    SLIDES,
+    SLIP,
+    SLIP_SCALE,
+    STEPS,
+    T_END,
+    TIME_REACHED,
+    TOP,
+    TURNS,
+    TURNS_REACHED,
+    UN,
+    UNTIL,
+    WHOLE,
+    WIDTH,
+    WORK_BOUND,
+    X_C,
+    XDOT,
+    T,
+)
+from ...kernel.polynomial import first_crossing, value, value_and_slope
+from ...record.cycle import AT_PASS, AT_TURN, comes_round
+from ...record.events import ROOM, turn
+from ...record.pulse import cross_bottom, watch
+from .series import JAM, normal_force
+
+from .stride import GOES_ON, NOT_TAKEN, poles_of, stride
+from .step import *
+
+
+@kernel
+def slide(par, state, work, rows, events):
+    """Slip until the contact point rests or lifts, or the run is over."""
+    mu_hat = par[MU] if state[MODE] == SKID else -par[MU]
+    gyr = par[GYR]
+    poles = poles_of(par, mu_hat)
+    at_edge = False
+    p_known = inf
+    state[LOSSLESS_TURNS], whirled = 0.0, 0
+    state[SLIP_SCALE] = 0.0
+    n = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
+    if watch(par, state, n, events) and par[UNTIL] == FIRST_PULSE:
+        return PULSE_OVER
+    while True:
+        if state[RECORDS] * WIDTH + ROOM * WIDTH > len(events):
+            return MORE
+        if state[STEPS] <= 0.0:
+            return WORK_BOUND
+        state[STEPS] -= 1.0
+        slip_now(par, state, trig(state[ANGLE], state[TOP])[2])
+        code = stride(par, state, mu_hat, poles, rows, events)
+        if code == GOES_ON:
+            at_edge, p_known = False, inf
+            continue
+        if code != NOT_TAKEN:
+            return code
+        length = step(par, state, mu_hat, p_known, work)
+        if work[S_D][0] <= JAM * gyr:
+            state[MODE] = IMPACT
+            return PHASE_OVER
+        turning = work[S_OMEGA][0] != 0.0
+        length, event = next_event(par, state, work, length, at_edge)
+        at_edge = False
+        if state[P_OPEN] != 0.0:
+            state[P_PEAK] = max(state[P_PEAK], peak_force(gyr, work, length))
+        p_known = value(work[S_P], ORDER, length)
+        if length > 0.0:
+            carry(par, state, mu_hat, work, length)
+        if event == STOPS:
+            state[SLIP] = 0.0
+        # without friction the slip stops where the hoop turns, to the last digit
+        if event == TURNS_BACK or (state[OMEGA] == 0.0 and turning):
+            state[OMEGA] = 0.0
+            state[LOSSLESS_TURNS] += 1.0
+            whirled = 0
+            if turn(par, state, events):
+                return TURNS_REACHED
+            if par[MU] == 0.0 and comes_round(par, state, AT_TURN, events) and par[UNTIL] == REST:
+                return SLIDES
+        if event == STOPS:
+            return PHASE_OVER
+        if event == LIFTS:
+            state[GAP] = 0.0
+            state[UN] = 0.0
+            state[MODE] = FLIGHT
+            return PHASE_OVER
+        if event == TIME_IS_UP:
+            state[T] = par[T_END]
+            return TIME_REACHED
+        if event == AT_BOTTOM:
+            state[ANGLE] = 0.0
+            state[LOSSLESS_TURNS] += 0.5
+            whirled += 1
+            cross_bottom(state)
+        elif event == AT_WEIGHT:
+            at_edge = True
+            if watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, events):
+                if par[UNTIL] == FIRST_PULSE:
+                    return PULSE_OVER
+                if (
+                    par[MU] == 0.0
+                    and par[TURNS] == inf
+                    and comes_round(par, state, AT_PASS, events)
+                    and par[UNTIL] == REST
+                ):
+                    return SLIDES
+        if par[MU] == 0.0 and par[UNTIL] == REST and state[LOSSLESS_TURNS] >= 3.0:
+            return SLIDES
+        if par[MU] == 0.0 and whirled >= 3 and par[TURNS] < inf:
+            return SLIDES  # round and round: there is no turn to wait for
