@@ -107,4 +107,4 @@ def _compiler(function: FunctionType, keep: bool, nogil: bool = False) -> Any:
 
     tell()
     with beside_the_source():
-        return numba.njit(cache=keep, error_model="numpy", nogil=nogil)(function)
+        return numba.njit(cache=keep, error_model="numpy", nogil=nogil, _nrt=not nogil)(function)

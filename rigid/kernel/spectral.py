@@ -148,30 +148,32 @@ def exponentials(rows, x, out):
 @kernel
 def largest(rows, f):
     """The largest size in a row."""
-    most = 0.0
-    for i in range(ROW):
-        most = max(most, abs(rows[f + i]))
-    return most
+    a, b, c, d = abs(rows[f]), abs(rows[f + 1]), abs(rows[f + 2]), abs(rows[f + 3])
+    for i in range(4, ROW, 4):
+        a, b = max(a, abs(rows[f + i])), max(b, abs(rows[f + i + 1]))
+        c, d = max(c, abs(rows[f + i + 2])), max(d, abs(rows[f + i + 3]))
+    return max(max(a, b), max(c, d))
 
 
 @kernel
 def least_of(rows, f):
     """The least value of a row."""
-    low = rows[f]
-    for i in range(1, ROW):
-        low = min(low, rows[f + i])
-    return low
+    a, b, c, d = rows[f], rows[f + 1], rows[f + 2], rows[f + 3]
+    for i in range(4, ROW, 4):
+        a, b, c, d = min(a, rows[f + i]), min(b, rows[f + i + 1]), min(c, rows[f + i + 2]), min(d, rows[f + i + 3])
+    return min(min(a, b), min(c, d))
 
 
 @kernel
 def tail(rows, f):
     """Size of the last two Chebyshev coefficients: what the row may lack of the function."""
-    last = 0.0
-    before = 0.0
-    for i in range(NODES):
-        last += rows[Q_LAST + i] * rows[f + i]
-        before += rows[Q_NEXT_TO_LAST + i] * rows[f + i]
-    return abs(last) + abs(before)
+    a = b = c = d = 0.0
+    for i in range(0, ROW, 2):
+        a += rows[Q_LAST + i] * rows[f + i]
+        b += rows[Q_LAST + i + 1] * rows[f + i + 1]
+        c += rows[Q_NEXT_TO_LAST + i] * rows[f + i]
+        d += rows[Q_NEXT_TO_LAST + i + 1] * rows[f + i + 1]
+    return abs(a + b) + abs(c + d)
 
 
 @kernel
@@ -205,6 +207,8 @@ def stays(rows, f):
     low, middle, high = rows[f], rows[f + NODES // 2], rows[f + NODES]
     # by Newton's differences: low + (x - x0) (slope + (x - 1/2) bend)
     start = rows[Q_NODE]
+    if f < 0:
+        return False
     slope = (middle - low) / (0.5 - start)
     bend = ((high - middle) / 0.5 - slope) / (1 - start)
     least = min(low - start * (slope - 0.5 * bend), high)
@@ -214,9 +218,10 @@ def stays(rows, f):
         if 0.0 < x < 1.0:
             y = low + (x - start) * (slope + (x - 0.5) * bend)
             least, most = min(least, y), max(most, y)
-    off = 0.0
     for i in range(ROW):
-        off = max(off, abs(rows[f + i] - (low + (rows[Q_NODE + i] - start) * (slope + (rows[Q_NODE + i] - 0.5) * bend))))
+        x = rows[Q_NODE + i]
+        rows[Q_SHARE + i] = rows[f + i] - (low + (x - start) * (slope + (x - 0.5) * bend))
+    off = largest(rows, Q_SHARE)
     return least > LEBESGUE * off or most < -LEBESGUE * off
 
 

@@ -22,6 +22,7 @@ from ...kernel.compile import kernel
 from ...kernel.layout import (  # fmt: skip
     ECC,
     GYR,
+    NODES,
     ONE_MINUS_E,
     Q_D,
     Q_E,
@@ -146,7 +147,7 @@ def spin_up(par, mu_hat, panel, d0_w0, rows):
 
 @kernel
 def run_clock(panel, rows):
-    """phidot (its size) and the time from theta = 0 at the nodes; returns the part of dt/dtheta that is not resolved."""
+    """phidot (its size) and the time from theta = 0 at the nodes; returns the part of their mean rate that is not resolved."""
     for i in range(ROW):
         rows[Q_OMEGA + i] = sqrt(rows[Q_OMEGA2 + i])
     if panel.turn:
@@ -154,6 +155,5 @@ def run_clock(panel, rows):
             rows[Q_OMEGA + i] *= rows[Q_NODE + i]
     for i in range(ROW):
         rows[Q_F + i] = abs(rows[Q_STRETCH + i]) / rows[Q_OMEGA + i]
-    rough = tail(rows, Q_F) / largest(rows, Q_F)
     product(rows, Q_INTEGRAL, Q_F, Q_T)
-    return rough
+    return tail(rows, Q_F) / rows[Q_T + NODES]

@@ -258,21 +258,21 @@ def peak_on(par, way, start, stop, rows):
         slope_a = slope * sign
     else:
         slope_z = slope * sign
-    # regula falsi (Illinois): the peak is flat, so eight digits of its place are sixteen of its height
+    # regula falsi (Anderson and Björck): the peak is flat, so eight digits of its place are sixteen of its height
     if slope_a > 0.0 and slope_z < 0.0:
         for _ in range(12):
             x = (a * slope_z - z * slope_a) / (slope_z - slope_a)
             n, slope = force_on(par, way, offset(way.panel, x), interpolate(rows, Q_OMEGA, x))
             peak = max(peak, n)
             slope *= sign
-            if slope > 0.0:
-                a, slope_a = x, slope
-                slope_z *= 0.5
-            else:
-                z, slope_z = x, slope
-                slope_a *= 0.5
-            if z - a < 1e-9 or slope == 0.0:
+            if min(x - a, z - x) < 1e-8 or slope == 0.0:
                 break
+            if slope > 0.0:
+                slope_z *= max(1 - slope / slope_a, 0.0) or 0.5
+                a, slope_a = x, slope
+            else:
+                slope_a *= max(1 - slope / slope_z, 0.0) or 0.5
+                z, slope_z = x, slope
     return peak
 
 
@@ -358,6 +358,13 @@ def poles_of(par, mu_hat):
     root = half * half - gyr * middle
     if root >= 0.0:
         far, far_width = middle / (half + sqrt(root)), 0.0
+        low = e * abs(mu_hat) * one_minus_e
+        for _ in range(2):
+            # Newton on all of it: a slip that starts near it wants its place
+            rest = gyr + far * (far * (middle + far * (far * gyr - 2 * half)) - 2 * low)
+            slope = 2 * (far * (middle + far * (2 * far * gyr - 3 * half)) - low)
+            if slope != 0.0:
+                far -= rest / slope
     else:
         far, far_width = half / gyr, sqrt(-root) / gyr
     size2 = far * far + far_width * far_width
