@@ -106,12 +106,12 @@ def share(way, theta):
 
 
 @kernel
-def set_out(par, state, mu_hat, panel, inward, d, duration):
+def set_out(par, state, mu_hat, panel, whole, inward, d, duration):
     """The way over a panel from the present state."""
     s, _, h, _ = trig(state[ANGLE], state[TOP])
     omega = state[OMEGA]
     return Way(
-        panel, inward, d, mu_hat, duration, state[WHOLE], state[T], state[SLIP], state[XDOT],
+        panel, inward, d, mu_hat, duration, whole, state[T], state[SLIP], state[XDOT],
         -par[ECC] * s * omega, state[X_C], s, h, omega * (par[ONE_MINUS_E] + par[ECC] * h),
     )  # fmt: skip
 
@@ -462,7 +462,7 @@ def stride(par, state, mu_hat, poles, rows, events):
         if rough > ROUGH:
             length *= max(0.3, 0.9 * (0.2 * ROUGH / rough) ** (1 / NODES))
             continue
-        way = set_out(par, state, mu_hat, panel, False, sign, rows[Q_T + NODES])
+        way = set_out(par, state, mu_hat, panel, state[WHOLE], False, sign, rows[Q_T + NODES])
         ahead = look_ahead(par, state, way, rows)
         if ahead.end != UNCLEAR:
             return go(par, state, way, ahead, rows, events)
@@ -480,7 +480,7 @@ def there_and_back(par, state, mu_hat, panel, at, rows, events):
     if abs(rows[Q_OMEGA2 + NODES] - w) > 1e-11 * w or run_clock(back, rows) > ROUGH:
         return NOT_TAKEN
     d = 1.0 if state[OMEGA] > 0 else -1.0
-    way = set_out(par, state, mu_hat, back, True, d, rows[Q_T + NODES])
+    way = set_out(par, state, mu_hat, back, state[WHOLE], True, d, rows[Q_T + NODES])
     ahead = look_ahead(par, state, way, rows)
     if ahead.end == UNCLEAR:
         return NOT_TAKEN
@@ -489,7 +489,8 @@ def there_and_back(par, state, mu_hat, panel, at, rows, events):
         return code
     if turn(par, state, events):
         return TURNS_REACHED
-    way = set_out(par, state, mu_hat, back, False, -d, rows[Q_T + NODES])
+    whole = way.whole  # that of the panel's chart: the turn may lie beyond it
+    way = set_out(par, state, mu_hat, back, whole, False, -d, rows[Q_T + NODES])
     ahead = look_ahead(par, state, way, rows)
     if ahead.end == UNCLEAR:
         return GOES_ON
