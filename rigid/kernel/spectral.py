@@ -200,7 +200,7 @@ def interpolate(rows, f, x):
 
 
 @kernel
-def stays(rows, f):
+def stays(rows, f, terms):
     """Whether the polynomial of a row surely keeps its sign: a parabola does, and no interpolant of what is left at the
     nodes is beyond ``LEBESGUE`` times its largest.
     """
@@ -221,21 +221,22 @@ def stays(rows, f):
     for i in range(ROW):
         x = rows[Q_NODE + i]
         rows[Q_SHARE + i] = rows[f + i] - (low + (x - start) * (slope + (x - 0.5) * bend))
-    off = largest(rows, Q_SHARE)
+    off = largest(rows, Q_SHARE) + ROUND_OFF * terms
     return least > LEBESGUE * off or most < -LEBESGUE * off
 
 
 @kernel
-def only_root(rows, f):
+def only_root(rows, f, terms):
     """Where the polynomial of a row changes its sign, if it does so once: in (0, 1), ``NO_ROOT`` or ``UNCLEAR``.
 
     A polynomial has no more roots in [0, 1] than its Bernstein coefficients change sign, and as many but for an even
-    number. ``UNCLEAR`` is two changes or more, or a coefficient within the round-off of its terms.
+    number. ``UNCLEAR`` is two changes or more, or a coefficient within the round-off of its terms; ``terms`` is the size of
+    what the values of the row are sums of.
     """
-    if stays(rows, f):
+    if stays(rows, f, terms):
         return NO_ROOT
     product(rows, Q_HULL_OF, f, Q_HULL)
-    scale = largest(rows, f)
+    scale = max(largest(rows, f), terms)
     changes = 0
     for j in range(NODES):
         if abs(rows[Q_HULL + j]) <= rows[Q_NOISE + j] * scale:

@@ -39,6 +39,7 @@ from ...kernel.layout import (  # fmt: skip
     Q_SLIP,
     Q_T,
     Q_U,
+    Q_X,
     ROW,
     SLIP,
     T_END,
@@ -128,7 +129,8 @@ def foresee(par, way, rows):
         q = 1 / (1 + rows[Q_U + i] * rows[Q_U + i])
         w = sign * rows[Q_OMEGA + i]
         arm = one_minus_e + e * ((flat + steep * rows[Q_U + i] * rows[Q_U + i]) * q - mu_hat * up * rows[Q_U + i] * q)
-        rows[Q_SLIP + i] = start - by_time * rows[Q_T + i] - w * arm
+        rows[Q_X + i] = w * arm
+        rows[Q_SLIP + i] = start - by_time * rows[Q_T + i] - rows[Q_X + i]
     for i in range(ROW):
         c = (flat + steep * rows[Q_U + i] * rows[Q_U + i]) / (1 + rows[Q_U + i] * rows[Q_U + i]) - 1
         free = 1 - e * c * rows[Q_OMEGA + i] * rows[Q_OMEGA + i]
@@ -146,19 +148,20 @@ def look_ahead(par, state, way, rows):
         # the root with which a slip starts is left out
         for i in range(ROW):
             rows[Q_SLIP + i] /= rows[Q_NODE + i]
-    at = only_root(rows, Q_SLIP)
+    terms = abs(way.slip) + abs(way.pace) + abs(way.mu_hat) * (abs(way.ydot) + way.duration) + largest(rows, Q_X)
+    at = only_root(rows, Q_SLIP, terms)
     if at == UNCLEAR or (rows[Q_SLIP + (NODES if way.inward else 0)] > 0.0) != (way.mu_hat > 0.0):
         return unclear
     end, event = 1.0, ARRIVES
     if share(way, at) < end:
         end, event = share(way, at), STOPS
     if free:
-        at = only_root(rows, Q_B)
+        at = only_root(rows, Q_B, 1.0)
         if at == UNCLEAR or (at == NO_ROOT and rows[Q_B] < 0.0):
             return unclear
         if share(way, at) < end:
             end, event = share(way, at), LIFTS
-    weight = only_root(rows, Q_N1)
+    weight = only_root(rows, Q_N1, largest(rows, Q_N1) + 2 * largest(rows, Q_D))
     if weight == UNCLEAR:
         return unclear
     weight = share(way, weight)
@@ -413,6 +416,17 @@ def turn_ahead(par, mu_hat, angle, panel, omega):
 
 
 @kernel
+def starts(par, mu_hat, angle, omega, d):
+    """Whether a slip sets in with an acceleration of the right sign, far above the round-off of its terms."""
+    s, c, h, _ = angle
+    e = par[ECC]
+    arm = par[ONE_MINUS_E] + e * h
+    b, spin = 1 - e * c * omega * omega, e * s * omega * omega * d
+    force = (mu_hat * par[GYR] + arm * (e * s + mu_hat * arm)) * b
+    return (spin - force) * mu_hat > 1e-3 * abs(mu_hat) * (abs(spin) + abs(force))
+
+
+@kernel
 def stride(par, state, mu_hat, poles, rows, events):
     """Slip over the next panel, or to a turn and back over it.
 
@@ -426,6 +440,8 @@ def stride(par, state, mu_hat, poles, rows, events):
     s, _, h, _ = angle
     d = par[GYR] + par[ECC] * s * (par[ECC] * s + mu_hat * (par[ONE_MINUS_E] + par[ECC] * h))
     if d < 1e-3 * (par[GYR] + par[ECC] * par[ECC] * s * s):
+        return NOT_TAKEN
+    if state[SLIP] == 0.0 and not starts(par, mu_hat, angle, omega, d):
         return NOT_TAKEN
     u = tan(0.5 * state[ANGLE])
     sign = 1.0 if omega > 0 else -1.0
@@ -449,7 +465,7 @@ def stride(par, state, mu_hat, poles, rows, events):
             length *= max(0.3, 0.9 * (0.2 * ROUGH / rough) ** (1 / NODES))
             continue
         if least_of(rows, Q_OMEGA2) <= 0.0:
-            at = only_root(rows, Q_OMEGA2)
+            at = only_root(rows, Q_OMEGA2, 0.0)
             if at < 0.0:
                 length *= 0.5
                 continue
