@@ -41,6 +41,7 @@ from ...kernel.layout import (  # fmt: skip
 )
 from ...kernel.spectral import exponentials, largest, least_of, product, tail
 
+CLEAR = 2e-3  # D over its terms: below, towards a jam, P must be carried along (rigid.phases.slipping.series.known_p)
 MOST_LOG = 2.5  # of the integrating factor over a panel: exp is summed without a reduction
 
 
@@ -121,8 +122,9 @@ def spin_up(par, mu_hat, panel, d0_w0, rows):
         h = (flat + steep * rows[Q_U + i] * rows[Q_U + i]) * q
         there = gyr + es * (es + mu_hat * (one_minus_e + e * h))
         rows[Q_D + i] = there
+        rows[Q_E + i] = there - CLEAR * (gyr + es * es)
         rows[Q_F + i] = me * (h - one_minus_e) / there * rows[Q_STRETCH + i]
-    if not least_of(rows, Q_D) > 0.0:
+    if not least_of(rows, Q_E) > 0.0:
         return inf
     rough = tail(rows, Q_F)
     product(rows, Q_INTEGRAL, Q_F, Q_LOG)

@@ -56,7 +56,7 @@ from ...kernel.layout import (  # fmt: skip
 from ...kernel.spectral import NO_ROOT, UNCLEAR, interpolate, largest, least_of, only_root, root_between
 from ...record.events import turn
 from ...record.pulse import cross_bottom, watch
-from .panel import Panel, offset, panel_at, place_of_bottom, run_clock, spin_up
+from .panel import CLEAR, Panel, offset, panel_at, place_of_bottom, run_clock, spin_up
 
 GOES_ON, NOT_TAKEN = -2, -3  # beside the reasons for which a phase returns
 LONGEST, LONGEST_TOP, SHORTEST = 1.5, 1.0, 0.02  # panels in x; below, a series goes further
@@ -439,7 +439,7 @@ def stride(par, state, mu_hat, poles, rows, events):
     angle = trig(state[ANGLE], state[TOP])
     s, _, h, _ = angle
     d = par[GYR] + par[ECC] * s * (par[ECC] * s + mu_hat * (par[ONE_MINUS_E] + par[ECC] * h))
-    if d < 1e-3 * (par[GYR] + par[ECC] * par[ECC] * s * s):
+    if d < CLEAR * (par[GYR] + par[ECC] * par[ECC] * s * s):
         return NOT_TAKEN
     if state[SLIP] == 0.0 and not starts(par, mu_hat, angle, omega, d):
         return NOT_TAKEN
