@@ -43,7 +43,8 @@ def strike(par, state, restitution):
         # while it sticks, es - friction arm = es K/(K + arm^2), written so that a small K keeps its digits
         spin_rate = es / (gyr + arm * arm) if stick else (es - friction * arm) / gyr
         un_rate = 1.0 + es * spin_rate
-        noise = 4e-16 * abs(es) * (abs(es) + abs(friction * arm))
+        # round-off of the angle, the sine, the sum and the product in D - K
+        noise = 1e-15 * abs(es) * (abs(es) + abs(friction * arm))
         if jammed and v != 0.0 and -noise < un_rate * gyr <= max(noise, JAM * gyr):
             # D is zero to round-off, whatever its sign; where D > 0 a contact point that grazes the floor is not jammed
             un_rate, spin_rate = -1e-30, -1 / es
