@@ -1,8 +1,8 @@
 """A function on [0, 1] by its values at Chebyshev nodes: integrated, interpolated, and its roots counted.
 
-A row holds the values at the ``NODES`` zeros of a Chebyshev polynomial and, last, at 1. What is done with rows are
-products with the tables that :func:`workspace` puts behind them, so that compiled code takes four or eight
-nodes at once.
+A row is ``ROW`` numbers of a flat sequence, named by the place of its first: values at the ``NODES`` zeros of a
+Chebyshev polynomial and, last, at 1. What is done with rows are products with tables that stand behind them, so that
+compiled code takes several nodes at once.
 """
 
 # mypy: allow-untyped-defs
@@ -24,10 +24,10 @@ from .layout import (  # fmt: skip
     Q_HULL_OF,
     Q_INTEGRAL,
     Q_LAST,
+    Q_NEXT_TO_LAST,
+    Q_NODE,
     Q_NOISE,
     Q_SHARE,
-    Q_NODE,
-    Q_NEXT_TO_LAST,
     ROW,
     SERIES,
 )
@@ -88,8 +88,8 @@ def _from_turn(ends):
 
 
 def workspace():
-    """What a phase works in, as lists: rows of Taylor coefficients, and the rows of a panel with their tables, flat (see
-    :mod:`rigid.kernel.layout`).
+    """What a phase works in, as lists (see :mod:`rigid.kernel.layout`): rows of Taylor coefficients, and, flat, the
+    rows of a panel with their tables.
     """
     return [[0.0] * (ORDER + 1) for _ in range(SERIES)], list(_tables())
 
@@ -230,8 +230,8 @@ def only_root(rows, f, terms):
     """Where the polynomial of a row changes its sign, if it does so once: in (0, 1), ``NO_ROOT`` or ``UNCLEAR``.
 
     A polynomial has no more roots in [0, 1] than its Bernstein coefficients change sign, and as many but for an even
-    number. ``UNCLEAR`` is two changes or more, or a coefficient within the round-off of its terms; ``terms`` is the size of
-    what the values of the row are sums of.
+    number. ``UNCLEAR`` is two changes or more, or a coefficient within the round-off of its terms; ``terms`` is the
+    size of what the values of the row are sums of.
     """
     if stays(rows, f, terms):
         return NO_ROOT

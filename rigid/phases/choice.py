@@ -81,8 +81,8 @@ from .impact import strike
 from .pointmass import choose_point_mass, roll_point_mass, skim
 from .rolling.closed_form import TIE, rolling_forces
 from .rolling.phase import roll
-from .slipping.series import JAM, denominator
 from .slipping.phase import slide
+from .slipping.series import JAM, denominator
 
 # phi0 this close to a multiple of pi, relatively, means that multiple: no float but 0 is one itself
 LEVEL = 2.3e-16

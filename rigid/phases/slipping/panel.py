@@ -111,7 +111,10 @@ def unroll(panel, rows):
 
 @kernel
 def spin_up(par, mu_hat, panel, d0_w0, rows):
-    """phidot^2 (from a turn: over theta^2) at the nodes from D0 w0; returns the part of a row that is not resolved, inf where D gets lost."""
+    """phidot^2 (from a turn: over theta^2) at the nodes from D0 w0.
+
+    Returns the part of d(ln E)/dtheta that the nodes do not resolve, inf where D is lost in its terms.
+    """
     e, one_minus_e, gyr = par[ECC], par[ONE_MINUS_E], par[GYR]
     up, flat, steep = (2.0, 2.0, 0.0) if panel.top != 0.0 else (-2.0, 0.0, 2.0)
     me = mu_hat * e
@@ -149,7 +152,9 @@ def spin_up(par, mu_hat, panel, d0_w0, rows):
 
 @kernel
 def run_clock(panel, rows):
-    """phidot (its size) and the time from theta = 0 at the nodes; returns the part of their mean rate that is not resolved."""
+    """The size of phidot, and the time from theta = 0, at the nodes; returns the part of the time's mean rate that they
+    do not resolve.
+    """
     for i in range(ROW):
         rows[Q_OMEGA + i] = sqrt(rows[Q_OMEGA2 + i])
     if panel.turn:

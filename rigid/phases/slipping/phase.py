@@ -1,10 +1,10 @@
-"""A slipping phase: Taylor steps in tau, cut at every event, so that each event is the end of a step.
+"""A slipping phase: panels over phi, and where phi is no measure of the way a series in tau.
 
-When D has fallen to round-off the configuration is frozen: the rest of the slip is an impact
+That is close to a jam, where N grows while phi stands still, at a start on a tie, where events crowd, and without
+friction. When D has fallen to round-off the configuration is frozen: the rest of the slip is an impact
 (:mod:`rigid.phases.impact`).
 
 Events: the slip stops, lift-off (1 - e c phidot^2 = 0), a turn, the bottom, N = M g, and the end of the run.
-All are roots of the step's own polynomials.
 """
 
 # mypy: allow-untyped-defs
@@ -12,11 +12,10 @@ from __future__ import annotations
 
 from math import inf
 
-from ...kernel.angle import next_angle, trig
+from ...kernel.angle import trig
 from ...kernel.compile import kernel
 from ...kernel.layout import (  # fmt: skip
     ANGLE,
-    ECC,
     FIRST_PULSE,
     FLIGHT,
     GAP,
@@ -27,7 +26,6 @@ from ...kernel.layout import (  # fmt: skip
     MORE,
     MU,
     OMEGA,
-    ONE_MINUS_E,
     ORDER,
     P_OPEN,
     P_PEAK,
@@ -35,16 +33,9 @@ from ...kernel.layout import (  # fmt: skip
     PULSE_OVER,
     RECORDS,
     REST,
-    S_B,
     S_D,
-    S_H,
-    S_N1,
     S_OMEGA,
     S_P,
-    S_SIN,
-    S_SLIP,
-    S_T,
-    S_YDOT,
     SKID,
     SLIDES,
     SLIP,
@@ -57,21 +48,30 @@ from ...kernel.layout import (  # fmt: skip
     TURNS_REACHED,
     UN,
     UNTIL,
-    WHOLE,
     WIDTH,
     WORK_BOUND,
-    X_C,
-    XDOT,
     T,
 )
-from ...kernel.polynomial import first_crossing, value, value_and_slope
+from ...kernel.polynomial import value
 from ...record.cycle import AT_PASS, AT_TURN, comes_round
 from ...record.events import ROOM, turn
 from ...record.pulse import cross_bottom, watch
+from .poles import poles_of
 from .series import JAM, normal_force
-
-from .stride import GOES_ON, NOT_TAKEN, poles_of, stride
-from .step import *
+from .step import (  # fmt: skip
+    AT_BOTTOM,
+    AT_WEIGHT,
+    LIFTS,
+    STOPS,
+    TIME_IS_UP,
+    TURNS_BACK,
+    carry,
+    next_event,
+    peak_force,
+    slip_now,
+    step,
+)
+from .stride import GOES_ON, NOT_TAKEN, stride
 
 
 @kernel

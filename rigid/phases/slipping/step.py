@@ -1,11 +1,4 @@
-"""A slipping phase: Taylor steps in tau, cut at every event, so that each event is the end of a step.
-
-When D has fallen to round-off the configuration is frozen: the rest of the slip is an impact
-(:mod:`rigid.phases.impact`).
-
-Events: the slip stops, lift-off (1 - e c phidot^2 = 0), a turn, the bottom, N = M g, and the end of the run.
-All are roots of the step's own polynomials.
-"""
+"""One step of a slip by series in tau, cut at its first event: a root of the step's own polynomials."""
 
 # mypy: allow-untyped-defs
 from __future__ import annotations
@@ -17,58 +10,34 @@ from ...kernel.compile import kernel
 from ...kernel.layout import (  # fmt: skip
     ANGLE,
     ECC,
-    FIRST_PULSE,
-    FLIGHT,
-    GAP,
     GYR,
-    IMPACT,
-    LOSSLESS_TURNS,
     MODE,
-    MORE,
     MU,
     OMEGA,
     ONE_MINUS_E,
     ORDER,
     P_OPEN,
-    P_PEAK,
-    PHASE_OVER,
-    PULSE_OVER,
-    RECORDS,
-    REST,
     S_B,
     S_D,
     S_H,
     S_N1,
     S_OMEGA,
-    S_P,
     S_SIN,
     S_SLIP,
     S_T,
     S_YDOT,
     SKID,
-    SLIDES,
     SLIP,
     SLIP_SCALE,
-    STEPS,
     T_END,
-    TIME_REACHED,
     TOP,
-    TURNS,
-    TURNS_REACHED,
-    UN,
-    UNTIL,
     WHOLE,
-    WIDTH,
-    WORK_BOUND,
     X_C,
     XDOT,
     T,
 )
 from ...kernel.polynomial import first_crossing, value, value_and_slope
-from ...record.cycle import AT_PASS, AT_TURN, comes_round
-from ...record.events import ROOM, turn
-from ...record.pulse import cross_bottom, watch
-from .series import JAM, normal_force, series
+from .series import series
 
 # what a step is cut at
 NOTHING_YET, STOPS, LIFTS, TIME_IS_UP, TURNS_BACK, AT_BOTTOM, AT_WEIGHT = range(7)
@@ -207,5 +176,3 @@ def next_event(par, state, work, length, at_edge):
     if x > 0 or (x == 0.0 and not at_edge):
         length, event = x, AT_WEIGHT
     return length, event
-
-
