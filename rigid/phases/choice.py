@@ -214,6 +214,14 @@ def settles(par, state):
 
 
 @kernel
+def entry_start(par, release, state, room, events):
+    """Run from a release (phi0, omega0, slip0) with an allowance of steps, its fourth number."""
+    release_from(state, release[0], release[1], release[2])
+    state[STEPS] = release[3]
+    return entry_run(par, state, room, events)
+
+
+@kernel
 def entry_run(par, state, room, events):
     """Run until the event log is full (MORE), the allowance of steps is spent (WORK_BOUND) or the motion is
     over.
