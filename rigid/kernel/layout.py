@@ -25,7 +25,9 @@ LOSSLESS_TURNS, SLIDES_DONE, LAST_ENERGY, LAST_TURNS, PHASE_T, SLIP_SCALE, PULL,
 A_EVENT, A_T, A_ANGLE, A_WHOLE, A_OMEGA, A_XDOT, A_X, A_TURNS, A_PULSES, A_RECORDED, RECORDED = range(40, 51)
 # The phases of the open pulse, as digits to the base of SEQUENCE_BASE.
 P_SEQUENCE = 51
-STATE = 52
+# A slip's start and the time since: where phidot ~ 1/k, sums in T itself would move the angle by their round-off.
+T_FROM, T_SINCE = 52, 53
+STATE = 54
 SEQUENCE_BASE = 8
 
 # What a phase works in, rows of ORDER + 1 numbers (rigid.kernel.spectral.workspace): Taylor coefficients, for names see

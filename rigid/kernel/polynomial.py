@@ -92,7 +92,7 @@ def polish(c, n, low, high):
             low = x
         new = x - y / d if d != 0.0 else low - 1.0
         step = abs(new - x)
-        if step <= 2.3e-16 * abs(x) or (step <= 1e-14 * abs(x) and step >= 0.5 * last):
+        if step <= 2.3e-16 * abs(x) or (step <= 1e-15 * abs(x) and step >= 0.5 * last):
             return x  # its steps are round-off
         last = step
         if not min(low, high) < new < max(low, high):

@@ -121,7 +121,7 @@ def product(rows, matrix, f, out):
 
 @kernel
 def exponentials(rows, x, out):
-    """exp of a row of numbers below 4 in size, to some 1e-15 of each, without a branch."""
+    """exp of a row of numbers up to 2.5 in size, to some 1e-15 of each, without a branch."""
     if x < 0 or out < 0:
         return
     for i in range(ROW):

@@ -42,6 +42,8 @@ from ...kernel.layout import (  # fmt: skip
     SLIP_SCALE,
     STEPS,
     T_END,
+    T_FROM,
+    T_SINCE,
     TIME_REACHED,
     TOP,
     TURNS,
@@ -80,6 +82,7 @@ def slide(par, state, work, rows, events):
     mu_hat = par[MU] if state[MODE] == SKID else -par[MU]
     gyr = par[GYR]
     poles = poles_of(par, mu_hat)
+    state[T_FROM], state[T_SINCE] = state[T], 0.0
     at_edge = False
     p_known = inf
     state[LOSSLESS_TURNS], whirled = 0.0, 0

@@ -30,6 +30,8 @@ from ...kernel.layout import (  # fmt: skip
     SLIP,
     SLIP_SCALE,
     T_END,
+    T_FROM,
+    T_SINCE,
     TOP,
     WHOLE,
     X_C,
@@ -93,7 +95,8 @@ def carry(par, state, mu_hat, work, x):
     # xddot_G = -mu^ (1 + yddot_G), integrated twice
     along = xdot * dt - mu_hat * (0.5 * dt * dt + e * (h1 - h0) - ydot * dt)
     state[X_C] += along - e * (s1 - s0)
-    state[T] += dt
+    state[T_SINCE] += dt
+    state[T] = state[T_FROM] + state[T_SINCE]
     state[ANGLE], state[TOP], state[WHOLE] = a, top, whole
     state[XDOT] -= mu_hat * (dt + (-e * s1 * omega - ydot))
     state[OMEGA] = omega

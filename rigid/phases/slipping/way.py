@@ -33,6 +33,8 @@ from ...kernel.layout import (  # fmt: skip
     ROW,
     SLIP,
     T_END,
+    T_FROM,
+    T_SINCE,
     TOP,
     WHOLE,
     X_C,
@@ -55,6 +57,7 @@ class Way(NamedTuple):
     duration: float  # t from theta = 0 to 1
     whole: float
     time: float
+    since: float
     slip: float
     xdot: float
     ydot: float
@@ -90,7 +93,7 @@ def set_out(par, state, mu_hat, panel, whole, inward, d, duration):
     s, _, h, _ = trig(state[ANGLE], state[TOP])
     omega = state[OMEGA]
     return Way(
-        panel, inward, d, mu_hat, duration, whole, state[T], state[SLIP], state[XDOT],
+        panel, inward, d, mu_hat, duration, whole, state[T], state[T_SINCE], state[SLIP], state[XDOT],
         -par[ECC] * s * omega, state[X_C], s, h, omega * (par[ONE_MINUS_E] + par[ECC] * h),
     )  # fmt: skip
 
@@ -193,7 +196,8 @@ def arrive_at(par, state, way, part, rows):
     s, h = (2 * u * q, 2 * q) if panel.top != 0.0 else (-2 * u * q, 2 * u * u * q)
     ydot = -e * s * omega
     state[OMEGA] = omega
-    state[T] = way.time + dt
+    state[T_SINCE] = way.since + dt
+    state[T] = state[T_FROM] + state[T_SINCE]
     # xddot_G = -mu^ (1 + yddot_G), integrated twice
     along = way.xdot * dt - mu_hat * (0.5 * dt * dt + e * (h - way.h) - way.ydot * dt)
     state[X_C] = way.x + along - e * (s - way.s)
