@@ -1,7 +1,8 @@
 """The documentation as one static site: ``python -m studies.site [FOLDER]``.
 
 A page for every package, made by pdoc from the docstrings of what its face has, with its theory (README.md).
-The first page is the README of the project. pdoc is what the extra ``docs`` installs.
+The first page is the README of the project. Formulas become MathML, which a browser shows without a network. pdoc and
+latex2mathml are what the extra ``docs`` installs.
 """
 
 from __future__ import annotations
@@ -13,19 +14,44 @@ import types
 import warnings
 from importlib import import_module
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 ROOT = Path(__file__).parent.parent
 PACKAGES = ("rigid", "meshes", "flexible", "studies")
 TEXT_OF_ITS_OWN = re.compile(r"\]\((?:\.\./)?(rigid|meshes|flexible|studies)/README\.md(#[^)]*)?\)")
 FILE = re.compile(r"\]\(([^):#]+)\)")
 PICTURES = re.compile(r"(\]\(|src=\")(?:\.\./)?\.images/")
+FORMULA_OR_CODE = re.compile(
+    r"^(?P<indent> *)```math\n(?P<fenced>.+?)\n *```|(?P<code>^ *```.*?^ *```|`[^`]*`)"
+    r"|\$\$(?P<display>.+?)\$\$|\$(?P<inline>[^$\s](?:[^$]*[^$\s])?)\$",
+    re.DOTALL | re.MULTILINE,
+)
+ROOM = re.compile(r"^``(\w+)``  +(.*(?:\n  +\S.*)*)", re.MULTILINE)
+STYLE = ".pdoc img { max-width: 100%; } .pdoc math[display=block] { margin: 1em 0; overflow-x: auto; }"
 
 
-def text_of(path: Path) -> str:
-    """A README whose links stay within the site."""
+def text_of(path: Path, formulas: dict[str, str]) -> str:
+    """A README whose links stay within the site; each formula is a word that ``formulas`` has as MathML."""
+
+    def word(found: re.Match[str]) -> str:
+        from latex2mathml.converter import convert
+
+        if found["code"]:
+            return found["code"]
+        name = f"formula{len(formulas)}x"
+        block = found["fenced"] or found["display"]
+        formulas[name] = convert(block or found["inline"], display="block" if block else "inline")
+        return f"\n\n{name}\n\n" if found["display"] else (found["indent"] or "") + name
+
     text = path.read_text(encoding="utf-8")
     text = TEXT_OF_ITS_OWN.sub(lambda found: f"]({found[1]}.html{found[2] or ''})", text)
-    return PICTURES.sub(r"\1images/", text)
+    return FORMULA_OR_CODE.sub(word, PICTURES.sub(r"\1images/", text))
+
+
+def face_of(docstring: str) -> str:
+    """A package's docstring in Markdown: its rooms, aligned by spaces there, as a list."""
+    listed = ROOM.sub(lambda room: f"* `{room[1]}`: {' '.join(room[2].split())}", docstring)
+    return listed.replace("::\n", ":\n")
 
 
 def build(out: Path) -> Path:
@@ -45,20 +71,28 @@ def build(out: Path) -> Path:
     import pdoc.doc
     import pdoc.render
 
+    formulas: dict[str, str] = {}
     for package in PACKAGES:
         module, theory = import_module(package), ROOT / package / "README.md"
         vars(module).update({name: getattr(module, name) for name in module.__all__})  # faces load on demand
         if theory.exists() and "<!-- theory -->" not in (module.__doc__ or ""):
-            module.__doc__ = f"{module.__doc__}\n\n<!-- theory -->\n\n{text_of(theory)}"
-    pdoc.render.configure(docformat="numpy", math=True, search=True, show_source=True)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # of pdoc, on annotations that it cannot look up
-        pdoc.pdoc(*PACKAGES, output_directory=out)
-    front = types.ModuleType("hoop-pulse", text_of(ROOT / "README.md"))
+            module.__doc__ = f"{face_of(module.__doc__ or '')}\n\n<!-- theory -->\n\n{text_of(theory, formulas)}"
+    title, _, text = text_of(ROOT / "README.md", formulas).partition("\n")
+    front = types.ModuleType(title.lstrip("# "), text)
     front.__all__ = []  # type: ignore[attr-defined]
-    pages = {name: pdoc.doc.Module(import_module(name)) for name in PACKAGES}
     first = out / "index.html"
-    first.write_text(pdoc.render.html_module(pdoc.doc.Module(front), pages), encoding="utf-8")
+    with TemporaryDirectory() as templates, warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of pdoc, on annotations that it cannot look up
+        (Path(templates) / "custom.css").write_text(STYLE, encoding="utf-8")
+        pdoc.render.configure(docformat="numpy", search=True, show_source=True, template_directory=Path(templates))
+        pdoc.pdoc(*PACKAGES, output_directory=out)
+        pages = {name: pdoc.doc.Module(import_module(name)) for name in PACKAGES}
+        first.write_text(pdoc.render.html_module(pdoc.doc.Module(front), pages), encoding="utf-8")
+    index = out / "search.js"
+    index.write_text(re.sub(r"formula\d+x", "", index.read_text(encoding="utf-8")), encoding="utf-8")
+    for page in out.glob("*.html"):  # only now, for Markdown would take a formula that begins a line for a paragraph
+        html = page.read_text(encoding="utf-8")
+        page.write_text(re.sub(r"formula\d+x", lambda name: formulas[name[0]], html), encoding="utf-8")
     for file in {ROOT / name for name in FILE.findall(front.__doc__ or "")}:
         if file.is_file():  # notebooks, the changelog
             target = out / file.relative_to(ROOT)

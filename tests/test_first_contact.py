@@ -50,7 +50,7 @@ def sh(line: str, folder: Path) -> str:
     return done.stdout
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_the_two_set_up_lines_after_one_another(tmp_path):
     """The tests' line after the main job's, and the main job's after that: both orders, and all of it installed once.
 

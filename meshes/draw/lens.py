@@ -40,7 +40,7 @@ class Lens:
         self.times, self.factor, self.scale = enlargement(first), factor, scale
         self.size = round(2 * _RADIUS * first.radius * scale)
         zoom = VIEW_HEIGHT / (2 * _RADIUS) * self.times
-        self.renderer = Renderer(first, (2 * self.size, 2 * self.size), zoom, colours, {}, above=_ABOVE_FLOOR)
+        self.renderer = Renderer(first, (self.size, self.size), zoom, colours, {}, finer=2, above=_ABOVE_FLOOR)
         x = np.arange(self.size) - (self.size - 1) / 2
         outside = np.hypot(x[:, None], x[None, :]) - self.size / 2
         self._inside = np.clip(-1.5 - outside, 0, 1)[..., None]
@@ -63,8 +63,7 @@ class Lens:
             What to print below the lens and where.
         """
         self.renderer.show(shot, self.factor, float(shot.centre[0]))
-        fine = self.renderer.image().reshape(self.size, 2, self.size, 2, 3)
-        enlarged = fine.mean(axis=(1, 3))
+        enlarged = self.renderer.image()
         middle = floor - _HEIGHT * shot.radius * self.scale
         top, left = round(middle - self.size / 2), round(column - self.size / 2)
         rows = slice(max(top, 0), min(top + self.size, picture.shape[0]))

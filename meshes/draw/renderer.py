@@ -61,8 +61,8 @@ class Renderer:
     largest : mapping
         Largest "force" and "slip" of the run: they are drawn 0.7 and 0.5 radii long. With a "usual" force,
         lengths of forces go by the logarithm beyond it.
-    off_screen : bool
-        True for pictures, False for a window.
+    finer : int
+        Pictures are drawn so many times as fine and averaged; 0 for a window on the screen.
     above : float
         Share of the height of the view that lies above the floor.
     """
@@ -74,14 +74,14 @@ class Renderer:
         zoom: float,
         colours: Colours | None,
         largest: Mapping[str, float],
-        off_screen: bool = True,
+        finer: int = 1,
         above: float = ABOVE_FLOOR,
     ) -> None:
-        choose_window(off_screen)
+        choose_window(off_screen := finer > 0)
         import pyvista
 
         self.size, self.zoom, self.colours, self.largest = size, zoom, colours, largest
-        self.R, self.above = first.radius, above
+        self.R, self.above, self.finer = first.radius, above, finer
         #: of the view, in the world's unit of length
         self.height = VIEW_HEIGHT * self.R / zoom
         options: dict[str, Any] = {"window_size": list(size), "lighting": "none", "border": False}
@@ -91,7 +91,7 @@ class Renderer:
         if off_screen:
             plotter.disable_anti_aliasing()  # pictures are drawn finer and averaged, which is faster
         self.plotter = plotter
-        width = max(1.0, size[1] / 500)
+        width = max(1.0, max(finer, 1) * size[1] / 500)
 
         faces = first.ring.cells
         if first.ring.cell_type == BIQUADRATIC_QUAD:
@@ -159,7 +159,13 @@ class Renderer:
     def image(self) -> NDArray[np.uint8]:
         """The picture as (height, width, 3) bytes."""
         self.plotter.render()
-        return np.asarray(self.plotter.screenshot(None, return_img=True))[..., :3]
+        # in tiles of the window's size: drawn at once it would take a dozen buffers of its own size
+        fine = np.asarray(self.plotter.screenshot(None, return_img=True, scale=self.finer))
+        total = np.zeros((self.size[1], self.size[0], 3), dtype=np.uint16)
+        for i in range(self.finer):
+            for j in range(self.finer):
+                total += fine[i :: self.finer, j :: self.finer, :3]
+        return (total // self.finer**2).astype(np.uint8)
 
     def close(self) -> None:
         """Free the renderer."""

@@ -41,7 +41,7 @@ class Window:
         self.fields = field_names(chosen.first.ring)
         self._lay_out()
         zoom = chosen.zoom * self.layout.view_box[3] / size[1]
-        self.renderer = Renderer(chosen.first, size, zoom, chosen.colours, chosen.largest, off_screen)
+        self.renderer = Renderer(chosen.first, size, zoom, chosen.colours, chosen.largest, finer=1 if off_screen else 0)
         self.plotter: Any = self.renderer.plotter
         self.plotter.title = "hoop-pulse"
         self._overlay = Overlay(self.plotter, size, self.layout.view_box)

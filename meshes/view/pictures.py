@@ -80,13 +80,14 @@ class Camera:
 
     def __init__(self, chosen: Setting, size: tuple[int, int], oversampling: int = 2) -> None:
         require_renderer()
-        self.setting, self.oversampling = chosen, oversampling
+        self.setting = chosen
         source = chosen.source
         patches: tuple[Shot, ...] = chosen.patches if chosen.zoom == 1 else ()
         self.layout = Layout(size, source.curves, source.span, chosen.colours, source.units, source.title, patches)
         _, _, width, height = self.layout.view_box
-        pixels = (self.oversampling * width, self.oversampling * height)
-        self.renderer = Renderer(chosen.first, pixels, chosen.zoom, chosen.colours, chosen.largest)
+        self.renderer = Renderer(
+            chosen.first, (width, height), chosen.zoom, chosen.colours, chosen.largest, finer=oversampling
+        )
         self.height = self.renderer.height
         # where the hoop may be: left of the colour bar, right of the patch
         right, left = self.layout.covered, self.layout.aside
@@ -110,12 +111,7 @@ class Camera:
         shot = self.setting.source.shot(time)
         middle = self._middle(shot)
         self.renderer.show(shot, self.setting.factor, middle)
-        fine, more = self.renderer.image(), self.oversampling
-        total = np.zeros((fine.shape[0] // more, fine.shape[1] // more, 3), dtype=np.uint16)
-        for i in range(more):
-            for j in range(more):
-                total += fine[i::more, j::more]
-        drawn, caption = (total // more**2).astype(np.uint8), None
+        drawn, caption = self.renderer.image(), None
         if self.lens is not None and self.lens.fits(shot):
             column = drawn.shape[1] / 2 + (float(shot.centre[0]) - middle) * self.scale
             caption = self.lens.draw(drawn, shot, column, ABOVE_FLOOR * drawn.shape[0])

@@ -47,7 +47,7 @@ class Rung:
         return pulses[pulse][name] if pulse < len(pulses) else nan
 
     def error(self, name: str, pulse: int = 0) -> float:
-        """Numerical error of that measure, from its change when the tolerance was halved."""
+        """Numerical error of that measure, from its change when the tolerance was quartered."""
         errors = self.outcome.numerical_error
         return errors[pulse][name] if pulse < len(errors) else nan
 

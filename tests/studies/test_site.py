@@ -41,3 +41,16 @@ def test_links_lead_somewhere(site: Path) -> None:
         text = page.read_text(encoding="utf-8")
         for target in re.findall(r'(?:src|href)="([^"#:$]+?)(?:#[^"]*)?"', text):
             assert (site / target).exists(), (page.name, target)
+
+
+def test_formulas_are_shown_without_a_network(site: Path) -> None:
+    """As many as the theory has, as MathML; no page loads a program from elsewhere, no TeX is left, no word for one."""
+    for package in ("rigid", "flexible", "studies"):
+        page = (site / f"{package}.html").read_text(encoding="utf-8")
+        theory = (ROOT / package / "README.md").read_text(encoding="utf-8")
+        shown = len(re.findall(r"<math[^>]*display=\"block\"", page))
+        assert shown == theory.count("```math") + theory.count("$$") // 2 > 0
+        words = re.sub(r"<(pre|code).*?</\1>", "", page, flags=re.DOTALL)
+        assert not re.search(r"\\(frac|dot|omega|varphi)\b|formula\d+x", words)
+    for page in site.glob("*.html"):
+        assert not re.search(r"<script[^>]*src=\"http", page.read_text(encoding="utf-8"))

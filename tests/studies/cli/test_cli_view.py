@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from command_line import is_one_sentence
+from command_line import is_one_sentence, process
 
 from meshes import read
 from meshes.draw.display import renderer_problem
@@ -29,12 +29,11 @@ needs_renderer = pytest.mark.skipif(renderer_problem() is not None, reason=str(r
 @pytest.fixture(scope="module")
 def run(tmp_path_factory):
     """The folder that `hoop flexible SCENE --out DIR --fields --frames 12` leaves."""
-    from studies.cli import hoop as cli
-
     folder = tmp_path_factory.mktemp("view")
     file = folder / "scene.toml"
     file.write_text(SCENE)
-    assert cli.run(["flexible", str(file), "--out", str(folder / "out"), "--fields", "--frames", "12"]) == 0
+    done = process("flexible", file, "--out", folder / "out", "--fields", "--frames", 12)
+    assert done.returncode == 0, done.stderr
     return folder / "out"
 
 
@@ -57,16 +56,16 @@ def test_frames_at_listed_times_with_listed_fields(hoop, run, tmp_path):
 
 
 @needs_renderer
-def test_view_draws_a_picture_and_an_animation(hoop, run, tmp_path):
+def test_view_draws_a_picture_and_an_animation(run, tmp_path):
     from PIL import Image
 
     png, gif = tmp_path / "a.png", tmp_path / "a.gif"
-    status, out, err = hoop("view", run, "--png", png, "--time", 5.85, "--field", "hoop_stress", "--zoom", 4)
-    assert (status, out, err) == (0, "", "")
+    done = process("view", run, "--png", png, "--time", 5.85, "--field", "hoop_stress", "--zoom", 4)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     with Image.open(png) as image:
         assert len(image.convert("RGB").getcolors(maxcolors=10**7)) > 100
-    status, out, err = hoop("view", run, "--gif", gif, "--frames", 3, "--fps", 5, "--pace", "time", "--factor", 100)
-    assert (status, out, err) == (0, "", "")
+    done = process("view", run, "--gif", gif, "--frames", 3, "--fps", 5, "--pace", "time", "--factor", 100)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     with Image.open(gif) as image:
         assert image.n_frames == 3
 

@@ -129,7 +129,7 @@ def test_a_few_of_each_kind(hoop, tmp_path):
     assert (tmp_path / "stress.png").stat().st_size > 10_000
 
 
-@pytest.mark.long
+@pytest.mark.slow
 def test_quick_stress(hoop, tmp_path):
     """Rigid and flexible scenes and a thousand cycles: none crashes, none hangs, none breaks an invariant."""
     status, out, err = hoop("stress", "--quick", "--json", "--out", tmp_path)
