@@ -1,7 +1,7 @@
 """Impact with friction in the impulse variable (Darboux, Keller): landing, and the jam of Painlevé.
 
 During an impact the configuration is frozen, so the velocity of the contact point is piecewise linear in the
-normal impulse I:  d(un)/dI = D/K while it slips (D of :mod:`rigid.phases.slipping`, which may be negative),
+normal impulse I:  d(un)/dI = D/K while it slips (D of :mod:`rigid.phases.slipping.series`, which may be negative),
 dv/dI = -mu^ (1 + (1 + e c)^2/K) - e s (1 + e c)/K, and v = 0 while it sticks.
 Slip that stops sticks if mu_s can hold it, else it reverses. Compression ends when un = 0; restitution ends
 when the normal force has given back the square of the coefficient times the work of compression (Stronge).
