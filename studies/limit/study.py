@@ -25,6 +25,7 @@ from ..inner.layers import Layer, layer, outer_forces
 from ..inner.march import PATCH
 from ..inner.scales import damping_of
 from ..inner.separate import separate_from
+from ..plots.sheet import power_of
 from ..running.case import Case
 from ..running.files import StudyError
 from ..running.measures import MEASURES
@@ -118,7 +119,7 @@ class LimitStudy:
 
     def _lines(self) -> list[summary.Line]:
         terms = self.prediction.terms.items()
-        lines = [(n, f"{term.limit:.6g} + {term.coefficient:.4g} x^{term.exponent:.3g}") for n, term in terms]
+        lines = [(n, f"{term.limit:.6g} + {term.coefficient:.4g} {power_of('x', term.exponent)}") for n, term in terms]
         parameter = "foundation^(-1/3)" if self.prediction.parameter == "eps" else "the slip velocity scale"
         return [*lines, ("x", parameter), ("events", ", ".join(found.event.kind for found in self.events))]
 

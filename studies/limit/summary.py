@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from math import degrees, isfinite
 from typing import Any
 
-from ..plots.sheet import Column, Sheet, number
+from ..plots.sheet import Column, Sheet, number, power_of
 from ..running.measures import MEASURES
 from .damping import Spot
 from .study import OBSERVED, LimitStudy
@@ -42,7 +42,9 @@ def _symbol(study: LimitStudy) -> str:
 def term_sheet(study: LimitStudy) -> Sheet:
     """The prediction."""
     terms = study.prediction.terms
-    powers = [" ".join(f"{c:+.5g} {_symbol(study)}^{p:.3g}" for p, c in term.powers) or "0" for term in terms.values()]
+    powers = [
+        " ".join(f"{c:+.5g} {power_of(_symbol(study), p)}" for p, c in term.powers) or "0" for term in terms.values()
+    ]
     names = [MEASURES[name].heading(study.scene).replace("\n", " ") for name in terms]
     return Sheet(
         "Prediction: limit and approach",
@@ -123,7 +125,7 @@ def verdict(study: LimitStudy) -> str:
         f"Made ever stiffer, the hoop on a floor with the {law} law {becomes}: J_F/J_N (friction impulse over normal "
         f"impulse, of the first pulse) tends to {term.limit:.6f}"
         + ("" if same else f" and not to {paper:.6f}")
-        + f", and is off by {term.coefficient:+.4g} {_symbol(study)}^{term.exponent:.3g} before"
+        + f", and is off by {term.coefficient:+.4g} {power_of(_symbol(study), term.exponent)} before"
     )
     small = (
         "ε the foundation ε_n R²/(m g) to the power −1/3"
@@ -177,6 +179,6 @@ def other_sentences(study: LimitStudy) -> list[str]:
         if other.prediction is not None:
             term = other.prediction.terms["impulse_ratio"]
             symbol = _SYMBOLS[other.prediction.parameter]
-            words += f", like {term.coefficient:+.3g} {symbol}^{term.exponent:.3g}"
+            words += f", like {term.coefficient:+.3g} {power_of(symbol, term.exponent)}"
         said.append(words)
     return said

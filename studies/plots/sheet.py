@@ -20,6 +20,11 @@ def number(value: float | None, digits: int = 6) -> str:
     return f"{value:.{digits}g}"
 
 
+def power_of(symbol: str, exponent: float) -> str:
+    """A power in words: "ε", "ε^0.667"."""
+    return symbol if exponent == 1 else f"{symbol}^{exponent:.3g}"
+
+
 @dataclass(frozen=True, slots=True)
 class Column:
     """One column of a sheet."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from ..plots.sheet import number
+from ..plots.sheet import number, power_of
 from ..running.measures import MEASURES
 
 if TYPE_CHECKING:
@@ -229,12 +229,12 @@ def prediction_sentence(study: StiffnessStudy) -> str:
     told = []
     for name in ("impulse_ratio", "friction_loss"):
         term = study.prediction.terms[name]
-        powers = " ".join(f"{c:+.4g} ε^{p:.3g}" for p, c in term.powers) or "+ 0"
+        powers = " ".join(f"{c:+.4g} {power_of('ε', p)}" for p, c in term.powers) or "+ 0"
         seen = study.coefficient(name)
         words = f"{MEASURES[name].symbol} = {number(term.limit)} {powers}"
         if seen is not None:
             beside = f"{seen.observed:.4g} ± {seen.uncertainty:.2g} observed, {seen.predicted:.4g} predicted"
-            words += f" (at the stiffest case, over ε^{term.exponent:.3g}: {beside})"
+            words += f" (at the stiffest case, over {power_of('ε', term.exponent)}: {beside})"
         told.append(words)
     said = f"Predicted without a fit, ε the foundation to the power −1/3: {'; '.join(told)}."
     if not study.prediction.complete:
