@@ -76,7 +76,7 @@ def _tables():
     put(Q_INTEGRAL, 0.5 * to_chebyshev.T @ integrals)
     put(Q_FROM_TURN, to_chebyshev.T @ _from_turn(ends))
     put(Q_HULL_OF, to_hull.T)
-    return rows.tolist()
+    return rows
 
 
 def _from_turn(ends):
@@ -91,12 +91,12 @@ def workspace():
     """What a phase works in, as lists (see :mod:`rigid.kernel.layout`): rows of Taylor coefficients, and, flat, the
     rows of a panel with their tables.
     """
-    return [[0.0] * (ORDER + 1) for _ in range(SERIES)], list(_tables())
+    return [[0.0] * (ORDER + 1) for _ in range(SERIES)], _tables().tolist()
 
 
 def compiled_workspace():
     """The same as arrays."""
-    return tuple(np.array(room) for room in workspace())
+    return np.zeros((SERIES, ORDER + 1)), _tables().copy()
 
 
 @kernel
