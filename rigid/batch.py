@@ -16,7 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from .allowed import SceneError
 from .kernel import layout as at
 from .kernel.compile import compiled, kernel
-from .kernel.layout import HOPS, MORE, ORDER, RECORDS, SERIES, STATE, STEPS, WIDTH, WORK_BOUND, T
+from .kernel.layout import HOPS, MORE, RECORDS, STATE, STEPS, WIDTH, WORK_BOUND, T
+from .kernel.spectral import compiled_workspace
 from .lists import phases_of
 from .motion import Array, Kind
 from .output import summary
@@ -218,7 +219,7 @@ def simulate_batch(
     run = compiled()["entry_batch"]
 
     def work_through(start: int) -> None:
-        work, state, events = np.zeros((SERIES, ORDER + 1)), np.zeros(STATE), np.zeros(LOG_RECORDS * WIDTH)
+        work, state, events = compiled_workspace(), np.zeros(STATE), np.zeros(LOG_RECORDS * WIDTH)
         stop = min(start + CHUNK, count)
         run(pars, release, start, stop, work, state, events, rows)
 

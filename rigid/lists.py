@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from math import pi
 from typing import Any, Generic, TypeVar, overload
@@ -97,19 +97,21 @@ class Repeated(Lazy[T]):
         return self.later(self.before[len(self.before) - self.length + place], times + 1)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
 class Deferred(Lazy[T]):
     """The sequence that ``make`` makes when it is first looked at."""
 
-    make: Callable[[], Sequence[T]]
-    made: list[Sequence[T]] = field(default_factory=list, init=False)
+    def __init__(self, make: Callable[[], Sequence[T]]) -> None:
+        self._make, self._made = make, None
+
+    _make: Callable[[], Sequence[T]]
+    _made: Sequence[T] | None
 
     @property
     def items(self) -> Sequence[T]:
         """The sequence itself."""
-        if not self.made:
-            self.made.append(self.make())
-        return self.made[0]
+        if self._made is None:
+            self._made = self._make()
+        return self._made
 
     def __len__(self) -> int:
         return len(self.items)
@@ -194,7 +196,8 @@ class Listing:
 
     def __init__(self, records: list[Row], end: Row, scene: Scene, sample: Sample) -> None:
         self.scene, self.sample = scene, sample
-        where = next((i for i, row in enumerate(records) if row[0] == at.REPEAT), len(records))
+        tags = [row[0] for row in records]
+        where = tags.index(at.REPEAT) if at.REPEAT in tags else len(records)
         self.fold: Fold | None = None
         self.later = Later(0.0, 0.0)
         first = where
@@ -238,7 +241,7 @@ class Listing:
     def _list(
         self, before: list[Row], once: list[Row], after: list[Row], tags: tuple[int, ...], make: Callable[[Row], T]
     ) -> Sequence[T]:
-        head, tail = (tuple(make(row) for row in part if row[0] in tags) for part in (before, after))
+        head, tail = (tuple([make(row) for row in part if row[0] in tags]) for part in (before, after))
         if self.fold is None:
             return head + tail
         return Repeated(head, sum(row[0] in tags for row in once), self.fold.count, tail, self.later)

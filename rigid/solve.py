@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from .kernel import layout as at
 from .kernel.compile import compiled
+from .kernel.spectral import compiled_workspace, workspace
 from .lists import Deferred, Listing, Row
 from .motion import Array, Motion, Side, States
 from .output.file import Stored, read
@@ -47,24 +48,21 @@ def parameters(scene: Scene) -> list[float]:
     friction = scene.friction
     bounce = scene.landing.restitution
     return [
-        e,
-        one_minus_e,
-        gyr,
-        zeta,
-        friction.mu_s,
-        friction.mu,
-        bounce,
-        turns,
-        inf if t_end is None else t_end,
-        float(UNTIL_CODES[run.until]),
-    ]
+        e, one_minus_e, gyr, zeta, friction.mu_s, friction.mu, bounce, turns,
+        inf if t_end is None else t_end, float(UNTIL_CODES[run.until]),
+    ]  # fmt: skip
+
+
+def release_of(scene: Scene) -> tuple[float, float, float]:
+    """phi0, omega0, slip0, R = g = 1."""
+    release = without_units(scene.release, scene)
+    return float(release.phi0), float(release.omega0), float(release.slip0)
 
 
 def release_state(scene: Scene) -> list[float]:
     """The state at t = 0 (see :mod:`rigid.kernel.layout`)."""
-    release = without_units(scene.release, scene)
     state = [0.0] * at.STATE
-    release_from(state, release.phi0, float(release.omega0), float(release.slip0))
+    release_from(state, *release_of(scene))
     state[at.STEPS] = float(STEPS)
     return state
 
@@ -74,62 +72,83 @@ class _Workspace(threading.local):
 
     def __init__(self) -> None:
         self.events = np.zeros(LOG_RECORDS * at.WIDTH)
-        self.work = np.zeros((at.SERIES, at.ORDER + 1))
+        self.state = np.zeros(at.STATE)
+        self.work = compiled_workspace()
 
 
 _workspace = _Workspace()
 
 
-def _run(par: list[float], state: list[float]) -> tuple[int, list[list[float]], list[float]]:
-    """Run to the end: why it ended, the records, the final state.
+class Log(NamedTuple):
+    """What a run leaves: all of its motion follows."""
+
+    code: int  # why it ended
+    records: list[Row]
+    final: list[float]  # the state at its end
+
+
+def _run(scene: Scene) -> Log:
+    """Run to the end.
 
     Interpreted until this process has spent ``PATIENCE`` steps, from then on compiled: the same numbers to
     round-off.
     """
+    par = parameters(scene)
+    if _interpreted_steps >= PATIENCE:
+        constants, state, events, work = np.array(par), _workspace.state, _workspace.events, _workspace.work
+        code = compiled()["entry_start"](constants, (*release_of(scene), float(STEPS)), state, work, events)
+        return _run_on(par, code, constants, state, _unrolled(events, state))
+    code, here, records = _run_interpreted(par, release_state(scene))
+    if code in (at.MORE, at.WORK_BOUND) and here[at.STALLS] <= MOST_STALLS:
+        return _run_on(par, at.MORE, np.array(par), np.array(here), records)
+    return _with_the_cut_pulse(par, Log(code, records, here))
+
+
+def _run_interpreted(par: list[float], state: list[float]) -> tuple[int, list[float], list[Row]]:
+    """Run to the end or to the end of the patience: why it ended, the state there, the records."""
     global _interpreted_steps
-    records: list[list[float]] = []
-    left = float(STEPS)
-    if _interpreted_steps < PATIENCE:
-        events: Any = [0.0] * (LOG_RECORDS * at.WIDTH)
-        work: Any = [[0.0] * (at.ORDER + 1) for _ in range(at.SERIES)]
-        code = at.MORE
-        while code == at.MORE and _interpreted_steps < PATIENCE:
-            allowance = float(PATIENCE - _interpreted_steps)
-            state[at.RECORDS], state[at.STEPS] = 0.0, allowance
-            code = entry_run(par, state, work, events)
-            spent = allowance - state[at.STEPS]
-            left -= spent
-            _interpreted_steps += int(spent)
-            _unroll(events, state, records)
-        if code not in (at.MORE, at.WORK_BOUND) or state[at.STALLS] > MOST_STALLS:
-            return code, _with_the_cut_pulse(par, state, records), state
-    run = compiled()["entry_run"]
+    events, work = [0.0] * (LOG_RECORDS * at.WIDTH), workspace()
+    records: list[Row] = []
+    code, left = at.MORE, float(STEPS)
+    while code == at.MORE and _interpreted_steps < PATIENCE:
+        allowance = float(PATIENCE - _interpreted_steps)
+        state[at.RECORDS], state[at.STEPS] = 0.0, allowance
+        code = entry_run(par, state, work, events)
+        spent = allowance - state[at.STEPS]
+        left -= spent
+        _interpreted_steps += int(spent)
+        records += _unrolled(events, state)
+    state[at.STEPS] = left
+    return code, state, records
+
+
+def _run_on(par: list[float], code: int, constants: Array, state: Array, records: list[Row]) -> Log:
+    """Go on, compiled, while there is more."""
     events, work = _workspace.events, _workspace.work
-    constants, here = np.array(par), np.array(state)
-    here[at.STEPS] = left
-    code = at.MORE
     while code == at.MORE and len(records) < MOST_RECORDS:
-        here[at.RECORDS] = 0.0
-        code = run(constants, here, work, events)
-        _unroll(events, here, records)
-    end = here.tolist()
-    return (at.WORK_BOUND if code == at.MORE else code), _with_the_cut_pulse(par, end, records), end
+        state[at.RECORDS] = 0.0
+        code = compiled()["entry_run"](constants, state, work, events)
+        records += _unrolled(events, state)
+    return _with_the_cut_pulse(par, Log(at.WORK_BOUND if code == at.MORE else code, records, state.tolist()))
 
 
-def _with_the_cut_pulse(par: list[float], state: list[float], records: list[list[float]]) -> list[list[float]]:
-    """The records, and the pulse that the end of the run cuts short."""
-    events = [0.0] * at.WIDTH
-    state[at.RECORDS] = 0.0
-    cut_pulse(par, state, events)
-    _unroll(events, state, records)
-    return records
+def _with_the_cut_pulse(par: list[float], log: Log) -> Log:
+    """The log, and in it the pulse that the end of the run cuts short."""
+    _, records, state = log
+    if state[at.P_OPEN] != 0.0:
+        events = [0.0] * at.WIDTH
+        state[at.RECORDS] = 0.0
+        cut_pulse(par, state, events)
+        records += _unrolled(events, state)
+    return log
 
 
-def _unroll(events: Any, state: Any, records: list[list[float]]) -> None:
-    """Take the records off the event log."""
+def _unrolled(events: Any, state: Any) -> list[Row]:
+    """The records on the event log."""
     used = int(state[at.RECORDS]) * at.WIDTH
-    row = events[:used].tolist() if isinstance(events, np.ndarray) else events[:used]
-    records += [row[i : i + at.WIDTH] for i in range(0, used, at.WIDTH)]
+    if isinstance(events, np.ndarray):
+        return list(events[:used].reshape(-1, at.WIDTH).tolist())
+    return [events[i : i + at.WIDTH] for i in range(0, used, at.WIDTH)]
 
 
 def simulate(scene: SceneLike) -> Motion:
@@ -155,15 +174,7 @@ def simulate(scene: SceneLike) -> Motion:
         No such scene, or one that cannot be.
     """
     scene = as_scene(scene)
-    return _motion(scene, Log(*_run(parameters(scene), release_state(scene))))
-
-
-class Log(NamedTuple):
-    """What a run leaves: all of its motion follows."""
-
-    code: int  # why it ended
-    records: list[Row]
-    final: list[float]  # the state at its end
+    return _motion(scene, _run(scene))
 
 
 def _motion(scene: Scene, log: Log) -> Motion:
@@ -270,7 +281,7 @@ class Sampler:
         flat = [number for row in padded for number in row]
         if _interpreted_steps < PATIENCE and len(times) < INSTANTS:
             out: Any = [0.0] * (len(times) * width)
-            work: Any = [[0.0] * (at.ORDER + 1) for _ in range(at.SERIES)]
+            work: Any = workspace()[0]
             events = [0.0] * (16 * at.WIDTH)
             state = [0.0] * at.STATE
             instant.entry_sample(constants, flat, owner.tolist(), times.tolist(), out, work, state, events)

@@ -5,5 +5,6 @@
 ``layout``      where things stand in the flat sequences that kernels work on
 ``angle``       phi without loss of digits near the bottom or the top
 ``polynomial``  all real roots on an interval, none stepped over
+``spectral``    rows of Chebyshev nodes: integrals, interpolation, the count of roots
 ``elliptic``    Carlson's integrals
 """

@@ -46,7 +46,8 @@ def compiled() -> dict[str, Callable[..., Any]]:
     for name, function in _REGISTER.items():
         scopes.append(dict(function.__globals__))
         twin = moved(function, place, scopes[-1])
-        twins[name] = _compiler(twin, keep=name.startswith("entry_"), nogil=True)
+        # the kernels make no arrays: without counted references, which cost a third of their time
+        twins[name] = _compiler(twin, keep=name.startswith("entry_"), nogil=True, _nrt=False)
     for scope in scopes:
         scope.update(twins)
     return twins
@@ -112,7 +113,7 @@ def _home_of(module: str, file: str) -> Path:
     return home(module, fingerprint([file]))
 
 
-def _compiler(function: FunctionType, keep: bool, nogil: bool = False) -> Any:
+def _compiler(function: FunctionType, keep: bool, nogil: bool = False, **options: bool) -> Any:
     """Compiled lazily, with a cache on disk if ``keep``."""
     import numba
 
@@ -121,4 +122,5 @@ def _compiler(function: FunctionType, keep: bool, nogil: bool = False) -> Any:
 
     tell()
     with beside_the_source():
-        return numba.njit(cache=keep, nogil=nogil, **_OPTIONS)(function)
+        compiler: Any = numba.njit
+        return compiler(cache=keep, nogil=nogil, **{**_OPTIONS, **options})(function)

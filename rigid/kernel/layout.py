@@ -25,14 +25,25 @@ LOSSLESS_TURNS, SLIDES_DONE, LAST_ENERGY, LAST_TURNS, PHASE_T, SLIP_SCALE, PULL,
 A_EVENT, A_T, A_ANGLE, A_WHOLE, A_OMEGA, A_XDOT, A_X, A_TURNS, A_PULSES, A_RECORDED, RECORDED = range(40, 51)
 # The phases of the open pulse, as digits to the base of SEQUENCE_BASE.
 P_SEQUENCE = 51
-STATE = 52
+# A slip's start and the time since: where phidot ~ 1/k, sums in T itself would move the angle by their round-off.
+T_FROM, T_SINCE = 52, 53
+STATE = 54
 SEQUENCE_BASE = 8
 
-# What a phase works in: Taylor coefficients of as many quantities, for names see rigid.phases.slipping; a rolling phase
-# keeps its polynomials there.
+# What a phase works in, rows of ORDER + 1 numbers (rigid.kernel.spectral.workspace): Taylor coefficients, for names see
+# rigid.phases.slipping.series; a rolling phase keeps its polynomials there.
 ORDER = 24
 SERIES = 13
 S_SIN, S_H, S_OMEGA, S_CO, S_P, S_D, S_B, S_YDOT, S_SLIP, S_T, S_N1, S_PLUS, S_MINUS = range(SERIES)
+# Beside it, flat, rows of ROW numbers: values at the nodes of a panel and at its end, for names see
+# rigid.phases.slipping.panel, and the tables for them.
+NODES = 23
+ROW = NODES + 1
+(
+    Q_X, Q_U, Q_STRETCH, Q_D, Q_F, Q_LOG, Q_E, Q_OMEGA2, Q_OMEGA, Q_T, Q_SLIP, Q_N1, Q_B, Q_HULL, Q_SHARE,
+    Q_NODE, Q_BARY, Q_LAST, Q_NEXT_TO_LAST, Q_NOISE, Q_INTEGRAL,
+) = range(0, 21 * ROW, ROW)  # fmt: skip
+Q_FROM_TURN, Q_HULL_OF, PANEL_ROOM = (Q_INTEGRAL + i * ROW * ROW for i in range(1, 4))
 
 # Kinds of contact; CHOOSE stands for "find out".
 CHOOSE, ROLL, SKID, SPIN, FLIGHT, SKIM, IMPACT = range(7)

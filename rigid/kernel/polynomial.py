@@ -6,7 +6,7 @@ Coefficients run from the constant upwards.
 # mypy: allow-untyped-defs
 from __future__ import annotations
 
-from math import sqrt
+from math import inf, sqrt
 
 from .compile import kernel
 
@@ -81,6 +81,7 @@ def polish(c, n, low, high):
     """
     rising = value(c, n, high) > 0
     x = 0.5 * (low + high)
+    last = inf
     for _ in range(200):
         y, d = value_and_slope(c, n, x)
         if y == 0.0:
@@ -90,6 +91,10 @@ def polish(c, n, low, high):
         else:
             low = x
         new = x - y / d if d != 0.0 else low - 1.0
+        step = abs(new - x)
+        if step <= 2.3e-16 * abs(x) or (step <= 1e-15 * abs(x) and step >= 0.5 * last):
+            return x  # its steps are round-off
+        last = step
         if not min(low, high) < new < max(low, high):
             if 0 < 4 * min(low, high) < max(low, high):
                 new = sqrt(low * high)

@@ -2,7 +2,8 @@
 
 ``rolling``                               forces and times in closed form, (4) to (8) and (17) to (19); a pass over the
                                           bottom; the phase run to its end
-``slipping``, ``slipping_phase``          the series of a step, (10) to (16); the phase run to its end, cut at events
+``slipping``                              quadrature over phi, (10) to (16), and series where phi is no measure; the
+                                          phase run to its end, cut at events
 ``flight``, ``impact``, ``pointmass``     off the floor; landings and jams; k = 0 without a hoop's mass
 ``choice``                                the phase machine: which phase comes next
 ``instant``                               any instant of a phase, from its start

@@ -81,8 +81,8 @@ from .impact import strike
 from .pointmass import choose_point_mass, roll_point_mass, skim
 from .rolling.closed_form import TIE, rolling_forces
 from .rolling.phase import roll
-from .slipping import JAM, denominator
-from .slipping_phase import slide
+from .slipping.phase import slide
+from .slipping.series import JAM, denominator
 
 # phi0 this close to a multiple of pi, relatively, means that multiple: no float but 0 is one itself
 LEVEL = 2.3e-16
@@ -214,10 +214,19 @@ def settles(par, state):
 
 
 @kernel
-def entry_run(par, state, work, events):
+def entry_start(par, release, state, room, events):
+    """Run from a release (phi0, omega0, slip0) with an allowance of steps, its fourth number."""
+    release_from(state, release[0], release[1], release[2])
+    state[STEPS] = release[3]
+    return entry_run(par, state, room, events)
+
+
+@kernel
+def entry_run(par, state, room, events):
     """Run until the event log is full (MORE), the allowance of steps is spent (WORK_BOUND) or the motion is
     over.
     """
+    work, rows = room
     while True:
         if state[RECORDS] * WIDTH + ROOM * WIDTH > len(events):
             return MORE
@@ -240,7 +249,7 @@ def entry_run(par, state, work, events):
         elif mode in (SKID, SPIN):
             if settles(par, state):
                 return SLIDES if par[MU] == 0.0 else SETTLES
-            code = slide(par, state, work, events)
+            code = slide(par, state, work, rows, events)
             if state[MODE] == FLIGHT:
                 begin(par, state, FLIGHT, events)
         elif mode == FLIGHT:

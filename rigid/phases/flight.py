@@ -54,7 +54,8 @@ def touch_down(e, gap, un, omega, a, top):
         curve = e * c * w - 1
         jerk = -e * s * w * omega
         if curve > 1e-14 * bound:
-            time = min(1.0, curve / (e * w * abs(omega)))
+            # gap'' > 0 for as long, and where it grows for as long as it does: at a lift-off curve itself is round-off
+            time = min(1.0, max(curve / jolt, jerk / (e * w * w)))
         elif jerk > 0.0:
             time = min(1.0, jerk / (e * w * w))
         else:

@@ -1,7 +1,7 @@
 """Impact with friction in the impulse variable (Darboux, Keller): landing, and the jam of Painlevé.
 
 During an impact the configuration is frozen, so the velocity of the contact point is piecewise linear in the
-normal impulse I:  d(un)/dI = D/K while it slips (D of :mod:`rigid.phases.slipping`, which may be negative),
+normal impulse I:  d(un)/dI = D/K while it slips (D of :mod:`rigid.phases.slipping.series`, which may be negative),
 dv/dI = -mu^ (1 + (1 + e c)^2/K) - e s (1 + e c)/K, and v = 0 while it sticks.
 Slip that stops sticks if mu_s can hold it, else it reverses. Compression ends when un = 0; restitution ends
 when the normal force has given back the square of the coefficient times the work of compression (Stronge).
@@ -19,7 +19,7 @@ from math import inf, sqrt
 from ..kernel.angle import trig
 from ..kernel.compile import kernel
 from ..kernel.layout import ANGLE, ECC, GYR, MU, MU_S, OMEGA, ONE_MINUS_E, SLIP, TOP, UN, XDOT, YDOT
-from .slipping import JAM
+from .slipping.series import JAM
 
 
 @kernel
@@ -43,7 +43,8 @@ def strike(par, state, restitution):
         # while it sticks, es - friction arm = es K/(K + arm^2), written so that a small K keeps its digits
         spin_rate = es / (gyr + arm * arm) if stick else (es - friction * arm) / gyr
         un_rate = 1.0 + es * spin_rate
-        noise = 4e-16 * abs(es) * (abs(es) + abs(friction * arm))
+        # round-off of the angle, the sine, the sum and the product in D - K
+        noise = 1e-15 * abs(es) * (abs(es) + abs(friction * arm))
         if jammed and v != 0.0 and -noise < un_rate * gyr <= max(noise, JAM * gyr):
             # D is zero to round-off, whatever its sign; where D > 0 a contact point that grazes the floor is not jammed
             un_rate, spin_rate = -1e-30, -1 / es

@@ -25,6 +25,8 @@ from ..kernel.layout import (  # fmt: skip
     SLIP,
     SLIP_SCALE,
     SPIN,
+    T_FROM,
+    T_SINCE,
     TOP,
     WHOLE,
     WIDTH,
@@ -39,8 +41,8 @@ from .flight import fly
 from .pointmass import drop, roll_point_mass, skimming_acceleration
 from .rolling.closed_form import rolling_acceleration, rolling_forces
 from .rolling.phase import roll_on
-from .slipping import JAM, normal_force, slipping_acceleration
-from .slipping_phase import NOTHING_YET, carry, end_of_slip, step
+from .slipping.series import JAM, normal_force, slipping_acceleration
+from .slipping.step import NOTHING_YET, carry, end_of_slip, step
 
 MOST_STEPS = 400_000  # in one phase: beyond the work bound of the motion itself
 COLUMNS = 9  # phi, omega, x_C, height of the contact point, slip velocity, N, F, energy, phiddot
@@ -73,24 +75,25 @@ def entry_sample(par, phases, owner, times, out, work, state, events):
             p_known = inf
             steps = 0
             state[SLIP_SCALE] = 0.0
+            state[T_FROM], state[T_SINCE] = start, 0.0
             while i < len(times) and owner[i] == p:
                 length = step(par, state, mu_hat, p_known, work)
                 length, event = end_of_slip(work, length, 1.0 if kind == SKID else -1.0)
                 tt = work[S_T]
                 duration = value(tt, ORDER, length)
-                before = state[T]
+                before = state[T_SINCE]
                 steps += 1
-                if event != NOTHING_YET and before + duration < times[i]:
+                if event != NOTHING_YET and before + duration < times[i] - start:
                     # the last digits of the phase: near a jam the slip stops within them
                     carry(par, state, mu_hat, work, length)
                     duration = inf
                 elif work[S_D][0] <= JAM * par[GYR] or steps > MOST_STEPS:
                     duration = inf  # jammed: nothing moves in what is left of the phase
                 keep = (state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C], state[XDOT])
-                while i < len(times) and owner[i] == p and times[i] <= before + duration:
+                while i < len(times) and owner[i] == p and times[i] - start <= before + duration:
                     x = 0.0
-                    if times[i] > before and duration < inf:
-                        tt[0] = before - times[i]
+                    if times[i] - start > before and duration < inf:
+                        tt[0] = before - (times[i] - start)
                         # at the end of the step its time may be round-off short of what is asked for
                         x = polish(tt, ORDER, 0.0, length) if value(tt, ORDER, length) > 0.0 else length
                         tt[0] = 0.0
@@ -99,7 +102,7 @@ def entry_sample(par, phases, owner, times, out, work, state, events):
                     normal = max(0.0, normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP]))
                     alpha = slipping_acceleration(par, mu_hat, normal, state[ANGLE], state[TOP])
                     write_state(par, state, normal, -mu_hat * normal, alpha, out, i)
-                    state[T] = before
+                    state[T_SINCE] = before
                     state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C], state[XDOT] = keep
                     i += 1
                 p_known = value(work[S_P], ORDER, length)

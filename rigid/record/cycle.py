@@ -38,6 +38,7 @@ from ..kernel.layout import (  # fmt: skip
     RECORDS,
     REPEAT,
     T_END,
+    T_FROM,
     TURNS,
     TURNS_DONE,
     WHOLE,
@@ -100,6 +101,7 @@ def repeat(par, state, events):
     events[r + R_RECORDS] = state[RECORDED] - state[A_RECORDED]
     state[RECORDS] += 1
     state[T] += count * period
+    state[T_FROM] += count * period
     state[PHASE_T] += count * period
     state[X_C] += count * way
     state[WHOLE] += count * whole

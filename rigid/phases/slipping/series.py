@@ -1,4 +1,4 @@
-"""Skidding and spinning: (10) to (16), with the normal impulse as the independent variable.
+"""Skidding and spinning in series: (10) to (16), with the normal impulse as the independent variable.
 
 With dt = D dtau, where D = K + e s P and P = e s + mu^ (1 + e c), the equation of motion (12) loses its
 denominator:
@@ -17,9 +17,9 @@ from __future__ import annotations
 
 from math import exp, log
 
-from ..kernel.angle import trig
-from ..kernel.compile import kernel
-from ..kernel.layout import (
+from ...kernel.angle import trig
+from ...kernel.compile import kernel
+from ...kernel.layout import (
     ECC,
     GYR,
     ONE_MINUS_E,

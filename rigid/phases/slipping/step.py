@@ -1,74 +1,45 @@
-"""A slipping phase: Taylor steps in tau, cut at every event, so that each event is the end of a step.
-
-When D has fallen to round-off the configuration is frozen: the rest of the slip is an impact
-(:mod:`rigid.phases.impact`).
-
-Events: the slip stops, lift-off (1 - e c phidot^2 = 0), a turn, the bottom, N = M g, and the end of the run.
-All are roots of the step's own polynomials.
-"""
+"""One step of a slip by series in tau, cut at its first event: a root of the step's own polynomials."""
 
 # mypy: allow-untyped-defs
 from __future__ import annotations
 
 from math import inf
 
-from ..kernel.angle import next_angle, trig
-from ..kernel.compile import kernel
-from ..kernel.layout import (  # fmt: skip
+from ...kernel.angle import next_angle, trig
+from ...kernel.compile import kernel
+from ...kernel.layout import (  # fmt: skip
     ANGLE,
     ECC,
-    FIRST_PULSE,
-    FLIGHT,
-    GAP,
     GYR,
-    IMPACT,
-    LOSSLESS_TURNS,
     MODE,
-    MORE,
     MU,
     OMEGA,
     ONE_MINUS_E,
     ORDER,
     P_OPEN,
-    P_PEAK,
-    PHASE_OVER,
-    PULSE_OVER,
-    RECORDS,
-    REST,
     S_B,
     S_D,
     S_H,
     S_N1,
     S_OMEGA,
-    S_P,
     S_SIN,
     S_SLIP,
     S_T,
     S_YDOT,
     SKID,
-    SLIDES,
     SLIP,
     SLIP_SCALE,
-    STEPS,
     T_END,
-    TIME_REACHED,
+    T_FROM,
+    T_SINCE,
     TOP,
-    TURNS,
-    TURNS_REACHED,
-    UN,
-    UNTIL,
     WHOLE,
-    WIDTH,
-    WORK_BOUND,
     X_C,
     XDOT,
     T,
 )
-from ..kernel.polynomial import first_crossing, value, value_and_slope
-from ..record.cycle import AT_PASS, AT_TURN, comes_round
-from ..record.events import ROOM, turn
-from ..record.pulse import cross_bottom, watch
-from .slipping import JAM, normal_force, series
+from ...kernel.polynomial import first_crossing, value, value_and_slope
+from .series import series
 
 # what a step is cut at
 NOTHING_YET, STOPS, LIFTS, TIME_IS_UP, TURNS_BACK, AT_BOTTOM, AT_WEIGHT = range(7)
@@ -124,7 +95,8 @@ def carry(par, state, mu_hat, work, x):
     # xddot_G = -mu^ (1 + yddot_G), integrated twice
     along = xdot * dt - mu_hat * (0.5 * dt * dt + e * (h1 - h0) - ydot * dt)
     state[X_C] += along - e * (s1 - s0)
-    state[T] += dt
+    state[T_SINCE] += dt
+    state[T] = state[T_FROM] + state[T_SINCE]
     state[ANGLE], state[TOP], state[WHOLE] = a, top, whole
     state[XDOT] -= mu_hat * (dt + (-e * s1 * omega - ydot))
     state[OMEGA] = omega
@@ -207,77 +179,3 @@ def next_event(par, state, work, length, at_edge):
     if x > 0 or (x == 0.0 and not at_edge):
         length, event = x, AT_WEIGHT
     return length, event
-
-
-@kernel
-def slide(par, state, work, events):
-    """Slip until the contact point rests or lifts, or the run is over."""
-    mu_hat = par[MU] if state[MODE] == SKID else -par[MU]
-    gyr = par[GYR]
-    at_edge = False
-    p_known = inf
-    state[LOSSLESS_TURNS], whirled = 0.0, 0
-    state[SLIP_SCALE] = 0.0
-    n = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
-    if watch(par, state, n, events) and par[UNTIL] == FIRST_PULSE:
-        return PULSE_OVER
-    while True:
-        if state[RECORDS] * WIDTH + ROOM * WIDTH > len(events):
-            return MORE
-        if state[STEPS] <= 0.0:
-            return WORK_BOUND
-        state[STEPS] -= 1.0
-        length = step(par, state, mu_hat, p_known, work)
-        if work[S_D][0] <= JAM * gyr:
-            state[MODE] = IMPACT
-            return PHASE_OVER
-        turning = work[S_OMEGA][0] != 0.0
-        length, event = next_event(par, state, work, length, at_edge)
-        at_edge = False
-        if state[P_OPEN] != 0.0:
-            state[P_PEAK] = max(state[P_PEAK], peak_force(gyr, work, length))
-        p_known = value(work[S_P], ORDER, length)
-        if length > 0.0:
-            carry(par, state, mu_hat, work, length)
-        if event == STOPS:
-            state[SLIP] = 0.0
-        # without friction the slip stops where the hoop turns, to the last digit
-        if event == TURNS_BACK or (state[OMEGA] == 0.0 and turning):
-            state[OMEGA] = 0.0
-            state[LOSSLESS_TURNS] += 1.0
-            whirled = 0
-            if turn(par, state, events):
-                return TURNS_REACHED
-            if par[MU] == 0.0 and comes_round(par, state, AT_TURN, events) and par[UNTIL] == REST:
-                return SLIDES
-        if event == STOPS:
-            return PHASE_OVER
-        if event == LIFTS:
-            state[GAP] = 0.0
-            state[UN] = 0.0
-            state[MODE] = FLIGHT
-            return PHASE_OVER
-        if event == TIME_IS_UP:
-            state[T] = par[T_END]
-            return TIME_REACHED
-        if event == AT_BOTTOM:
-            state[ANGLE] = 0.0
-            state[LOSSLESS_TURNS] += 0.5
-            whirled += 1
-            cross_bottom(state)
-        elif event == AT_WEIGHT:
-            at_edge = True
-            if watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, events):
-                if par[UNTIL] == FIRST_PULSE:
-                    return PULSE_OVER
-                if (
-                    par[MU] == 0.0
-                    and par[TURNS] == inf
-                    and comes_round(par, state, AT_PASS, events)
-                    and par[UNTIL] == REST
-                ):
-                    return SLIDES
-        if par[MU] == 0.0 and par[UNTIL] == REST and state[LOSSLESS_TURNS] >= 3.0:
-            return SLIDES
-        if par[MU] == 0.0 and whirled >= 3 and par[TURNS] < inf:
-            return SLIDES  # round and round: there is no turn to wait for

@@ -1,0 +1,159 @@
+"""A slipping phase: panels over phi, and where phi is no measure of the way a series in tau.
+
+That is close to a jam, where N grows while phi stands still, at a start on a tie, where events crowd, and without
+friction. When D has fallen to round-off the configuration is frozen: the rest of the slip is an impact
+(:mod:`rigid.phases.impact`).
+
+Events: the slip stops, lift-off (1 - e c phidot^2 = 0), a turn, the bottom, N = M g, and the end of the run.
+"""
+
+# mypy: allow-untyped-defs
+from __future__ import annotations
+
+from math import inf
+
+from ...kernel.angle import trig
+from ...kernel.compile import kernel
+from ...kernel.layout import (  # fmt: skip
+    ANGLE,
+    FIRST_PULSE,
+    FLIGHT,
+    GAP,
+    GYR,
+    IMPACT,
+    LOSSLESS_TURNS,
+    MODE,
+    MORE,
+    MU,
+    OMEGA,
+    ORDER,
+    P_OPEN,
+    P_PEAK,
+    PHASE_OVER,
+    PULSE_OVER,
+    RECORDS,
+    REST,
+    S_D,
+    S_OMEGA,
+    S_P,
+    SKID,
+    SLIDES,
+    SLIP,
+    SLIP_SCALE,
+    STEPS,
+    T_END,
+    T_FROM,
+    T_SINCE,
+    TIME_REACHED,
+    TOP,
+    TURNS,
+    TURNS_REACHED,
+    UN,
+    UNTIL,
+    WIDTH,
+    WORK_BOUND,
+    T,
+)
+from ...kernel.polynomial import value
+from ...record.cycle import AT_PASS, AT_TURN, comes_round
+from ...record.events import ROOM, turn
+from ...record.pulse import cross_bottom, watch
+from .poles import poles_of
+from .series import JAM, normal_force
+from .step import (  # fmt: skip
+    AT_BOTTOM,
+    AT_WEIGHT,
+    LIFTS,
+    STOPS,
+    TIME_IS_UP,
+    TURNS_BACK,
+    carry,
+    next_event,
+    peak_force,
+    slip_now,
+    step,
+)
+from .stride import GOES_ON, NOT_TAKEN, stride
+
+
+@kernel
+def slide(par, state, work, rows, events):
+    """Slip until the contact point rests or lifts, or the run is over."""
+    mu_hat = par[MU] if state[MODE] == SKID else -par[MU]
+    gyr = par[GYR]
+    poles = poles_of(par, mu_hat)
+    state[T_FROM], state[T_SINCE] = state[T], 0.0
+    at_edge = False
+    p_known = inf
+    state[LOSSLESS_TURNS], whirled = 0.0, 0
+    state[SLIP_SCALE] = 0.0
+    n = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
+    if watch(par, state, n, events) and par[UNTIL] == FIRST_PULSE:
+        return PULSE_OVER
+    while True:
+        if state[RECORDS] * WIDTH + ROOM * WIDTH > len(events):
+            return MORE
+        if state[STEPS] <= 0.0:
+            return WORK_BOUND
+        state[STEPS] -= 1.0
+        slip_now(par, state, trig(state[ANGLE], state[TOP])[2])
+        code = stride(par, state, mu_hat, poles, rows, events)
+        if code == GOES_ON:
+            at_edge, p_known = False, inf
+            continue
+        if code != NOT_TAKEN:
+            return code
+        length = step(par, state, mu_hat, p_known, work)
+        if work[S_D][0] <= JAM * gyr:
+            state[MODE] = IMPACT
+            return PHASE_OVER
+        turning = work[S_OMEGA][0] != 0.0
+        length, event = next_event(par, state, work, length, at_edge)
+        at_edge = False
+        if state[P_OPEN] != 0.0:
+            state[P_PEAK] = max(state[P_PEAK], peak_force(gyr, work, length))
+        p_known = value(work[S_P], ORDER, length)
+        if length > 0.0:
+            carry(par, state, mu_hat, work, length)
+        if event == STOPS:
+            state[SLIP] = 0.0
+        # without friction the slip stops where the hoop turns, to the last digit
+        if event == TURNS_BACK or (state[OMEGA] == 0.0 and turning):
+            state[OMEGA] = 0.0
+            state[LOSSLESS_TURNS] += 1.0
+            whirled = 0
+            if turn(par, state, events):
+                return TURNS_REACHED
+            if par[MU] == 0.0 and comes_round(par, state, AT_TURN, events) and par[UNTIL] == REST:
+                return SLIDES
+        if event == STOPS:
+            return PHASE_OVER
+        if event == LIFTS:
+            state[GAP] = 0.0
+            state[UN] = 0.0
+            state[MODE] = FLIGHT
+            return PHASE_OVER
+        if event == TIME_IS_UP:
+            state[T] = par[T_END]
+            return TIME_REACHED
+        if event == AT_BOTTOM:
+            state[ANGLE] = 0.0
+            state[LOSSLESS_TURNS] += 0.5
+            whirled += 1
+            cross_bottom(state)
+        elif event == AT_WEIGHT:
+            at_edge = True
+            if watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, events):
+                if par[UNTIL] == FIRST_PULSE:
+                    return PULSE_OVER
+                if (
+                    par[MU] == 0.0
+                    and par[TURNS] == inf
+                    and comes_round(par, state, AT_PASS, events)
+                    and par[UNTIL] == REST
+                ):
+                    return SLIDES
+        if par[MU] == 0.0 and par[UNTIL] == REST and state[LOSSLESS_TURNS] >= 3.0:
+            return SLIDES
+        if par[MU] == 0.0 and whirled >= 3 and par[TURNS] < inf:
+            return SLIDES  # round and round: there is no turn to wait for
