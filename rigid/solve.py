@@ -288,14 +288,6 @@ class Sampler:
             return np.array(out, dtype=float).reshape(len(times), width)
         out = np.zeros(len(times) * width)
         work = np.zeros((at.SERIES, at.ORDER + 1))
-        compiled()["entry_sample"](
-            np.array(constants),
-            np.array(flat),
-            owner,
-            times,
-            out,
-            work,
-            np.zeros(at.STATE),
-            np.zeros(16 * at.WIDTH),
-        )
+        room = np.zeros(at.STATE), np.zeros(16 * at.WIDTH)
+        compiled()["entry_sample"](np.array(constants), np.array(flat), owner, times, out, work, *room)
         return out.reshape(len(times), width)

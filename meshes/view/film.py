@@ -118,6 +118,12 @@ FORMATS = {
 }
 
 
+def require_folder(path: Path) -> None:
+    """Refuse a file for which there is no folder, before anything is drawn."""
+    if not path.parent.is_dir():
+        raise ViewError(f"{path} cannot be written: there is no folder {path.parent}.")
+
+
 def _whole(path: Path, save: Callable[[Path], object]) -> None:
     """Save a file whole or not at all, with trouble in a sentence."""
     try:

@@ -182,10 +182,11 @@ def picture(
     Raises
     ------
     ViewError
-        Nothing to draw with, no such field or time.
+        Nothing to draw with, no such field or time, no folder to draw into.
     SeriesError
         A damaged series.
     """
+    film.require_folder(Path(png))
     film.write_png(Path(png), render(thing, time, field, factor, zoom, size))
 
 
@@ -225,6 +226,7 @@ def animate(
     kind = film.FORMATS.get(path.suffix.lower())
     if kind is None:
         raise ViewError(f"{path} cannot be an animation: its name must end in .gif, .mp4 or .html.")
+    film.require_folder(path)
     timing = timing or Timing()
     chosen = setting(thing, field, factor, zoom)
     times = _instants(chosen.source, timing, kind.frames)

@@ -379,6 +379,12 @@ def test_the_papers_scenes_can_be_drawn(name, tmp_path):
 
 
 @needs_renderer
+def test_a_file_without_a_folder_is_refused_before_anything_is_drawn(tmp_path):
+    for draw, name in ((picture, "a.png"), (animate, "a.gif"), (animate, "a.html")):
+        with pytest.raises(ViewError, match="there is no folder"):
+            draw(None, tmp_path / "nowhere" / name)  # of nothing at all: it is not looked at
+
+
 def test_an_enlarged_view_keeps_the_contact_in_the_middle(series):
     chosen = setting(series, zoom=8)
     assert chosen.factor <= setting(series).factor / 5  # 8, rounded to a tidy factor

@@ -56,7 +56,7 @@ def test_the_limit_solved_in_a_few_lines():
     assert len(lines) <= 24
     assert max(map(len, lines)) <= 100
     term = found.prediction.terms["impulse_ratio"]
-    assert f"{term.limit:.6g} + {term.coefficient:.4g} x^1" in repr(found)
+    assert f"{term.limit:.6g} + {term.coefficient:.4g} x\n" in repr(found)
     assert "foundation^(-1/3)" in found._repr_html_()
 
 
