@@ -30,8 +30,9 @@ def pytest_runtestloop(session: pytest.Session) -> None:
     if session.config.option.collectonly or "flexible" not in sys.modules:
         return  # no test that needs the dear one was collected
     from rigid.kernel.store import is_cold
+    from studies.running.solvers import LEVELS
 
     if is_cold("flexible"):
-        for name in ("rigid", "flexible"):
-            program = f"from studies.running.solvers import prepare; prepare('{name}')"
-            subprocess.run([sys.executable, "-c", program], cwd=ROOT, check=True)
+        programs = [f"from studies.running.solvers import prepare; prepare({name!r})" for name in ("rigid", *LEVELS)]
+        others = [subprocess.Popen([sys.executable, "-c", program], cwd=ROOT) for program in programs]
+        assert [other.wait() for other in others] == [0] * len(others)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -40,8 +41,9 @@ class HopStudy:
 
     @property
     def cases(self) -> list[HopCase]:
-        """All rolls of map and bisection."""
-        return [case for line in self.lines for case in (*line.mapped, *line.between)]
+        """All rolls of map and bisection, line by line, softest first."""
+        stiffness = attrgetter("bending_stiffness")
+        return [case for line in self.lines for case in sorted((*line.mapped, *line.between), key=stiffness)]
 
     @property
     def unfinished(self) -> list[HopCase]:

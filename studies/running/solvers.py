@@ -79,6 +79,7 @@ def prepare(*names: str) -> Path:
     import rigid
     from rigid.kernel.store import user_cache
 
+    assert set(names) <= {"rigid", *LEVELS}
     scene = rigid.load_scene("paper-3.3-light").replace(solve={"rtol": 1e-2}, run=rigid.Run(until="pulse"))
     if "rigid" in names:
         rigid.simulate_batch([scene], workers=1)
