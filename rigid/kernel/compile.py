@@ -46,8 +46,9 @@ def compiled() -> dict[str, Callable[..., Any]]:
     for name, function in _REGISTER.items():
         scopes.append(dict(function.__globals__))
         twin = moved(function, place, scopes[-1])
+        entry = name.startswith("entry_")
         # the kernels make no arrays: without counted references, which cost a third of their time
-        twins[name] = _compiler(twin, keep=name.startswith("entry_"), nogil=True, _nrt=False)
+        twins[name] = _compiler(twin, keep=entry, nogil=True, _nrt=False, no_cpython_wrapper=not entry)
     for scope in scopes:
         scope.update(twins)
     return twins

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import stats
 from scipy.optimize import minimize_scalar
 
-from .series import FEWEST, extrapolated
+from .series import extrapolated, fewest
 
 Array = NDArray[np.float64]
 
@@ -248,10 +248,11 @@ def limit_of(
     """The limit of a measure over a ladder of stiffness beside the rigid value it should have.
 
     ``exponents``, slowest first, are the leading rates where theory knows them, ``holds`` the stiffness from which on
-    it does. With fewer than ``FEWEST`` cases there a rate is fitted, to all.
+    it does. With fewer than :func:`.series.fewest` cases there a rate is fitted, to all.
     """
     values, stiff = np.asarray(y, float), np.asarray(s, float) >= holds
-    known = exponents is not None and (holds == 0 or int(np.isfinite(values[stiff]).sum()) >= FEWEST)
+    cases = int(np.isfinite(values[stiff]).sum())
+    known = exponents is not None and (holds == 0 or cases >= fewest(exponents))
     if exponents is not None and known:
         off = np.zeros_like(values) if error is None else np.asarray(error, float)
         value, uncertainty = extrapolated(np.asarray(s)[stiff], values[stiff], off[stiff], exponents, CONFIDENCE)

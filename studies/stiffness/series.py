@@ -23,7 +23,7 @@ TERMS = 8
 """Powers of the series. At the second case of a ladder the last is some hundred times smaller than the first."""
 
 FEWEST = 4
-"""Cases for which an interval is stated: L, two powers, and one to hold them to."""
+"""Cases for which an interval is stated: L, two powers, and one to hold them to; see :func:`fewest`."""
 
 _SIZES = np.geomspace(0.03, 30, 16)  # of a coefficient, over the span of the values
 _LARGE = np.geomspace(1, 30, 8)  # the same where single powers are asked for: large ones of both signs look small
@@ -45,6 +45,11 @@ class _Posterior(NamedTuple):
     evidence: Array  # logarithm, up to a constant
     mean: Array
     deviation: Array
+
+
+def fewest(exponents: Sequence[float]) -> int:
+    """Cases that say more than is assumed of them: L, the powers that lead, two at least, and one to hold them to."""
+    return max(FEWEST, len(exponents) + 2)
 
 
 def terms(x: ArrayLike, exponents: Sequence[float]) -> Array:
