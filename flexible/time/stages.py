@@ -17,6 +17,7 @@ from ..contact.vectors import largest, plus, times
 from ..models import reduced
 from ..models.stage import Predictor
 from .methods import Table
+from .rows import advanced, along, store
 
 
 def solved(model: Any, old: Any, mode: int, damper: Damper, predictor: Predictor, near: Any, first: bool) -> Any:
@@ -98,18 +99,11 @@ def _nothing_known(stages: int, n: int) -> _Known:
 
 
 @loop
-def _store(rows: Any, i: int, values: Any) -> None:
-    """Write a row; an assignment of slices would compile numpy's broadcasting with all its messages."""
-    for k in range(values.shape[0]):
-        rows[i, k] = values[k]
-
-
-@loop
 def _write_down(known: _Known, i: int, pos: Any, vel: Any, acc: Any, res: Resultants) -> None:
     """A stage that is solved."""
-    _store(known.pos, i, pos)
-    _store(known.vel, i, vel)
-    _store(known.acc, i, acc)
+    store(known.pos, i, pos)
+    store(known.vel, i, vel)
+    store(known.acc, i, acc)
     known.normal[i], known.friction[i], known.drag[i] = res.normal, res.friction, res.damping
     known.elastic[i], known.eta[i], known.stored[i] = res.elastic, res.eta, res.normal_energy
 
@@ -124,31 +118,12 @@ def _sum(h: float, weights: Any, values: Any, count: int) -> float:
 
 
 @part
-def _advanced(start: Any, h: float, weights: Any, rows: Any, count: int) -> Any:
-    """``start`` and ``h`` times the first of the rows, each with its weight."""
-    result = start.copy()
-    for i in range(count):
-        for k in range(result.shape[0]):
-            result[k] += h * weights[i] * rows[i, k]
-    return result
-
-
-@part
 def _expected(table: Table, acc: Any, i: int) -> Any:
     """Accelerations of stage ``i``, by those of the two known ones that are nearest in time."""
     if i == 1:
         return acc[0].copy()
     near, next_near, share = table.nearest[i, 0], table.nearest[i, 1], table.share[i]
     return plus(times(1 + share, acc[near]), -share, acc[next_near])
-
-
-@loop
-def _along(force: Any, end: Any, start: Any) -> float:
-    """Work of a force between two positions."""
-    work = 0.0
-    for k in range(force.shape[0]):
-        work += force[k] * (end[k] - start[k])
-    return work
 
 
 @loop
@@ -199,8 +174,8 @@ def _work(table: Table, force: Any, way: Any) -> float:
 def _posed(old: Any, h: float, table: Table, known: _Known, i: int, damping: Any) -> tuple[Predictor, Damper]:
     """What stage ``i`` of a step is to solve."""
     beta, weights = table.gamma * h, table.a[i]
-    vel = _advanced(old.vel, h, weights, known.acc, i)
-    pos = plus(_advanced(old.pos, h, weights, known.vel, i), beta, vel)
+    vel = advanced(old.vel, h, weights, known.acc, i)
+    pos = plus(advanced(old.pos, h, weights, known.vel, i), beta, vel)
     elastic = old.res.elastic + _sum(h, weights, known.elastic_rate, i)
     way = _sum(h, weights, known.slip_velocity, i)
     turning = table.c[i] * (h * vel[2] - (pos[2] - old.pos[2]) / table.gamma)
@@ -258,7 +233,7 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
         known.way[i], known.slip_velocity[i] = res.way, (res.way - damper.way_0) / beta
         known.feet[i] = res.feet
         if i == stages - 1 and h > 0:
-            off = _advanced(np.zeros(pos.shape[0]), h, table.error, known.acc, stages)
+            off = advanced(np.zeros(pos.shape[0]), h, table.error, known.acc, stages)
             error = momentum_error(model, known.pos[i], known.vel[i], known.acc[i], beta, found.matrix, off)
     feet = _sum(1 / h, table.end_rate, known.feet, stages) if h > 0 else 0.0
     off_floor = 0.0
@@ -273,7 +248,7 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
         for i in range(stages):
             force = floor_forces(model, known.pos[i], known.vel[i], known.acc[i])
             for j in range(1, stages):
-                numerical += table.work[i, j] * _along(force, known.pos[j], known.pos[0])
+                numerical += table.work[i, j] * along(force, known.pos[j], known.pos[0])
     return Taken(
         ok, known.pos[end].copy(), known.vel[end].copy(), known.acc[end].copy(), window, u, nodal, res, bristles,
         known.slip_velocity[end], known.elastic_rate[end], feet, error,

@@ -92,6 +92,21 @@ def loop(function: F) -> F:
     return marked
 
 
+def in_loops(text: Callable[..., Any], **options: bool) -> Callable[[F], F]:
+    """Mark a function of whole arrays, for which compiled code takes a ``text`` of loops.
+
+    Loops are quick to compile; whole arrays are quick as they stand, for the many unknowns of a ring not compiled.
+    """
+    from numba.extending import overload
+
+    def mark(function: F) -> F:
+        jit_options: Any = {**_OPTIONS, "no_cpython_wrapper": True, **options}
+        overload(function, jit_options=jit_options, strict=False)(lambda *_: text)
+        return function
+
+    return mark
+
+
 def written_out(function: F) -> F:
     """Mark a function that is written out in the compiled functions that call it.
 

@@ -251,8 +251,7 @@ def limit_of(
     it does. With fewer than :func:`.series.fewest` cases there a rate is fitted, to all.
     """
     values, stiff = np.asarray(y, float), np.asarray(s, float) >= holds
-    cases = int(np.isfinite(values[stiff]).sum())
-    known = exponents is not None and (holds == 0 or cases >= fewest(exponents))
+    known = exponents is not None and (holds == 0 or int(np.isfinite(values[stiff]).sum()) >= fewest(exponents))
     if exponents is not None and known:
         off = np.zeros_like(values) if error is None else np.asarray(error, float)
         value, uncertainty = extrapolated(np.asarray(s)[stiff], values[stiff], off[stiff], exponents, CONFIDENCE)
