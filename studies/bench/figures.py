@@ -97,7 +97,9 @@ def cost(rows: Sequence[Row], exponents: dict[str, float]) -> Figure:
             axes.errorbar(x, y, yerr=spread, marker="o", color="black", capsize=2)
             axes.set(xscale="log", yscale="log", xlabel=scene, ylabel="seconds")
             axes.set_ylim(y.min() / 3, y.max() * 3)
-            _ticks(axes.xaxis)
+            axes.xaxis.set_minor_formatter(NullFormatter())
+            if max(x) < 100 * min(x):  # the sizes themselves: numbers between powers of ten would lie on one another
+                axes.set_xticks(x, [f"{size:g}" for size in x])
             _ticks(axes.yaxis)
             axes.set_title(f"exponent {exponents[scene]:.2f}", fontsize=10)
         for axes in panels[len(grown) :]:
