@@ -46,7 +46,8 @@ from .solve import STEPS as WORK
 if TYPE_CHECKING:
     import pandas
 
-CHUNK = 64
+CHUNKS = 8  # of a worker, each of MOST scenes at the most: large ones cost least, small ones end together
+MOST = 512
 QUANTITIES = ("k", "r", "mass_ratio", "mu_s", "mu", "phi0", "omega0", "slip0", "restitution")
 PULSE_MEASURES = (
     "normal_impulse", "friction_impulse", "friction_loss", "peak_normal_force",
@@ -218,13 +219,16 @@ def simulate_batch(
     )
     run = compiled()["entry_batch"]
 
+    workers = workers or os.cpu_count() or 1
+    chunk = min(MOST, -(-count // (CHUNKS * workers)) or 1)
+
     def work_through(start: int) -> None:
         work, state, events = compiled_workspace(), np.zeros(STATE), np.zeros(LOG_RECORDS * WIDTH)
-        stop = min(start + CHUNK, count)
+        stop = min(start + chunk, count)
         run(pars, release, start, stop, work, state, events, rows)
 
-    with ThreadPoolExecutor(workers or os.cpu_count() or 1) as pool:
-        list(pool.map(work_through, range(0, count, CHUNK)))
+    with ThreadPoolExecutor(workers) as pool:
+        list(pool.map(work_through, range(0, count, chunk)))
     mass = (1 + table[:, 2])[:, None]
     rows.turns[:, :, 3] *= mass
     rows.pulses[:, :, 4:8] *= mass[:, :, None]

@@ -171,6 +171,9 @@ class Later:
         return replace(thing, **changes)
 
 
+AT_ONCE = Later(0.0, 0.0)
+
+
 @dataclass(frozen=True, slots=True)
 class Fold:
     """The part of a motion that comes again ``count`` times, from ``t`` on with ``period``; R = g = 1."""
@@ -191,22 +194,22 @@ class Listing:
     """Phases, turns and pulses of the records of a run, and the starts from which any instant can be computed.
 
     ``starts`` are records of phases, those after a repetition moved back by it; ``fold`` says what is repeated.
-    ``sample`` is any instant of the motion, for the pulses to draw themselves.
+    ``sampler`` refers to what samples the motion, for the pulses to draw themselves.
     """
 
-    def __init__(self, records: list[Row], end: Row, scene: Scene, sample: Sample) -> None:
-        self.scene, self.sample = scene, sample
-        tags = [row[0] for row in records]
-        where = tags.index(at.REPEAT) if at.REPEAT in tags else len(records)
+    def __init__(self, records: list[Row], end: Row, scene: Scene, sampler: Callable[[], Sample | None]) -> None:
+        self.scene, self._sampler = scene, sampler
         self.fold: Fold | None = None
-        self.later = Later(0.0, 0.0)
-        first = where
-        if where < len(records):
+        self.later = AT_ONCE
+        self.end = end
+        self.parts: tuple[list[Row], list[Row], list[Row]] = records, [], []
+        tags = [row[0] for row in records]
+        if at.REPEAT in tags:
+            where = tags.index(at.REPEAT)
             row = records[where]
             self.fold = Fold(row[at.R_T], row[at.R_PERIOD], row[at.R_WAY], row[at.R_WHOLE], int(row[at.R_COUNT]))
             self.later = Later(self.fold.period * scene.time_unit, 2 * pi * self.fold.whole)
-            first = where - int(row[at.R_RECORDS])
-        self.end, self.parts = end, (records[:where], records[first:where], records[where + 1 :])
+            self.parts = records[:where], records[where - int(row[at.R_RECORDS]) : where], records[where + 1 :]
 
     @cached_property
     def starting(self) -> list[list[Row]]:
@@ -241,7 +244,10 @@ class Listing:
     def _list(
         self, before: list[Row], once: list[Row], after: list[Row], tags: tuple[int, ...], make: Callable[[Row], T]
     ) -> Sequence[T]:
-        head, tail = (tuple([make(row) for row in part if row[0] in tags]) for part in (before, after))
+        head = tuple([make(row) for row in before if row[0] in tags])
+        if self.fold is None and not after:
+            return head
+        tail = tuple([make(row) for row in after if row[0] in tags])
         if self.fold is None:
             return head + tail
         return Repeated(head, sum(row[0] in tags for row in once), self.fold.count, tail, self.later)
@@ -278,7 +284,7 @@ class Listing:
             poisson_restitution=row[14],
             energetic_restitution=row[15],
             cut=bool(row[at.PULSE_CUT]),
-            sample=self.sample,
+            sample=self._sampler(),
         )
         return in_units(pulse, self.scene)
 

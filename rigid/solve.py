@@ -8,6 +8,7 @@ from functools import cached_property
 from math import inf, pi
 from os import PathLike
 from typing import Any, NamedTuple
+from weakref import ref
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from .kernel import layout as at
 from .kernel.compile import compiled
 from .kernel.spectral import compiled_workspace, workspace
-from .lists import Deferred, Listing, Row
+from .lists import Deferred, Listing
 from .motion import Array, Motion, Side, States
 from .output.file import Stored, read
 from .output.units import in_units, without_units
@@ -83,7 +84,7 @@ class Log(NamedTuple):
     """What a run leaves: all of its motion follows."""
 
     code: int  # why it ended
-    records: list[Row]
+    records: Array  # (n, WIDTH)
     final: list[float]  # the state at its end
 
 
@@ -95,20 +96,20 @@ def _run(scene: Scene) -> Log:
     """
     par = parameters(scene)
     if _interpreted_steps >= PATIENCE:
-        constants, state, events, work = np.array(par), _workspace.state, _workspace.events, _workspace.work
-        code = compiled()["entry_start"](constants, (*release_of(scene), float(STEPS)), state, work, events)
-        return _run_on(par, code, constants, state, _unrolled(events, state))
-    code, here, records = _run_interpreted(par, release_state(scene))
+        state, events, work = _workspace.state, _workspace.events, _workspace.work
+        code = compiled()["entry_start"](np.array(par), (*release_of(scene), float(STEPS)), state, work, events)
+        return _run_on(par, code, state, [_logged(events, state)])
+    code, here, logs = _run_interpreted(par, release_state(scene))
     if code in (at.MORE, at.WORK_BOUND) and here[at.STALLS] <= MOST_STALLS:
-        return _run_on(par, at.MORE, np.array(par), np.array(here), records)
-    return _with_the_cut_pulse(par, Log(code, records, here))
+        return _run_on(par, at.MORE, np.array(here), logs)
+    return _whole(par, code, logs, here)
 
 
-def _run_interpreted(par: list[float], state: list[float]) -> tuple[int, list[float], list[Row]]:
-    """Run to the end or to the end of the patience: why it ended, the state there, the records."""
+def _run_interpreted(par: list[float], state: list[float]) -> tuple[int, list[float], list[Array]]:
+    """Run to the end or to the end of the patience: why it ended, the state there, the records in parts."""
     global _interpreted_steps
     events, work = [0.0] * (LOG_RECORDS * at.WIDTH), workspace()
-    records: list[Row] = []
+    logs: list[Array] = []
     code, left = at.MORE, float(STEPS)
     while code == at.MORE and _interpreted_steps < PATIENCE:
         allowance = float(PATIENCE - _interpreted_steps)
@@ -117,38 +118,37 @@ def _run_interpreted(par: list[float], state: list[float]) -> tuple[int, list[fl
         spent = allowance - state[at.STEPS]
         left -= spent
         _interpreted_steps += int(spent)
-        records += _unrolled(events, state)
+        logs.append(_logged(events, state))
     state[at.STEPS] = left
-    return code, state, records
+    return code, state, logs
 
 
-def _run_on(par: list[float], code: int, constants: Array, state: Array, records: list[Row]) -> Log:
+def _run_on(par: list[float], code: int, state: Array, logs: list[Array]) -> Log:
     """Go on, compiled, while there is more."""
-    events, work = _workspace.events, _workspace.work
-    while code == at.MORE and len(records) < MOST_RECORDS:
-        state[at.RECORDS] = 0.0
-        code = compiled()["entry_run"](constants, state, work, events)
-        records += _unrolled(events, state)
-    return _with_the_cut_pulse(par, Log(at.WORK_BOUND if code == at.MORE else code, records, state.tolist()))
+    if code == at.MORE:
+        events, work, constants = _workspace.events, _workspace.work, np.array(par)
+        count = sum(map(len, logs))
+        while code == at.MORE and count < MOST_RECORDS:
+            state[at.RECORDS] = 0.0
+            code = compiled()["entry_run"](constants, state, work, events)
+            logs.append(_logged(events, state))
+            count += len(logs[-1])
+    return _whole(par, at.WORK_BOUND if code == at.MORE else code, logs, state.tolist())
 
 
-def _with_the_cut_pulse(par: list[float], log: Log) -> Log:
-    """The log, and in it the pulse that the end of the run cuts short."""
-    _, records, state = log
-    if state[at.P_OPEN] != 0.0:
+def _whole(par: list[float], code: int, logs: list[Array], final: list[float]) -> Log:
+    """The log of a run that is over, and in it the pulse that its end cuts short."""
+    if final[at.P_OPEN] != 0.0:
         events = [0.0] * at.WIDTH
-        state[at.RECORDS] = 0.0
-        cut_pulse(par, state, events)
-        records += _unrolled(events, state)
-    return log
+        final[at.RECORDS] = 0.0
+        cut_pulse(par, final, events)
+        logs.append(_logged(events, final))
+    return Log(code, logs[0] if len(logs) == 1 else np.concatenate(logs), final)
 
 
-def _unrolled(events: Any, state: Any) -> list[Row]:
-    """The records on the event log."""
-    used = int(state[at.RECORDS]) * at.WIDTH
-    if isinstance(events, np.ndarray):
-        return list(events[:used].reshape(-1, at.WIDTH).tolist())
-    return [events[i : i + at.WIDTH] for i in range(0, used, at.WIDTH)]
+def _logged(events: Any, state: Any) -> Array:
+    """A copy of the records on the event log, (n, WIDTH)."""
+    return np.array(events[: int(state[at.RECORDS]) * at.WIDTH], dtype=float).reshape(-1, at.WIDTH)
 
 
 def simulate(scene: SceneLike) -> Motion:
@@ -209,7 +209,7 @@ def _ended(code: int, scene: Scene, period: float | None, final: list[float]) ->
 def unstored(told: Stored, scene: Scene) -> Motion:
     """The motion that a file has kept."""
     arrays = told.arrays
-    return _motion(scene, Log(int(told.told["code"]), arrays["records"].tolist(), arrays["final"].tolist()))
+    return _motion(scene, Log(int(told.told["code"]), arrays["records"], arrays["final"].tolist()))
 
 
 def load_motion(path: str | PathLike[str]) -> Motion:
@@ -223,7 +223,7 @@ def load_motion(path: str | PathLike[str]) -> Motion:
     return read(path, {"rigid": unstored}, scene_from_dict)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Sampler:
     """Lists a motion and evaluates it at given times, from what its run left; a plain value."""
 
@@ -234,7 +234,8 @@ class Sampler:
     def listing(self) -> Listing:
         """Phases, turns and pulses."""
         _, records, final = self.log
-        return Listing(records, [float(at.END), *final[: at.MOVING]], self.scene, self)
+        # a reference that does not count: in a circle of them every motion would wait for the garbage collector
+        return Listing(records.tolist(), [float(at.END), *final[: at.MOVING]], self.scene, ref(self))
 
     def __getstate__(self) -> dict[str, Any]:
         return {"scene": self.scene, "log": self.log}
@@ -242,7 +243,7 @@ class Sampler:
     def stored(self, motion: Motion) -> Stored:
         """What a file keeps of the motion."""
         code, records, final = self.log
-        return Stored("rigid", {"code": code}, {"records": np.array(records), "final": np.array(final)})
+        return Stored("rigid", {"code": code}, {"records": records, "final": np.array(final)})
 
     def __call__(self, t: Array, side: Side) -> States:
         """States at times of any shape, in the units of the scene."""

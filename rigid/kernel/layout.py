@@ -37,12 +37,12 @@ SERIES = 13
 S_SIN, S_H, S_OMEGA, S_CO, S_P, S_D, S_B, S_YDOT, S_SLIP, S_T, S_N1, S_PLUS, S_MINUS = range(SERIES)
 # Beside it, flat, rows of ROW numbers: values at the nodes of a panel and at its end, for names see
 # rigid.phases.slipping.panel, and the tables for them.
-NODES = 23
+NODES = 31
 ROW = NODES + 1
 (
-    Q_X, Q_U, Q_STRETCH, Q_D, Q_F, Q_LOG, Q_E, Q_OMEGA2, Q_OMEGA, Q_T, Q_SLIP, Q_N1, Q_B, Q_HULL, Q_SHARE,
+    Q_X, Q_SIN, Q_H, Q_STRETCH, Q_D, Q_F, Q_LOG, Q_E, Q_OMEGA2, Q_OMEGA, Q_T, Q_SLIP, Q_N1, Q_B, Q_HULL, Q_SHARE,
     Q_NODE, Q_BARY, Q_LAST, Q_NEXT_TO_LAST, Q_NOISE, Q_INTEGRAL,
-) = range(0, 21 * ROW, ROW)  # fmt: skip
+) = range(0, 22 * ROW, ROW)  # fmt: skip
 Q_FROM_TURN, Q_HULL_OF, PANEL_ROOM = (Q_INTEGRAL + i * ROW * ROW for i in range(1, 4))
 
 # Kinds of contact; CHOOSE stands for "find out".

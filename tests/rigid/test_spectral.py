@@ -18,7 +18,7 @@ from rigid.kernel.spectral import (
     workspace,
 )
 
-ROUND_OFF = 4e-15  # of sums of 24 products of numbers of order 1
+ROUND_OFF = 4e-15  # of sums of 32 products of numbers of order 1
 
 
 @pytest.fixture

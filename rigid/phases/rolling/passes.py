@@ -25,7 +25,10 @@ class Place(NamedTuple):
 
 
 class Pass(NamedTuple):
-    """What a pass over the bottom meets. The pull of a slip is the sign of F sin phi there, 0 where nothing slips."""
+    """What a pass over the bottom meets. The pull of a slip is the sign of F sin phi there, 0 where nothing slips.
+
+    Places beyond the first slip ahead, which ends the rolling, are given no time: inf.
+    """
 
     far_end: Place  # the turn, or the top
     pulse_edge: Place  # N = M g
@@ -69,11 +72,11 @@ def side_of(a, top, d):
 
 
 @kernel
-def place_at(zeta, g, below, offset, top):
-    """The place at an angle."""
+def place_at(zeta, g, below, offset, top, met):
+    """The place at an angle; without its time unless it is ``met``."""
     _, _, h, low = trig(offset, top)
     headroom = headroom_at(g, below, offset, top)
-    return Place(offset, top, rolling_time(zeta, g, h, low, headroom), headroom)
+    return Place(offset, top, rolling_time(zeta, g, h, low, headroom) if met else inf, headroom)
 
 
 @kernel
@@ -95,43 +98,58 @@ def place_in(zeta, g, below, time):
 
 
 @kernel
-def pass_from(par, state, g, below, work):
-    """The pass that the present state is on."""
+def before(offset, top, place):
+    """Whether an angle is nearer to the bottom than a place."""
+    if top != place.top:
+        return top == 0.0
+    return offset > place.offset if top != 0.0 else offset < place.offset
+
+
+@kernel
+def pass_from(par, state, g, below, heading, work):
+    """The pass that the present state is on, in the direction ``heading``."""
     zeta, a, top, omega = par[ZETA], state[ANGLE], state[TOP], state[OMEGA]
     _, _, h, low = trig(a, top)
     inner, inner_top, pull_in, outer, outer_top, pull_out = slip_edges(
         par, g, below, a, top, work[S_PLUS], work[S_MINUS], work[S_SIN]
     )
-    turn_a, turn_top = turning_point(g, below)
-    if omega == 0.0:
-        turn_a, turn_top = abs(a), top
-    t_turn = rolling_time(zeta, g, min(g, 2.0), max(below, 0.0), max(-below, 0.0))
-    far_end = Place(turn_a, turn_top, t_turn, max(-below, 0.0))
-    h_pulse = pulse_edge(zeta, g)
-    edge_a, edge_top = half_angle(h_pulse)
-    edge_rest = headroom_at(g, below, edge_a, edge_top)
-    edge = Place(edge_a, edge_top, rolling_time(zeta, g, h_pulse, 2 - h_pulse, edge_rest), edge_rest)
+    slips_in, slips_out = inner >= 0, outer >= 0
+    inwards = side_of(a, top, heading) * heading < 0
     now = rolling_time(zeta, g, h, low, 0.5 * omega * omega * (zeta + 2 * h))
+    turn_a, turn_top = turning_point(g, below)
+    t_turn = inf
+    if omega == 0.0:
+        turn_a, turn_top, t_turn = abs(a), top, now
+    elif not (slips_out or (inwards and slips_in)):
+        t_turn = rolling_time(zeta, g, min(g, 2.0), max(below, 0.0), max(-below, 0.0))
+    far_end = Place(turn_a, turn_top, t_turn, max(-below, 0.0))
     y = tan(0.5 * abs(a))
     slip_in = slip_out = Place(0.0, 0.0, inf, 0.0)
-    if inner >= 0:
-        slip_in = place_at(zeta, g, below, 2 * atan(inner), inner_top)
+    if slips_in:
+        slip_in = place_at(zeta, g, below, 2 * atan(inner), inner_top, inwards or not slips_out)
         if inner == y and inner_top == top:
             slip_in = Place(slip_in.offset, slip_in.top, now, slip_in.headroom)
-    if outer >= 0:
-        slip_out = place_at(zeta, g, below, 2 * atan(outer), outer_top)
+    if slips_out:
+        slip_out = place_at(zeta, g, below, 2 * atan(outer), outer_top, not (inwards and slips_in))
         if outer == y and outer_top == top:
             slip_out = Place(slip_out.offset, slip_out.top, now, slip_out.headroom)
+    h_pulse = pulse_edge(zeta, g)
+    edge_a, edge_top = half_angle(h_pulse)
+    if inwards and slips_in:
+        met = not before(edge_a, edge_top, slip_in)
+    else:
+        met = before(edge_a, edge_top, slip_out) or not slips_out
+    edge = place_at(zeta, g, below, edge_a, edge_top, met)
     return Pass(
         far_end,
         edge,
         slip_in,
         slip_out,
-        pull_in if inner >= 0 else 0.0,
-        pull_out if outer >= 0 else 0.0,
+        pull_in if slips_in else 0.0,
+        pull_out if slips_out else 0.0,
         h_pulse,
         now,
-        inner < 0 and outer < 0,
+        not (slips_in or slips_out),
     )
 
 

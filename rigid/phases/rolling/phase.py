@@ -161,7 +161,7 @@ def roll(par, state, work, events):
     g, below = ceiling(zeta, omega, h, low)
     d = direction(omega, s)
     bottom = bottom_of(a, top, state[WHOLE], d)
-    way = pass_from(par, state, g, below, work)
+    way = pass_from(par, state, g, below, d, work)
     heading = side_of(a, top, d) * d  # -1 towards the bottom, 1 away from it
     now = heading * way.now
     stop, listed = ends_of_rolling(par, state, way, below)

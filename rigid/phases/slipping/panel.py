@@ -28,21 +28,22 @@ from ...kernel.layout import (  # fmt: skip
     Q_E,
     Q_F,
     Q_FROM_TURN,
+    Q_H,
     Q_INTEGRAL,
     Q_LOG,
     Q_NODE,
     Q_OMEGA,
     Q_OMEGA2,
+    Q_SIN,
     Q_STRETCH,
     Q_T,
-    Q_U,
     Q_X,
     ROW,
 )
 from ...kernel.spectral import exponentials, largest, least_of, product, tail
 
 CLEAR = 2e-3  # D over its terms: below, towards a jam, P must be carried along (rigid.phases.slipping.series.known_p)
-MOST_LOG = 2.5  # of the integrating factor over a panel: exp is summed without a reduction
+MOST_EXPONENT = 2.5  # of the integrating factor over a panel, and of T in one sum: exp has no reduction
 
 
 class Panel(NamedTuple):
@@ -88,25 +89,45 @@ def place_of_bottom(panel):
 
 
 @kernel
+def place(panel, theta):
+    """sin phi and 1 + cos phi at theta."""
+    u = offset(panel, theta)
+    q = 1 / (1 + u * u)
+    if panel.top != 0.0:
+        return 2 * u * q, 2 * q
+    return -2 * u * q, 2 * u * u * q
+
+
+@kernel
 def unroll(panel, rows):
-    """u and dphi/dtheta at the nodes."""
+    """sin phi, 1 + cos phi and dphi/dtheta at the nodes."""
     length, kappa, start = panel.length, panel.kappa, panel.start
     even, odd = (0.0, length) if panel.turn else (length, 0.0)
+    wide = abs(length) > MOST_EXPONENT
+    part = 0.5 if wide else 1.0
     for i in range(ROW):
-        rows[Q_X + i] = (even + odd * rows[Q_NODE + i]) * rows[Q_NODE + i]
+        rows[Q_X + i] = part * (even + odd * rows[Q_NODE + i]) * rows[Q_NODE + i]
     if panel.top != 0.0:
         for i in range(ROW):
             v = start + rows[Q_X + i]
-            rows[Q_U + i] = v
-            rows[Q_STRETCH + i] = 2 * (even + 2 * odd * rows[Q_NODE + i]) / (1 + v * v)
+            q = 2 / (1 + v * v)
+            rows[Q_SIN + i] = v * q
+            rows[Q_H + i] = q
+            rows[Q_STRETCH + i] = (even + 2 * odd * rows[Q_NODE + i]) * q
     else:
         exponentials(rows, Q_X, Q_E)
+        if wide:
+            for i in range(ROW):
+                rows[Q_E + i] *= rows[Q_E + i]
         for i in range(ROW):
-            there = start * rows[Q_E + i]
-            back = 1 / there
-            v = 0.5 * kappa * (there - back)
-            rows[Q_U + i] = v
-            rows[Q_STRETCH + i] = kappa * (there + back) * (even + 2 * odd * rows[Q_NODE + i]) / (1 + v * v)
+            # from T, T^2 and T u by a single division
+            t = start * rows[Q_E + i]
+            t2 = t * t
+            tu = 0.5 * kappa * (t2 - 1)
+            q = 1 / (t2 + tu * tu)
+            rows[Q_SIN + i] = -2 * t * tu * q
+            rows[Q_H + i] = 2 * tu * tu * q
+            rows[Q_STRETCH + i] = kappa * t * (t2 + 1) * (even + 2 * odd * rows[Q_NODE + i]) * q
 
 
 @kernel
@@ -116,13 +137,10 @@ def spin_up(par, mu_hat, panel, d0_w0, rows):
     Returns the part of d(ln E)/dtheta that the nodes do not resolve, inf where D is lost in its terms.
     """
     e, one_minus_e, gyr = par[ECC], par[ONE_MINUS_E], par[GYR]
-    up, flat, steep = (2.0, 2.0, 0.0) if panel.top != 0.0 else (-2.0, 0.0, 2.0)
     me = mu_hat * e
     unroll(panel, rows)
     for i in range(ROW):
-        q = 1 / (1 + rows[Q_U + i] * rows[Q_U + i])
-        es = e * up * rows[Q_U + i] * q
-        h = (flat + steep * rows[Q_U + i] * rows[Q_U + i]) * q
+        es, h = e * rows[Q_SIN + i], rows[Q_H + i]
         there = gyr + es * (es + mu_hat * (one_minus_e + e * h))
         rows[Q_D + i] = there
         rows[Q_E + i] = there - CLEAR * (gyr + es * es)
@@ -131,12 +149,11 @@ def spin_up(par, mu_hat, panel, d0_w0, rows):
         return inf
     rough = tail(rows, Q_F)
     product(rows, Q_INTEGRAL, Q_F, Q_LOG)
-    if not largest(rows, Q_LOG) < MOST_LOG:
+    if not largest(rows, Q_LOG) < MOST_EXPONENT:
         return inf
     exponentials(rows, Q_LOG, Q_E)
     for i in range(ROW):
-        q = 1 / (1 + rows[Q_U + i] * rows[Q_U + i])
-        p = e * up * rows[Q_U + i] * q + mu_hat * (one_minus_e + e * (flat + steep * rows[Q_U + i] * rows[Q_U + i]) * q)
+        p = e * rows[Q_SIN + i] + mu_hat * (one_minus_e + e * rows[Q_H + i])
         rows[Q_F + i] = 2 * p * rows[Q_E + i] * rows[Q_STRETCH + i]
     if panel.turn:
         # near the turn w ~ theta^2 has all its digits

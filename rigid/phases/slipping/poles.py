@@ -19,9 +19,9 @@ from ...kernel.layout import (  # fmt: skip
     ONE_MINUS_E,
 )
 
-LONGEST, LONGEST_TOP = 1.5, 1.0  # panels in x, in the charts of the bottom and of the top
-# (rho + 1/rho)/2 for rho^-23 = 7e-16: the sum of the distances from a pole to the ends, over the length
-REACH = 2.4
+LONGEST, LONGEST_TOP = 4.0, 1.0  # panels in x, in the charts of the bottom and of the top
+# (rho + 1/rho)/2 for rho^-31 = 7e-16: the sum of the distances from a pole to the ends, over the length
+REACH = 1.7
 
 
 class Poles(NamedTuple):

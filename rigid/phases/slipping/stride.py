@@ -48,7 +48,7 @@ from .way import LIFTS, NEVER, STOPS, TIME_IS_UP, arrive_at, force_on, look_ahea
 
 GOES_ON, NOT_TAKEN = -2, -3  # beside the reasons for which a phase returns
 SHORTEST = 0.02  # panel in x; below, a series goes further
-LONGEST_FROM_TURN = 1.0  # in x
+LONGEST_FROM_TURN = 2.0  # in x
 ROUGH = 6e-14  # of a row's mean, in its last two coefficients: their integral is a fiftieth of it
 TRIES = 4
 
@@ -63,9 +63,9 @@ def go(par, state, way, ahead, rows, events):
         there = min(end, bottom, weight)
         if state[P_OPEN] != 0.0:
             state[P_PEAK] = max(state[P_PEAK], peak_on(par, way, here, there, rows))
-        u = arrive_at(par, state, way, there, rows)
+        s, h = arrive_at(par, state, way, there, rows)
         if state[P_OPEN] != 0.0:
-            n, _ = force_on(par, way, u, state[OMEGA])
+            n, _ = force_on(par, way.mu_hat, s, h, state[OMEGA])
             state[P_PEAK] = max(state[P_PEAK], n)
         here = there
         if there == end:

@@ -7,10 +7,10 @@ tell that the way has no event of a kind, or one; what they leave open is ``UNCL
 # mypy: allow-untyped-defs
 from __future__ import annotations
 
-from math import atan, inf
+from math import inf
 from typing import NamedTuple
 
-from ...kernel.angle import chart, trig
+from ...kernel.angle import next_angle, trig
 from ...kernel.compile import kernel
 from ...kernel.layout import (  # fmt: skip
     ANGLE,
@@ -23,12 +23,13 @@ from ...kernel.layout import (  # fmt: skip
     Q_B,
     Q_D,
     Q_F,
+    Q_H,
     Q_N1,
     Q_NODE,
     Q_OMEGA,
+    Q_SIN,
     Q_SLIP,
     Q_T,
-    Q_U,
     Q_X,
     ROW,
     SLIP,
@@ -42,7 +43,7 @@ from ...kernel.layout import (  # fmt: skip
     T,
 )
 from ...kernel.spectral import NO_ROOT, UNCLEAR, interpolate, largest, only_root, root_between
-from .panel import Panel, offset, place_of_bottom
+from .panel import Panel, place, place_of_bottom
 
 NEVER = 2.0  # where on a way from 0 to 1 nothing is
 
@@ -102,22 +103,18 @@ def set_out(par, state, mu_hat, panel, whole, inward, d, duration):
 def foresee(par, way, rows):
     """Rows of the slip velocity and of (N - 1) D on the way; True if 1 - e c phidot^2 may be 0 on it, in a row too."""
     e, one_minus_e, gyr, mu_hat = par[ECC], par[ONE_MINUS_E], par[GYR], way.mu_hat
-    up, flat, steep = (2.0, 2.0, 0.0) if way.panel.top != 0.0 else (-2.0, 0.0, 2.0)
     first, pace = (way.duration, -1.0) if way.inward else (0.0, 1.0)
     start = way.slip + way.pace + mu_hat * (way.ydot - first)
     by_time, sign = mu_hat * pace, way.d
     for i in range(ROW):
-        q = 1 / (1 + rows[Q_U + i] * rows[Q_U + i])
-        w = sign * rows[Q_OMEGA + i]
-        arm = one_minus_e + e * ((flat + steep * rows[Q_U + i] * rows[Q_U + i]) * q - mu_hat * up * rows[Q_U + i] * q)
-        rows[Q_X + i] = w * arm
+        arm = one_minus_e + e * (rows[Q_H + i] - mu_hat * rows[Q_SIN + i])
+        rows[Q_X + i] = sign * rows[Q_OMEGA + i] * arm
         rows[Q_SLIP + i] = start - by_time * rows[Q_T + i] - rows[Q_X + i]
     for i in range(ROW):
-        c = (flat + steep * rows[Q_U + i] * rows[Q_U + i]) / (1 + rows[Q_U + i] * rows[Q_U + i]) - 1
-        free = 1 - e * c * rows[Q_OMEGA + i] * rows[Q_OMEGA + i]
+        free = 1 - e * (rows[Q_H + i] - 1) * rows[Q_OMEGA + i] * rows[Q_OMEGA + i]
         rows[Q_B + i] = free
         rows[Q_N1 + i] = gyr * free - rows[Q_D + i]
-    return way.panel.top != 0.0 or max(abs(rows[Q_U]), abs(rows[Q_U + NODES])) > 0.99
+    return max(rows[Q_H], rows[Q_H + NODES]) > 0.98
 
 
 @kernel
@@ -180,20 +177,19 @@ def look_ahead(par, state, way, rows):
 
 @kernel
 def arrive_at(par, state, way, part, rows):
-    """Put the state where this part of the way has been gone; returns u there."""
+    """Put the state where this part of the way has been gone; returns sin phi and 1 + cos phi there."""
     e, panel, mu_hat = par[ECC], way.panel, way.mu_hat
     theta = 1.0 - part if way.inward else part
     t, omega = 0.0, 0.0
     if theta == 1.0:
-        u, t, omega = rows[Q_U + NODES], rows[Q_T + NODES], way.d * rows[Q_OMEGA + NODES]
+        s, h = rows[Q_SIN + NODES], rows[Q_H + NODES]
+        t, omega = rows[Q_T + NODES], way.d * rows[Q_OMEGA + NODES]
     else:
-        u = offset(panel, theta)
+        s, h = place(panel, theta)
     if 0.0 < theta < 1.0:
         t, omega = interpolate(rows, Q_T, theta), way.d * interpolate(rows, Q_OMEGA, theta)
     dt = way.duration - t if way.inward else t
-    state[ANGLE], state[TOP], state[WHOLE] = chart(2 * atan(u), panel.top, way.whole)
-    q = 1 / (1 + u * u)
-    s, h = (2 * u * q, 2 * q) if panel.top != 0.0 else (-2 * u * q, 2 * u * u * q)
+    state[ANGLE], state[TOP], state[WHOLE] = next_angle(s, h, panel.top, way.whole)
     ydot = -e * s * omega
     state[OMEGA] = omega
     state[T_SINCE] = way.since + dt
@@ -204,16 +200,13 @@ def arrive_at(par, state, way, part, rows):
     change = -mu_hat * (dt + (ydot - way.ydot))
     state[XDOT] = way.xdot + change
     state[SLIP] = way.slip + change - (omega * (par[ONE_MINUS_E] + e * h) - way.pace)
-    return u
+    return s, h
 
 
 @kernel
-def force_on(par, way, u, omega):
+def force_on(par, mu_hat, s, h, omega):
     """N over M g at a place of a panel, and a number with the sign of dN/dphi."""
-    e, mu_hat = par[ECC], way.mu_hat
-    up, flat, steep = (2.0, 2.0, 0.0) if way.panel.top != 0.0 else (-2.0, 0.0, 2.0)
-    q = 1 / (1 + u * u)
-    s, h = up * u * q, (flat + steep * u * u) * q
+    e = par[ECC]
     c = h - 1
     w = omega * omega
     p = e * s + mu_hat * (par[ONE_MINUS_E] + e * h)
@@ -237,7 +230,7 @@ def peak_on(par, way, start, stop, rows):
     right = rows[Q_NODE + best + 1] if best < NODES else 1.0
     left, right = max(left, low), min(right, high)
     sign = 1.0 if way.panel.length > 0 else -1.0
-    peak, slope = force_on(par, way, rows[Q_U + best], rows[Q_OMEGA + best])
+    peak, slope = force_on(par, way.mu_hat, rows[Q_SIN + best], rows[Q_H + best], rows[Q_OMEGA + best])
     slope *= sign
     a, slope_a, z, slope_z = rows[Q_NODE + best], slope, right, 0.0
     if slope <= 0.0:
@@ -245,7 +238,8 @@ def peak_on(par, way, start, stop, rows):
     other = left if slope <= 0.0 else right
     if other == rows[Q_NODE + best] or other == 0.0:
         return peak
-    _, slope = force_on(par, way, offset(way.panel, other), interpolate(rows, Q_OMEGA, other))
+    s, h = place(way.panel, other)
+    _, slope = force_on(par, way.mu_hat, s, h, interpolate(rows, Q_OMEGA, other))
     if slope_a == 0.0:
         slope_a = slope * sign
     else:
@@ -254,7 +248,8 @@ def peak_on(par, way, start, stop, rows):
     if slope_a > 0.0 and slope_z < 0.0:
         for _ in range(12):
             x = (a * slope_z - z * slope_a) / (slope_z - slope_a)
-            n, slope = force_on(par, way, offset(way.panel, x), interpolate(rows, Q_OMEGA, x))
+            s, h = place(way.panel, x)
+            n, slope = force_on(par, way.mu_hat, s, h, interpolate(rows, Q_OMEGA, x))
             peak = max(peak, n)
             slope *= sign
             if min(x - a, z - x) < 1e-8 or slope == 0.0:
