@@ -29,6 +29,7 @@ from .record.rows import (  # fmt: skip
     CODE,
     END_VALUES,
     HOP_COUNT,
+    JAM_COUNT,
     PHASE_COUNT,
     PULSE_COUNT,
     PULSE_VALUES,
@@ -75,9 +76,9 @@ def entry_batch(pars, release, low, high, work, state, events, rows):
         state[RECORDS] = 0.0
         cut_pulse(pars[scene], state, events)
         gather(state, events, scene, rows)
-        rows.ends[scene, CODE] = code
-        rows.ends[scene, T_STOP] = state[T]
+        rows.ends[scene, CODE], rows.ends[scene, T_STOP] = code, state[T]
         rows.ends[scene, HOP_COUNT] = state[HOPS]
+        rows.ends[scene, JAM_COUNT] -= state[HOPS]
 
 
 @dataclass(frozen=True, repr=False)
@@ -97,6 +98,8 @@ class Batch:
     pulse_count: NDArray[np.int64]
     hop_count: NDArray[np.int64]
     """Flights that ended on the floor, (n,)."""
+    jam_count: NDArray[np.int64]
+    """Impacts without a collision, (n,)."""
     turn_t: Array
     """Turns: time, angle, slip velocity, energy, each (n, turns)."""
     turn_phi: Array
@@ -235,7 +238,7 @@ def simulate_batch(
     return Batch(
         rows.ends[:, CODE].astype(int),
         rows.ends[:, T_STOP],
-        *(rows.ends[:, i].astype(int) for i in (PHASE_COUNT, TURN_COUNT, PULSE_COUNT, HOP_COUNT)),
+        *(rows.ends[:, i].astype(int) for i in (PHASE_COUNT, TURN_COUNT, PULSE_COUNT, HOP_COUNT, JAM_COUNT)),
         *(rows.turns[:, :, i] for i in range(TURN_VALUES)),
         *(rows.pulses[:, :, i] for i in range(PULSE_VALUES)),
     )

@@ -171,9 +171,6 @@ class Later:
         return replace(thing, **changes)
 
 
-AT_ONCE = Later(0.0, 0.0)
-
-
 @dataclass(frozen=True, slots=True)
 class Fold:
     """The part of a motion that comes again ``count`` times, from ``t`` on with ``period``; R = g = 1."""
@@ -200,7 +197,7 @@ class Listing:
     def __init__(self, records: list[Row], end: Row, scene: Scene, sampler: Callable[[], Sample | None]) -> None:
         self.scene, self._sampler = scene, sampler
         self.fold: Fold | None = None
-        self.later = AT_ONCE
+        self.later = Later(0.0, 0.0)
         self.end = end
         self.parts: tuple[list[Row], list[Row], list[Row]] = records, [], []
         tags = [row[0] for row in records]
@@ -244,10 +241,7 @@ class Listing:
     def _list(
         self, before: list[Row], once: list[Row], after: list[Row], tags: tuple[int, ...], make: Callable[[Row], T]
     ) -> Sequence[T]:
-        head = tuple([make(row) for row in before if row[0] in tags])
-        if self.fold is None and not after:
-            return head
-        tail = tuple([make(row) for row in after if row[0] in tags])
+        head, tail = (tuple([make(row) for row in part if row[0] in tags]) for part in (before, after))
         if self.fold is None:
             return head + tail
         return Repeated(head, sum(row[0] in tags for row in once), self.fold.count, tail, self.later)

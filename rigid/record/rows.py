@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..kernel.angle import angle_of
 from ..kernel.compile import kernel
 from ..kernel.layout import (  # fmt: skip
+    IMPACT,
     PULSE,
     PULSE_CUT,
     PULSE_SEQUENCE,
@@ -28,14 +29,14 @@ from ..kernel.layout import (  # fmt: skip
     WIDTH,
 )
 
-CODE, T_STOP, PHASE_COUNT, TURN_COUNT, PULSE_COUNT, HOP_COUNT = range(6)  # columns of ``Rows.ends``
-END_VALUES = 6
+CODE, T_STOP, PHASE_COUNT, TURN_COUNT, PULSE_COUNT, HOP_COUNT, JAM_COUNT = range(7)  # columns of ``Rows.ends``
+END_VALUES = 7
 TURN_VALUES = 4  # t, phi, slip velocity, energy
 PULSE_VALUES = 13  # t, phi at both ends; J_N, J_F, loss, peak; three restitutions; whether it is cut; its phases
 
 
 class Rows(NamedTuple):
-    """How each of n scenes ended, (n, 6), its turns, (n, turns, 4), and its pulses, (n, pulses, 13)."""
+    """How each of n scenes ended, (n, 7), its turns, (n, turns, 4), and its pulses, (n, pulses, 13)."""
 
     ends: NDArray[float64]
     turns: NDArray[float64]
@@ -85,6 +86,8 @@ def gather(state, events, scene, rows):
             ends[scene, PHASE_COUNT] += count * (events[r + R_RECORDS] - events[r + R_TURNS] - events[r + R_PULSES])
         else:
             ends[scene, PHASE_COUNT] += 1
+            if events[r] == IMPACT:
+                ends[scene, JAM_COUNT] += 1  # a landing too, until the hops are known
 
 
 @kernel

@@ -28,6 +28,7 @@ from .refine import Map
 COLOURS = ("#56B4E9", "#E69F00", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#CC79A7", "#8C6D46", "#B9D8C2", "#4B3B73")
 """The Okabe-Ito set, then three more; each with its number in the picture."""
 REST, NOTHING = "#6E6E6E", "#F2F2F2"
+HOPS, JAMS = "////", "xxx"
 LEAST = 2e-4
 """Share of the area below which a region is told with the others."""
 WHOLE = (0.0, 1.0, 0.0, 1.0)
@@ -69,7 +70,7 @@ def picture(atlas: Drawn) -> Figure:
 
 
 def phases(atlas: Drawn, axes: Axes) -> None:
-    """The regions in colour and number, the hops hatched, the paper's scenes as points."""
+    """The regions in colour and number, hops and jams hatched, the paper's scenes as points."""
     named = [region for region in atlas.regions if region.sequence > 0 and region.share >= LEAST][: len(COLOURS)]
     rest = [r for r in atlas.regions if r.sequence > 0 and r not in named]
     squares = atlas.found.squares
@@ -84,11 +85,11 @@ def phases(atlas: Drawn, axes: Axes) -> None:
     half = len(index) // 2
     mean = parts.reshape(half, 2, half, 2, 3).mean(axis=(1, 3)).astype(np.uint8)
     axes.imshow(mean, extent=WHOLE, origin="lower", aspect="auto", interpolation_stage="rgba")
-    if atlas.found.hops.any():
-        with matplotlib.rc_context({"hatch.linewidth": 0.5}):
-            hops = atlas.found.hops.astype(float)
-            share = np.linspace(0, 1, len(hops))
-            axes.contourf(share, share, hops, levels=[0.5, 1.5], colors="none", hatches=["////"])
+    with matplotlib.rc_context({"hatch.linewidth": 0.5}):
+        for marked, hatch in ((atlas.found.hops, HOPS), (atlas.found.jams, JAMS)):
+            if marked.any():
+                share = np.linspace(0, 1, len(marked))
+                axes.contourf(share, share, marked.astype(float), levels=[0.5, 1.5], colors="none", hatches=[hatch])
     for number in range(len(named)):
         label(axes, index == number, number + 1)
     frame(atlas, axes)
@@ -119,7 +120,9 @@ def legend(atlas: Drawn, named: list[Region], rest: list[Region]) -> list[Artist
     if any(region.sequence == NO_PULSE for region in atlas.regions):
         entries.append(Patch(facecolor=NOTHING, label="no pulse", **thin))
     if atlas.found.hops.any():
-        entries.append(Patch(facecolor="white", hatch="////", label="hops before its end", **thin))
+        entries.append(Patch(facecolor="white", hatch=HOPS, label="hops before its end", **thin))
+    if atlas.found.jams.any():
+        entries.append(Patch(facecolor="white", hatch=JAMS, label="jams before its end", **thin))
     if atlas.plane.scenes_of_the_paper():
         point: dict[str, Any] = {"ls": "", "marker": "o", "color": "white", "markeredgecolor": "black"}
         entries.append(Line2D([], [], label="the paper's scenes", **point))

@@ -74,6 +74,8 @@ class Seen(NamedTuple):
     """Decimal logarithm of the largest N over the weight."""
     hops: NDArray[np.bool_]
     """Whether the hoop has left the floor before the pulse was over."""
+    jams: NDArray[np.bool_]
+    """Whether it has jammed: Coulomb's law had no finite force, and an impact without collision ended the slip."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,9 +143,9 @@ class Plane:
             columns[1, there] = batch.friction_loss[:, 0] / weight
             columns[2, there] = np.log10(batch.peak_normal_force[:, 0] / weight)
         columns[:, sequence <= 0] = np.nan
-        hops = np.zeros(x.shape, dtype=bool)
-        hops[there] = batch.hop_count > 0
-        return Seen(sequence, columns[0], columns[1], columns[2], hops)
+        hops, jams = np.zeros((2, *x.shape), dtype=bool)
+        hops[there], jams[there] = batch.hop_count > 0, batch.jam_count > 0
+        return Seen(sequence, columns[0], columns[1], columns[2], hops, jams)
 
     def scenes_of_the_paper(self) -> list[tuple[str, float, float]]:
         """Name and place of each of the paper's scenes that lies in this plane."""

@@ -34,6 +34,8 @@ class Map(NamedTuple):
     """J_F/(mu J_N), friction loss, log10 of the peak of N at the points, (3, n + 1, n + 1)."""
     hops: NDArray[np.bool_]
     """At the points."""
+    jams: NDArray[np.bool_]
+    """At the points."""
     computed: NDArray[np.bool_]
     """Which points were run; the others lie between such."""
     squares: NDArray[np.int64]
@@ -50,8 +52,7 @@ class Sheet:
         shape = (count + 1, count + 1)
         self.sequence = np.zeros(shape, dtype=np.int64)
         self.values = np.full((3, *shape), np.nan)
-        self.hops = np.zeros(shape, dtype=bool)
-        self.computed = np.zeros(shape, dtype=bool)
+        self.hops, self.jams, self.computed = np.zeros((3, *shape), dtype=bool)
 
     def look(self, i: NDArray[np.int64], j: NDArray[np.int64], told: tuple[float, float]) -> None:
         """Run the points (row, column) that are not known; ``told`` is the progress before and after."""
@@ -62,7 +63,8 @@ class Sheet:
             part = slice(start, start + PORTION)
             seen = self.run(j[part] / self.count, i[part] / self.count)
             here = i[part], j[part]
-            self.sequence[here], self.hops[here], self.computed[here] = seen.sequence, seen.hops, True
+            self.sequence[here], self.computed[here] = seen.sequence, True
+            self.hops[here], self.jams[here] = seen.hops, seen.jams
             self.values[:, here[0], here[1]] = seen.share, seen.loss, seen.peak
             self.tell(told[0] + (told[1] - told[0]) * min(1.0, (start + PORTION) / max(len(i), 1)))
         self.runs += len(i)
@@ -75,7 +77,7 @@ class Sheet:
         same = np.ones(len(i), dtype=bool)
         for corner in corners:
             same &= self.sequence[corner] == self.sequence[middle]
-            same &= self.hops[corner] == self.hops[middle]
+            same &= (self.hops[corner] == self.hops[middle]) & (self.jams[corner] == self.jams[middle])
         mean = sum(self.values[:, a, b] for a, b in corners) / 4
         off = np.abs(mean - self.values[:, middle[0], middle[1]])
         return same & ((off <= shade[:, None]) | np.isnan(off)).all(axis=0)
@@ -93,7 +95,8 @@ class Sheet:
                     + w[a] * ((1 - w[b]) * self.values[:, p + size, q] + w[b] * self.values[:, p + size, q + size])
                 )  # fmt: skip
                 self.values[:, p + a, q + b] = mix
-                self.sequence[p + a, q + b], self.hops[p + a, q + b] = self.sequence[p, q], self.hops[p, q]
+                for kept in (self.sequence, self.hops, self.jams):
+                    kept[p + a, q + b] = kept[p, q]
 
 
 def refined(run: Run, count: int, shade: float, tell: Callable[[float], None] = lambda share: None) -> Map:
@@ -128,7 +131,7 @@ def refined(run: Run, count: int, shade: float, tell: Callable[[float], None] = 
         sheet.look(rows, np.concatenate([j, j + half, j, j + half]), (progress, progress + 0.02))
         size = half
     squares, runs = within(run, sheet.sequence, tell)
-    return Map(sheet.sequence, sheet.values, sheet.hops, sheet.computed, squares, sheet.runs + runs)
+    return Map(sheet.sequence, sheet.values, sheet.hops, sheet.jams, sheet.computed, squares, sheet.runs + runs)
 
 
 def within(run: Run, sequence: NDArray[np.int64], tell: Callable[[float], None]) -> tuple[NDArray[np.int64], int]:

@@ -38,7 +38,7 @@ class Atlas:
     y: Array
     """Values up, (side + 1,)."""
     found: Map
-    """Sequences, values, hops; which were run."""
+    """Sequences, values, hops, jams; which were run."""
     regions: tuple[Region, ...]
     """Largest first."""
     seconds: float = field(compare=False)
@@ -78,6 +78,7 @@ class Atlas:
             "friction_loss": self.friction_loss.astype(np.float32),
             "peak_normal_force": self.peak_normal_force.astype(np.float32),
             "hops": self.found.hops,
+            "jams": self.found.jams,
             "computed": self.found.computed,
         }
         return write_whole(path, lambda part: np.savez_compressed(part, **arrays))  # type: ignore[arg-type]
@@ -101,6 +102,7 @@ class Atlas:
                 {"sequence": r.sequence, "phases": r.phases, "share": r.share} for r in self.regions
             ],
             "hopping": float(self.found.hops.mean()),
+            "jamming": float(self.found.jams.mean()),
             "paper": [{"scene": name, "x": x, "y": y} for name, x, y in self.plane.scenes_of_the_paper()],
         }  # fmt: skip
 

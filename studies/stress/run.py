@@ -99,10 +99,10 @@ class Report:
     def of(self, solver: str) -> list[Finding]:
         return [finding for finding in self.findings if finding.solver == solver]
 
-    def completed(self, solver: str) -> float:
-        """Share of the scenes that were run to their end."""
+    def completed(self, solver: str) -> float | None:
+        """Share of the scenes that were run to their end; None where none were drawn."""
         mine = self.of(solver)
-        return sum(finding.completed for finding in mine) / len(mine) if mine else 1.0
+        return sum(finding.completed for finding in mine) / len(mine) if mine else None
 
     def reasons(self, solver: str) -> dict[str, list[int]]:
         """The scenes that were not, by reason, the commonest first."""
@@ -127,6 +127,7 @@ class Report:
         for solver in KINDS:
             mine = self.of(solver)
             if not mine:
+                lines.append(f"\n{solver}: none drawn")
                 continue
             slowest = max(finding.seconds for finding in mine)
             whole = sum(finding.completed for finding in mine)

@@ -113,6 +113,25 @@ def test_hoops_that_hop_are_told():
         assert any(phase.kind == "flight" for phase in simulate(scene).phases) is expected
 
 
+def test_hoops_that_jam_are_told():
+    """A skid released where D = K + e s (e s + mu (1 + e c)) < 0 jams at once (Painleve); below the least mu that has
+    such a place, (K + e^2 s^2)/(e |s| (1 + e c)), no hoop ever does.
+    """
+    scene = load_scene("paper-3.1").replace(release={"slip0": 1.0})
+    found = atlas_of(scene, {"release.phi0_deg": (181.0, 359.0), "friction.mu": (0.02, 1.5)}, side=32)
+    e, gyr = scene.hoop.e, scene.hoop.K
+    phi, mu = np.meshgrid(np.deg2rad(found.x), found.y)
+    s, arm = np.sin(phi), 1 + e * np.cos(phi)
+    jams = gyr + e * s * (e * s + mu * arm) < 0
+    assert jams.mean() > 0.2
+    assert found.found.jams[jams].all()
+    fine = np.linspace(np.pi, 2 * np.pi, 10_002)[1:-1]
+    safe = mu < ((gyr + (e * np.sin(fine)) ** 2) / (e * abs(np.sin(fine)) * (1 + e * np.cos(fine)))).min()
+    assert safe.any()
+    assert not found.found.jams[safe].any()
+    assert 0 < found.to_dict()["jamming"] < 1
+
+
 def test_a_range_of_two_decades_is_logarithmic():
     chosen = plane(load_scene("paper-3.1"), {"hoop.k": (1e-5, 0.1), "friction.mu": (0.1, 0.5)})
     assert chosen.across.at(np.array([0.0, 0.5, 1.0])) == pytest.approx([1e-5, 1e-3, 0.1], rel=1e-14)
