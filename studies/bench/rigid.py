@@ -30,9 +30,18 @@ def scene_of(k: float) -> Scene:
 
 def worst(k: float, turns: Sequence[Sequence[float]]) -> float:
     """Largest relative error in time, angle and energy of the turns."""
+    return _off([[float(number) for number in row] for row in TURNS[k]], turns)
+
+
+def worst_of_one(k: float, turns: Sequence[Sequence[float]]) -> float:
+    """The same of the hoop with mu_s = mu, for what knows one coefficient only: against this rigid hoop."""
+    motion = simulate(scene_of(k).replace(friction={"mu_s": MU}))
+    return _off([(t.t, t.phi, t.slip_velocity, t.energy) for t in motion.turns], turns)
+
+
+def _off(exact: Sequence[Sequence[float]], turns: Sequence[Sequence[float]]) -> float:
     if len(turns) < TURNS_ASKED:
         return inf
-    exact = [[float(number) for number in row] for row in TURNS[k]]
     return max(abs(a[i] / b[i] - 1) for a, b in zip(turns, exact, strict=True) for i in (0, 1, 3))
 
 
@@ -138,7 +147,8 @@ def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[floa
     if peers_too and peers.installed("exudyn"):
         rows += race(_exudyn(), 1)
     if peers_too:
-        rows += [_absent(name) for name in ("exudyn", "pydrake") if not peers.installed(name)]
+        rows += _nonsmooth(quick)
+        rows += [_absent(name) for name in ("exudyn", "pydrake", "solve_nivp") if not peers.installed(name)]
         if peers.installed("pydrake"):
             note = "one coefficient where this hoop has two: its pulse is in `hoop study limit --peers`, with mu_s = mu"
             rows.append(Row("pydrake", "-", "-", [], note=note))
@@ -157,6 +167,39 @@ def _exudyn() -> list[Contestant]:
         )
         for setting in SETTINGS
     ]  # fmt: skip
+
+
+def _nonsmooth(quick: bool) -> list[Row]:
+    """Time stepping of set-valued friction, of a single coefficient."""
+    from .peers import nivp_roll, siconos_roll
+
+    k, note = DISKS[0], "mu_s = mu: error against the rigid hoop of one coefficient"
+    name, rows = f"k = {k:g}", []
+    if peers.installed("solve_nivp"):
+        steps = nivp_roll.STEPS[:1] if quick else nivp_roll.STEPS
+        entries = [
+            Contestant(
+                "solve_nivp", f"composite, h = {step:g}", name,
+                partial(nivp_roll.roll_turns, k, MU, PHI0, TURNS_ASKED, step), partial(worst_of_one, k),
+                repeats=1, memory=False,
+            )
+            for step in steps
+        ]  # fmt: skip
+        rows += race(entries, 1)
+        for row in rows:
+            row.note = row.note or note
+    if siconos_roll.interpreter() is None:
+        return [*rows, _absent("siconos")]
+    for step in siconos_roll.STEPS[:1] if quick else siconos_roll.STEPS:
+        row = Row("siconos", f"Moreau-Jean, h = {step:g}", name, [])
+        rows.append(row)
+        try:
+            turns, seconds = siconos_roll.roll_turns(k, MU, PHI0, TURNS_ASKED, step)
+        except RuntimeError as error:
+            row.note = " ".join(str(error).split())
+            continue
+        row.seconds, row.error, row.note = [seconds], worst_of_one(k, turns), note
+    return rows
 
 
 def _absent(name: str) -> Row:
