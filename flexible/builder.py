@@ -79,7 +79,7 @@ class Sampler:
                 arrays |= {f"kept{number}.{name}": a for name, a in pack(motion.kept[number].states).items()}
             marches.append({
                 "attempts": marched.attempts, "ended": marched.ended, "turned": turned,
-                "course": {name: getattr(course, name) for name in ("step", "attempts", "turns", "stalls", "length")},
+                "course": {name: getattr(course, name) for name in ("step", "pace", "attempts", "turns", "stalls", "length")},
                 "books": dataclasses.asdict(course.books),
             })  # fmt: skip
         lists = {name: [dataclasses.asdict(item) for item in getattr(motion, name)] for name in ("phases", "turns")}

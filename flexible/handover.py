@@ -6,8 +6,10 @@ brought to rest in the disk's frame, and their rates are those of the equilibria
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import cos, inf, pi, sin, sqrt
+from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,8 +92,23 @@ def _instants_around(motion: Motion, t: float, now: States) -> tuple[tuple[float
     return tuple(one for one in around if one[2] != 0)
 
 
-def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> State:
-    """The ring and the patch at rest in the disk's frame under the forces of a rigid pose.
+def _poses(motion: Motion, instants: tuple[tuple[float, Side, float], ...]) -> Iterator[tuple[Pose, float]]:
+    """The rigid motion at instants (time, side, weight), and their weights.
+
+    All at once: of a slip every instant is found from its beginning on.
+    """
+    for side in get_args(Side):
+        those = [instant for instant in instants if instant[1] == side]
+        if those:
+            times = np.array([t for t, _, _ in those])
+            states = without_units(motion.at(times, side), motion.scene)
+            for i, (t, _, weight) in enumerate(those):
+                now = States(*(getattr(states, name)[i] for name in States.__dataclass_fields__))
+                yield _pose(now, motion.phase_at(t, side).kind), weight
+
+
+def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: State | None = None) -> State:
+    """The ring and the patch at rest in the disk's frame under the forces of a rigid pose; ``near`` may be one like it.
 
     Raises
     ------
@@ -119,6 +136,8 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> Sta
         nothing = (np.zeros_like(u), NOTHING, no_bristles())
         return State(t, x_C, pos, zero, zero, mode, window, u, *nothing, pose.slip_velocity)
     patch = Patch(hoop, pose.phi, pose.normal_force, pose.friction_force)
+    if near is not None and near.res.normal > 0:
+        patch.start_from(near)
     reached = settle(ring, patch)
     if reached < 1:
         share = reached * pose.normal_force / (1 + hoop.scene.hoop.mass_ratio)
@@ -160,8 +179,8 @@ def hand_over(hoop: Hoop, motion: Motion, t: float) -> State:
     vel[2] = pose.omega
     u_rate = 0.0
     around = _instants_around(motion, t, now) if pose.omega != 0 else ()
-    for moment, side, weight in around:
-        there = equilibrium(hoop, pose_at(motion, moment, side))
+    for pose_there, weight in _poses(motion, around):
+        there = equilibrium(hoop, pose_there, near=state)
         vel[1] += weight * there.pos[1]
         vel[3:] += weight * there.pos[3:]
         u_rate += weight * _abscissa(hoop, there, state)

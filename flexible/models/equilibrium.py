@@ -124,6 +124,13 @@ class Patch:
         self.u: Array = np.zeros((0, 2))
         self.res, self.bristles = NOTHING, no_bristles()
 
+    def start_from(self, state: State) -> None:
+        """Begin with the patch of a state like the one that is looked for."""
+        spacing = self.law.spacing
+        self.low, self.high = state.res.low - spacing, state.res.high + spacing
+        self.height, self.window = float(state.pos[1]), state.window
+        self.u, self.nodal, self.res = state.u, state.nodal, state.res
+
     def solve(self, ring: RestingRing, share: float) -> bool:
         """Newton on height and rim for ``share`` of the forces; whether it converged."""
         s, c = np.sin(self.phi), np.cos(self.phi)

@@ -19,7 +19,7 @@ from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Para
 from ..contact.vectors import largest, plus, solve_dense
 from ..ring.frame import Frame, inertia
 
-MOST_POINTS = 5000  # to a patch, two hundred times as wide as under the weight: 1e7 weights are no solution
+MOST_POINTS = 5000  # to a patch, forty times as wide as under the weight or more: 1e5 weights are no solution
 
 
 class Predictor(NamedTuple):

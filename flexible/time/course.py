@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ..models.state import Books, Record, State
+from .control import Pace
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -18,6 +18,7 @@ class Course:
 
     state: State
     step: float  # length of the next step
+    pace: Pace  # of the last one
     attempts: int  # steps tried until now
     turns: int
     stalls: int  # events within a shortest step of each other, by now
@@ -31,7 +32,7 @@ class Course:
 
     def totals(self) -> Books:
         """The books up to here, to go on with."""
-        return copy(self.books)
+        return replace(self.books)
 
 
 class Marched(NamedTuple):
