@@ -87,7 +87,7 @@ def _instants_around(motion: Motion, t: float, now: States) -> tuple[tuple[float
     around: tuple[tuple[float, Side, float], ...] = (
         (max(middle - step, phase.t_start), "right", (x - 0.5) * rate),
         (middle, "right", -2 * x * rate),
-        (min(middle + step, phase.t_end), "left", (x + 0.5) * rate),
+        (min(middle + step, phase.t_end), "left" if middle + step >= phase.t_end else "right", (x + 0.5) * rate),
     )
     return tuple(one for one in around if one[2] != 0)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 SAFETY = 0.9  # of a step whose error is foreseen
-LEAST, MOST = 0.2, 5.0  # change of length from one step to the next
+LEAST, MOST = 0.2, 3.0  # change of length from one step to the next
 SMALL = 1e-2  # error over its tolerance below which its size foretells nothing
 
 

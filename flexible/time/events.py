@@ -74,14 +74,14 @@ class Located(NamedTuple):
     attempts: int
 
 
-def _root(known: list[tuple[float, float]]) -> float | None:
-    """Zero of a function known at two or three places: its inverse is a parabola, or a line; None where it has none."""
-    known = [(x, f) for x, f in known if abs(f) < inf]
+def _just_past(known: list[tuple[float, float]]) -> float | None:
+    """Where a function known at two or three places is 1/2, within 1 past its zero: its inverse is a parabola, or a
+    line; None where it has none.
+    """
+    known = [(x, f - 0.5) for x, f in known if abs(f) < inf]
     if len({f for _, f in known}) < max(len(known), 2):
         return None
-    return sum(
-        x * prod(g / (g - f) for _, g in known if g != f) for x, f in known
-    )
+    return sum(x * prod(g / (g - f) for _, g in known if g != f) for x, f in known)
 
 
 def locate(
@@ -114,7 +114,7 @@ def locate(
     known = [(low, f_low), (high, f_high)]
     while f_high > 1 and high - low > narrow:
         width = high - low
-        guess = _root(known[-3:]) if slow < 3 else None
+        guess = _just_past(known[-3:]) if slow < 3 else None
         between = guess is not None and low < guess < high
         first = guess if between else (low + high) / 2
         first = min(max(first, low + 0.001 * width), high - 0.001 * width)
