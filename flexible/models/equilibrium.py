@@ -19,6 +19,7 @@ from ..contact.points.data import NOTHING, UNDAMPED, Before, Rim, no_bristles
 from ..contact.points.rim import gap_at, upward
 from ..contact.vectors import largest
 from ..ring.nodal import factored
+from .state import State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]

@@ -155,9 +155,7 @@ class Ring:
         if lot not in known:
             operator = LinearOperator(self.free_stiffness.shape, self.solve, dtype=float)
             start = np.random.default_rng(1).standard_normal(len(self.free))  # fixed: the same modes in every run
-            values, shapes = eigsh(
-                self.free_stiffness, lot, self.free_mass, sigma=0.0, OPinv=operator, v0=start
-            )
+            values, shapes = eigsh(self.free_stiffness, lot, self.free_mass, sigma=0.0, OPinv=operator, v0=start)
             order = np.argsort(values)
             known[lot] = (values[order], shapes[:, order])
         return known[lot][0][:count], known[lot][1][:, :count]

@@ -127,14 +127,14 @@ def body_of(scene: Scene) -> Body:
     return Body(offset, (hoop.k / hoop.r) ** 2 / 2, mass, mass * (1 + inner**2) / 2)
 
 
-MODES = 24  # at the rtol
-FINEST = 1e-6
-ORDER = 7  # with which what the left-out modes would do falls with their number
+LEAST, MODES = 6, 24  # modes at any rtol, and at the rtol
+FINE = 1e-5
+ORDER = 4  # with which what the left-out modes would do falls with their number, as their compliances do
 
 
 def modes_for(rtol: float) -> int:
     """Modes by which the ring is as accurate as a tolerance asks for."""
-    return ceil(MODES * (FINEST / rtol) ** (1 / ORDER))
+    return max(LEAST, ceil(MODES * (FINE / rtol) ** (1 / ORDER)))
 
 
 def reduce(scene: Scene, modes: int | None = None, ring: Ring | None = None) -> ReducedRing:

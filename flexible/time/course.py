@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ..models.state import Books, Record, State
-from .control import Pace
+from .control import AFRESH, Pace
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -25,6 +25,11 @@ class Course:
     books: Books
     records: list[Record]  # of the whole march; those after the first ``length`` came later
     length: int
+
+    @classmethod
+    def beginning(cls, state: State, step: float) -> Course:
+        """That of a march from ``state``."""
+        return cls(state, step, AFRESH, 0, 0, 0, Books(), [], 0)
 
     def behind(self) -> list[Record]:
         """The records up to here."""

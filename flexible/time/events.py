@@ -115,8 +115,7 @@ def locate(
     while f_high > 1 and high - low > narrow:
         width = high - low
         guess = _just_past(known[-3:]) if slow < 3 else None
-        between = guess is not None and low < guess < high
-        first = guess if between else (low + high) / 2
+        first = guess if guess is not None and low < guess < high else (low + high) / 2
         first = min(max(first, low + 0.001 * width), high - 0.001 * width)
         for h in (first, *(low + share * width for share in (0.5, 0.25, 0.75, 0.125, 0.875))):
             attempts += 1
