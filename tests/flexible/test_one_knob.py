@@ -26,9 +26,9 @@ def through_the_bottom(scene, **options):
 
 @pytest.mark.parametrize("law", ["patch", "brush"])
 def test_where_points_lie_does_not_matter(law):
-    """Spacings that differ by parts of a thousand put the points anywhere in the patch; half of them: as many again.
+    """Spacings that differ by parts of a thousand put the points anywhere in the patch; half the spacing doubles them.
 
-    Within a fifth of rtol on J_N = 2.8: one that would show in the error of a pulse is to be beside it.
+    A fifth of rtol: what the points do is to be lost in the error of the steps.
     """
     scene = HOOP.replace(hoop={"mass_ratio": 0.0}, contact={"law": law, "damping": 1.0}, solve={"rtol": 1e-3})
     points = points_to_a_patch(LAWS[law], scene.solve.rtol)
@@ -39,7 +39,7 @@ def test_where_points_lie_does_not_matter(law):
 
 @pytest.mark.parametrize("rtol", [1e-2, 1e-3, 1e-4])
 def test_modes_that_are_left_out_do_not_matter(rtol):
-    """Against three times as many: below rtol, for a ring that rings as hard as a linear one does (E I = 60, undeformed)."""
+    """Against three times as many: below rtol, for a ring that rings as hard as a linear one does: E I = 60, a blow."""
     scene = HOOP.replace(
         release={"phi0": 2.9, "omega0": 4.0}, ring={"bending_stiffness": 60.0}, contact={"stiffness": 1e7},
         solve={"rtol": rtol},

@@ -1,5 +1,7 @@
 """Lengths of steps from the errors of the last two."""
 
+from itertools import pairwise
+
 import pytest
 
 from flexible.time.control import AFRESH, MOST, Pace, longer, shorter
@@ -34,7 +36,7 @@ def test_steps_that_grow_are_bounded():
     taken, rejected = marched(lambda t: 1.0, 20)
     assert rejected == 0
     lengths = [h for _, h, _ in taken]
-    assert max(b / a for a, b in zip(lengths, lengths[1:], strict=False)) <= MOST * (1 + 1e-12)
+    assert max(b / a for a, b in pairwise(lengths)) <= MOST * (1 + 1e-12)
     assert lengths[-1] == pytest.approx(0.9, rel=0.1)  # its fixed point, where the error is as foreseen
 
 
