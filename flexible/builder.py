@@ -28,6 +28,8 @@ from .time.methods import METHODS
 
 Array = NDArray[np.float64]
 
+COURSE = ("step", "pace", "attempts", "turns", "stalls", "length")  # what of a march's course a file keeps as it is
+
 
 @dataclass(frozen=True)
 class Piece:
@@ -79,7 +81,7 @@ class Sampler:
                 arrays |= {f"kept{number}.{name}": a for name, a in pack(motion.kept[number].states).items()}
             marches.append({
                 "attempts": marched.attempts, "ended": marched.ended, "turned": turned,
-                "course": {name: getattr(course, name) for name in ("step", "attempts", "turns", "stalls", "length")},
+                "course": {name: getattr(course, name) for name in COURSE},
                 "books": dataclasses.asdict(course.books),
             })  # fmt: skip
         lists = {name: [dataclasses.asdict(item) for item in getattr(motion, name)] for name in ("phases", "turns")}
@@ -160,11 +162,11 @@ class Builder:
         else:
             self.hand_over += sum(self.held) - energy
 
-    def add_rigid(self, motion: Motion, until: float) -> None:
-        """The first ``until`` of a rigid motion that begins now."""
-        if until <= 0 and self.pieces:
-            return
+    def add_rigid(self, motion: Motion, until: float) -> States:
+        """The first ``until`` of a rigid motion that begins now; its states at both ends."""
         ends = motion.at(np.array([0.0, until]))
+        if until <= 0 and self.pieces:
+            return ends
         self._meet(float(ends.energy[0]))
         landing = _lost_in_landings(motion, until)
         self.landing_loss += landing
@@ -180,6 +182,7 @@ class Builder:
         self.pieces.append(Piece(self.t, self.t + until, motion=motion, origin=self.t, x_C=self.x_C))
         self.x_C += float(ends.x_C[1])
         self.t += until
+        return ends
 
     def _add_flexible(self, marched: Marched) -> Segment:
         """A flexible segment that begins now."""

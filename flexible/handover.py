@@ -6,8 +6,10 @@ brought to rest in the disk's frame, and their rates are those of the equilibria
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
 from math import cos, inf, pi, sin, sqrt
+from typing import get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,13 +84,32 @@ def _instants_around(motion: Motion, t: float, now: States) -> tuple[tuple[float
     around: tuple[tuple[float, Side, float], ...] = (
         (max(middle - step, phase.t_start), "right", (x - 0.5) * rate),
         (middle, "right", -2 * x * rate),
-        (min(middle + step, phase.t_end), "left", (x + 0.5) * rate),
+        (min(middle + step, phase.t_end), "left" if middle + step >= phase.t_end else "right", (x + 0.5) * rate),
     )
     return tuple(one for one in around if one[2] != 0)
 
 
-def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> State:
-    """The ring and the patch at rest in the disk's frame under the forces of a rigid pose.
+def one_of(states: States, i: int) -> States:
+    """The state at one of several instants."""
+    return States(*(getattr(states, field.name)[i] for field in fields(States)))
+
+
+def _poses(motion: Motion, instants: tuple[tuple[float, Side, float], ...]) -> Iterator[tuple[Pose, float]]:
+    """The rigid motion at instants (time, side, weight), and their weights.
+
+    All at once: of a slip every instant is found from its beginning on.
+    """
+    for side in get_args(Side):
+        those = [instant for instant in instants if instant[1] == side]
+        if those:
+            times = np.array([t for t, _, _ in those])
+            states = without_units(motion.at(times, side), motion.scene)
+            for i, (t, _, weight) in enumerate(those):
+                yield _pose(one_of(states, i), motion.phase_at(t, side).kind), weight
+
+
+def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: State | None = None) -> State:
+    """The ring and the patch at rest in the disk's frame under the forces of a rigid pose; ``near`` may be one like it.
 
     Raises
     ------
@@ -116,6 +137,8 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0) -> Sta
         nothing = (np.zeros_like(u), NOTHING, no_bristles())
         return State(t, x_C, pos, zero, zero, mode, window, u, *nothing, pose.slip_velocity)
     patch = Patch(hoop, pose.phi, pose.normal_force, pose.friction_force)
+    if near is not None and near.res.normal > 0:
+        patch.start_from(near)
     reached = settle(ring, patch)
     if reached < 1:
         share = reached * pose.normal_force / (1 + hoop.scene.hoop.mass_ratio)
@@ -145,10 +168,13 @@ def undeformed(hoop: Hoop, pose: Pose) -> State:
     return restart(hoop, state, mode)
 
 
-def hand_over(hoop: Hoop, motion: Motion, t: float) -> State:
-    """The flexible hoop at time ``t`` of a rigid motion, with the rates of the equilibria around it."""
+def hand_over(hoop: Hoop, motion: Motion, t: float, there: States | None = None) -> State:
+    """The flexible hoop at time ``t`` of a rigid motion, with the rates of the equilibria around it.
+
+    ``there`` is the motion's state at that time, where it is known.
+    """
     scene = motion.scene
-    now = without_units(motion.at(t), scene)
+    now = without_units(motion.at(t) if there is None else there, scene)
     pose = _pose(now, motion.phase_at(t).kind)
     if scene.solve.start == "undeformed" and t == 0:
         return undeformed(hoop, pose)
@@ -157,11 +183,11 @@ def hand_over(hoop: Hoop, motion: Motion, t: float) -> State:
     vel[2] = pose.omega
     u_rate = 0.0
     around = _instants_around(motion, t, now) if pose.omega != 0 else ()
-    for moment, side, weight in around:
-        there = equilibrium(hoop, pose_at(motion, moment, side))
-        vel[1] += weight * there.pos[1]
-        vel[3:] += weight * there.pos[3:]
-        u_rate += weight * _abscissa(hoop, there, state)
+    for nearby, weight in _poses(motion, around):
+        resting = equilibrium(hoop, nearby, near=state)
+        vel[1] += weight * resting.pos[1]
+        vel[3:] += weight * resting.pos[3:]
+        u_rate += weight * _abscissa(hoop, resting, state)
     law, res, bristles, creep = hoop.law, state.res, state.bristles, 0.0
     if len(bristles.number) and pose.kind == Kind.ROLL:
         bristles, creep = law.rolled_in(bristles, res, Rolling(pose.phi, pose.omega))
@@ -188,7 +214,7 @@ def _balanced(hoop: Hoop, state: State, pose: Pose) -> State:
         [-1 / (hoop.law.parameters.eps_n * best.res.length + 1e-300), 1 / pull]
     )  # of the forces' derivatives
     change, step, off = np.zeros(2), np.zeros(2), np.zeros(2)  # of height and share of the stretch
-    for _ in range(12):
+    for _ in range(25):
         raised = state.pos.copy()
         raised[1] += change[0]
         bristles = state.bristles._replace(stretch=state.bristles.stretch * (1 + change[1]))

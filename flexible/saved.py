@@ -16,6 +16,7 @@ from .models.state import Books
 from .motion import FlexibleMotion, FlexiblePulse, Kept, Ledger, March
 from .packed import unpack
 from .segment import Segment
+from .time.control import Pace
 from .time.course import Course, Marched
 
 
@@ -69,6 +70,7 @@ def _named(start: str, stored: Stored) -> dict[str, Any]:
 def _march(number: int, told: dict[str, Any], stored: Stored, pieces: tuple[Piece, ...]) -> March:
     records = [piece.segment for piece in pieces if piece.segment is not None][number].records()
     end, state = unpack(_named(f"march{number}.", stored))
+    told["course"]["pace"] = Pace(*told["course"]["pace"])
     course = Course(state=state, books=Books(**told["books"]), records=records, **told["course"])
     marched = Marched(end, records, told["attempts"], told["ended"], course)
     return March(marched, tuple((t, turned, phi) for t, turned, phi in told["turned"]))

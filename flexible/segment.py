@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 from math import sqrt
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,12 +20,19 @@ from .motion import FlexiblePulse
 Array = NDArray[np.float64]
 
 
-def _hermite(x: Array, x0: Array, x1: Array, y0: Array, y1: Array, s0: Array, s1: Array) -> Array:
-    """Cubic through values and slopes at both ends."""
-    h = np.where(x1 > x0, x1 - x0, 1.0)
-    z = (x - x0) / h
-    a, b = s0 * h - (y1 - y0), -s1 * h + (y1 - y0)
+T = TypeVar("T", float, Array)
+
+
+def _cubic(z: T, y0: T, y1: T, s0: T, s1: T) -> T:
+    """Cubic on [0, 1] through values and slopes at both ends."""
+    a, b = s0 - (y1 - y0), (y1 - y0) - s1
     return (1 - z) * y0 + z * y1 + z * (1 - z) * (a * (1 - z) + b * z)
+
+
+def _hermite(x: Array, x0: Array, x1: Array, y0: Array, y1: Array, s0: Array, s1: Array) -> Array:
+    """The same between two abscissas."""
+    h = np.where(x1 > x0, x1 - x0, 1.0)
+    return _cubic((x - x0) / h, y0, y1, s0 * h, s1 * h)
 
 
 def peak(t: Array, y: Array) -> float:
@@ -124,18 +132,20 @@ class Segment:
         """Runs of one kind between the times ``first`` and ``last``."""
         t, phi = self["t"], self["phi"]
         kinds = self.kinds()
-        phases: list[Phase] = []
+        runs: list[tuple[Kind, float, float, float, float]] = []
         inside = [i for i in range(len(t) - 1) if t[i + 1] > max(first, t[i]) and t[i] < last]
         for i in inside:
-            ends = np.array([max(t[i], first), min(t[i + 1], last)])
-            phi_0, phi_1 = self.value("phi", ends) if (ends != t[i : i + 2]).any() else phi[i : i + 2]
+            start, end = max(t[i], first), min(t[i + 1], last)
+            phi_0, phi_1 = phi[i], phi[i + 1]
+            if start > t[i] or end < t[i + 1]:
+                phi_0, phi_1 = self.value("phi", np.array([start, end]))
             # a step belongs to what its end does, unless an event opened it
             kind = kinds[i] if i and t[i] == t[i - 1] else kinds[i + 1] if kinds[i] == Kind.FLIGHT else kinds[i]
-            if phases and phases[-1].kind == kind:
-                phases[-1] = dataclasses.replace(phases[-1], t_end=float(ends[1]), phi_end=float(phi_1))
+            if runs and runs[-1][0] == kind:
+                runs[-1] = (kind, runs[-1][1], end, runs[-1][3], phi_1)
             else:
-                phases.append(Phase(kind, float(ends[0]), float(ends[1]), float(phi_0), float(phi_1)))
-        return phases
+                runs.append((kind, start, end, phi_0, phi_1))
+        return [Phase(kind, *map(float, ends)) for kind, *ends in runs]
 
     def turns(self) -> list[Turn]:
         """Instants at which omega changes its sign."""
@@ -151,17 +161,18 @@ class Segment:
 
     def crossing(self, phi: float, after: float) -> float | None:
         """First time from ``after`` on at which the disk passes the angle ``phi``."""
-        t, angle = self["t"], self["phi"] - phi
+        t, angle, omega = self["t"], self["phi"] - phi, self["omega"]
         for i in np.nonzero((angle[:-1] * angle[1:] <= 0) & (t[1:] > after))[0]:
-            low, high = max(t[i], after), t[i + 1]
-            f_low, f_high = (float(self.value("phi", np.array([x]))[0]) - phi for x in (low, high))
-            if f_low * f_high > 0:
+            start, length = float(t[i]), float(t[i + 1] - t[i])
+            here = tuple(map(float, (angle[i], angle[i + 1], omega[i] * length, omega[i + 1] * length)))
+            low, high = max(after - start, 0.0) / length, 1.0
+            sign = _cubic(low, *here)
+            if sign * here[1] > 0:
                 continue
             for _ in range(60):
                 middle = (low + high) / 2
-                f = float(self.value("phi", np.array([middle]))[0]) - phi
-                low, high, f_low = (middle, high, f) if f * f_low > 0 else (low, middle, f_low)
-            return (low + high) / 2
+                low, high = (middle, high) if _cubic(middle, *here) * sign > 0 else (low, middle)
+            return start + length * (low + high) / 2
         return None
 
     def pulse(self, first: float, last: float) -> FlexiblePulse:

@@ -25,7 +25,7 @@ from rigid.phases.choice import LEAST_LOSS, SLIPS
 
 from .builder import Builder
 from .contact.laws.listing import rigid_limit
-from .handover import hand_over
+from .handover import hand_over, one_of
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
@@ -138,13 +138,12 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
             return _last_turn(scene.run.turns or 0) if over else motion.ended
         start = max(0.0, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
+        ends_there = builder.add_rigid(motion, start)
         try:
-            state = hand_over(hoop, motion, start)
+            state = hand_over(hoop, motion, start, one_of(ends_there, 1))
         except MarchError as error:
-            builder.add_rigid(motion, start)
             builder.completed = False
             return str(error) + _too_soft(scene)
-        builder.add_rigid(motion, start)
         state = replace(state, t=builder.t, x_C=builder.x_C)
         sign = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
         # a pulse that the end of the run cuts ends at that time, any other at the rigid one's angle

@@ -19,6 +19,7 @@ from ..contact.points.data import NOTHING, UNDAMPED, Before, Rim, no_bristles
 from ..contact.points.rim import gap_at, upward
 from ..contact.vectors import largest
 from ..ring.nodal import factored
+from .state import State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -123,6 +124,13 @@ class Patch:
         self.window: Window = (0, 0)
         self.u: Array = np.zeros((0, 2))
         self.res, self.bristles = NOTHING, no_bristles()
+
+    def start_from(self, state: State) -> None:
+        """Begin with the patch of a state like the one that is looked for."""
+        spacing = self.law.spacing
+        self.low, self.high = state.res.low - spacing, state.res.high + spacing
+        self.height, self.window = float(state.pos[1]), state.window
+        self.u, self.nodal, self.res = state.u, state.nodal, state.res
 
     def solve(self, ring: RestingRing, share: float) -> bool:
         """Newton on height and rim for ``share`` of the forces; whether it converged."""

@@ -171,7 +171,9 @@ def momentum_error(arrays: Arrays, pos: Any, vel: Any, acc: Any, beta: float, ma
 class ReducedHoop(RimContact):
     """Frame, modes and residual static compliance of a scene's hoop."""
 
-    def __init__(self, scene: Scene, modes: int = 24, points: int | None = None, tolerance: float = 1e-9) -> None:
+    def __init__(
+        self, scene: Scene, modes: int | None = None, points: int | None = None, tolerance: float = 1e-9
+    ) -> None:
         self.ring: ReducedRing = reduce(scene, modes)
         super().__init__(scene, self.ring.vertex, points, tolerance)
         self._blocks: dict[tuple[int, int], tuple[Array, Array]] = {}

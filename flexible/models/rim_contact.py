@@ -20,13 +20,13 @@ from .state import State
 Array = NDArray[np.float64]
 
 
-POINTS = 24  # to a patch, of a contact
-FINE = 1e-4  # rtol below which there are more: their share of the error falls like its cube root squared, and faster
+LEAST = 8  # points to a patch: with fewer the force of a patch that moves is noise
+COARSE = 1e-3  # rtol at which a law has its number of points; their share of the error falls like its cube, and faster
 
 
-def points_to_a_patch(rtol: float) -> int:
-    """Contact points by which a patch is as accurate as a tolerance asks for."""
-    return ceil(POINTS * max(1.0, FINE / rtol) ** (1 / 3))
+def points_to_a_patch(law: type[Law], rtol: float) -> int:
+    """Contact points by which a patch under the weight is as accurate as a tolerance asks for."""
+    return ceil(max(LEAST, law.points * (COARSE / rtol) ** (1 / 3)))
 
 
 def contact_law(scene: Scene, points: int | None = None) -> Law:
@@ -38,7 +38,7 @@ def contact_law(scene: Scene, points: int | None = None) -> Law:
     parameters = Parameters(
         law=law.code,
         spacing=min(
-            2 * half_width / (points or points_to_a_patch(scene.solve.rtol)), 2 * pi / scene.solve.elements / 8
+            2 * half_width / (points or points_to_a_patch(law, scene.solve.rtol)), 2 * pi / scene.solve.elements / 8
         ),
         eps_n=eps,
         eps_t=eps * contact.tangential_ratio,

@@ -19,7 +19,8 @@ from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Para
 from ..contact.vectors import largest, plus, solve_dense
 from ..ring.frame import Frame, inertia
 
-MOST_POINTS = 5000  # to a patch, two hundred times as wide as under the weight: 1e7 weights are no solution
+FEW = 0.1  # share of a patch that sticks whose breaking loose is no danger to Newton
+MOST_POINTS = 5000  # to a patch, forty times as wide as under the weight or more: 1e5 weights are no solution
 
 
 class Predictor(NamedTuple):
@@ -154,7 +155,8 @@ def solve_stage(
             move(d, u, damping * (1 - share), update[:m], update[m:])
             damping *= share
             continue
-        way, reach, stuck, halved = res.way, res.reach, res.stuck, 0
+        # not for the last point to stick, at an edge, again and again: what it pulls is nothing
+        way, reach, stuck = res.way, res.reach, res.stuck if res.stuck > FEW else 0.0
         own, own_tangent = inertia(frame, pos, vel, acc, predictor.beta)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
         _misfit(residual, own, contact, window, pos, u, scale)

@@ -24,6 +24,7 @@ from rigid import Scene
 Array = NDArray[np.float64]
 
 COLUMNS = 64  # of the rim's compliance are solved for together
+LOT = 24  # of modes that are found together
 
 
 def membrane_stiffness(scene: Scene) -> float:
@@ -148,16 +149,16 @@ class Ring:
         shapes : (n_free, count) array
             Orthonormal in the unit mass.
         """
-        known = self.__dict__.get("_modes")
-        if known is None or len(known[0]) < count:
+        # in lots: the same modes to the last bit, whatever was asked for before
+        lot = LOT * ceil(count / LOT)
+        known = self.__dict__.setdefault("_modes", {})
+        if lot not in known:
             operator = LinearOperator(self.free_stiffness.shape, self.solve, dtype=float)
             start = np.random.default_rng(1).standard_normal(len(self.free))  # fixed: the same modes in every run
-            values, shapes = eigsh(
-                self.free_stiffness, max(count, 8), self.free_mass, sigma=0.0, OPinv=operator, v0=start
-            )
+            values, shapes = eigsh(self.free_stiffness, lot, self.free_mass, sigma=0.0, OPinv=operator, v0=start)
             order = np.argsort(values)
-            known = self.__dict__["_modes"] = (values[order], shapes[:, order])
-        return known[0][:count], known[1][:, :count]
+            known[lot] = (values[order], shapes[:, order])
+        return known[lot][0][:count], known[lot][1][:, :count]
 
     @cached_property
     def position_field(self) -> Array:

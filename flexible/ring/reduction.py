@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from math import ceil
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -126,12 +127,25 @@ def body_of(scene: Scene) -> Body:
     return Body(offset, (hoop.k / hoop.r) ** 2 / 2, mass, mass * (1 + inner**2) / 2)
 
 
-def reduce(scene: Scene, modes: int = 24, ring: Ring | None = None) -> ReducedRing:
-    """Reduce the ring of a scene to ``modes`` modes (none if it has no mass) and residual static compliance."""
+LEAST, MODES = 6, 24  # modes at any rtol, and at the rtol
+FINE = 1e-5
+ORDER = 4  # with which what the left-out modes would do falls with their number, as their compliances do
+
+
+def modes_for(rtol: float) -> int:
+    """Modes by which the ring is as accurate as a tolerance asks for."""
+    return max(LEAST, ceil(MODES * (FINE / rtol) ** (1 / ORDER)))
+
+
+def reduce(scene: Scene, modes: int | None = None, ring: Ring | None = None) -> ReducedRing:
+    """Reduce the ring of a scene to its modes (none if it has no mass) and residual static compliance.
+
+    As many ``modes`` as its tolerance asks for, unless their number is given.
+    """
     ring = ring_of(scene) if ring is None else ring
     stiffness = membrane_stiffness(scene)
     mass = scene.hoop.mass_ratio
-    count = modes if mass > 0 else 0
+    count = 0 if mass == 0 else modes_for(scene.solve.rtol) if modes is None else modes
     if count:
         squares, shapes = ring.modes(count)
         full = np.zeros((ring.basis.N, count))

@@ -7,18 +7,19 @@ for each level of fidelity.
 from __future__ import annotations
 
 from collections.abc import Callable
-from copy import copy
 from dataclasses import replace
+from math import inf
 from typing import NamedTuple
 
-from ..models.state import Books, Energies, Model, State, record
+from ..models.state import Books, Energies, Model, Record, State, record
+from .control import AFRESH, Pace, longer, shorter
 from .course import Course, Marched
 from .events import MODE_ENDS, TURN, Ends, locate, passed, watches
 from .methods import ESDIRK3, Method
 from .step import MarchError, Step, attempt, restart
 
 SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
-AFRESH = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
+SHORT = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
 MOST_STALLS = 50  # events within a shortest step of each other
 
 
@@ -86,13 +87,13 @@ def march(
     ``start`` may be the course of an earlier march. ``progress`` is told every state that was reached; ``keep`` is
     given the state behind every new record.
     """
-    course = start if isinstance(start, Course) else Course(_free(model, start), limits.first, 0, 0, 0, Books(), [], 0)
-    state, h, books, records = course.state, course.step, course.totals(), course.behind()
+    course = start if isinstance(start, Course) else Course.beginning(_free(model, start), limits.first)
+    state, h, pace, books, records = course.state, course.step, course.pace, course.totals(), course.behind()
     attempts, turns, stalls = course.attempts, course.turns, course.stalls
     cut = False  # whether a step was made shorter by the end
 
     def stands() -> Course:
-        return Course(state, h, attempts, turns, stalls, copy(books), records, len(records))
+        return Course(state, h, pace, attempts, turns, stalls, replace(books), records, len(records))
 
     def note(state: State, held: Energies | None = None) -> None:
         records.append(record(model, state, books, held))
@@ -115,17 +116,15 @@ def march(
         attempts += 1
         asked = min(h, ends.t - state.t)
         trial = attempt(model, state, asked, method)
-        tolerance = method.tolerance(rtol) * model.law.care(state)
-        if trial is None:
-            h = asked / 4
+        error = inf if trial is None else trial.error / method.tolerance(rtol)
+        if trial is None or error > model.law.care(state):
+            h = shorter(asked, error / model.law.care(state), power)
             continue
-        if trial.error > tolerance:
-            h = asked * max(0.2, 0.9 * (tolerance / trial.error) ** power)
-            continue
-        grown = min(asked * min(3.0, 0.9 * (tolerance / max(trial.error, 1e-300)) ** power), limits.longest)
+        now = Pace(asked, error / model.law.care(trial.state))
+        grown = min(longer(pace, now, power), limits.longest)
         step = _until_event(model, state, trial, ends, method)
         if step is None:
-            h = asked / 4
+            h, pace = asked / 4, AFRESH
             continue
         trial, event = step.trial, step.event
         attempts += step.attempts
@@ -142,28 +141,31 @@ def march(
             return over(_stuck(state, "stick and slip follow each other without end"))
         if event == MODE_ENDS:
             try:
-                state = _in_its_next_mode(model, state)
-            except MarchError as error:
-                return over(str(error))
-            # what the ring and the patch let go of in the jump of the friction force is lost to friction
-            before, after = records[-1], record(model, state, books)
-            released = before.ring_strain + before.contact_spring - after.ring_strain - after.contact_spring
-            books.friction_loss += released
+                state = _in_its_next_mode(model, state, records[-1], books)
+            except MarchError as trouble:
+                return over(str(trouble))
             note(state)
-            h = max(min(asked, grown) / 8, AFRESH)
+            h, pace = max(min(asked, grown) / 8, SHORT), AFRESH
         else:
-            h = grown
+            h, pace = grown, now
     course = course if cut else stands()
     why = f"after {limits.before + attempts} steps" if attempts >= limits.most else "as asked"
     return over(f"stopped at t = {state.t:.6g} {why}")
 
 
-def _in_its_next_mode(model: Model, state: State) -> State:
-    """The state behind the end of its mode."""
+def _in_its_next_mode(model: Model, state: State, before: Record, books: Books) -> State:
+    """The state behind the end of its mode.
+
+    What the ring and the patch let go of in the jump of the friction force is lost to friction.
+    """
     mode = model.law.successor(state)
     if model.law.sticks(mode):  # to the last digit, which a step that was cut short may not have
         state = replace(state, slip_velocity=0.0)
-    return restart(model, state, mode)
+    behind = restart(model, state, mode)
+    after = record(model, behind, books)
+    released = before.ring_strain + before.contact_spring - after.ring_strain - after.contact_spring
+    books.friction_loss += released
+    return behind
 
 
 def _enter(books: Books, before: State, step: Step) -> None:

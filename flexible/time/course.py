@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from ..models.state import Books, Record, State
+from .control import AFRESH, Pace
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -18,6 +18,7 @@ class Course:
 
     state: State
     step: float  # length of the next step
+    pace: Pace  # of the last one
     attempts: int  # steps tried until now
     turns: int
     stalls: int  # events within a shortest step of each other, by now
@@ -25,13 +26,18 @@ class Course:
     records: list[Record]  # of the whole march; those after the first ``length`` came later
     length: int
 
+    @classmethod
+    def beginning(cls, state: State, step: float) -> Course:
+        """That of a march from ``state``."""
+        return cls(state, step, AFRESH, 0, 0, 0, Books(), [], 0)
+
     def behind(self) -> list[Record]:
         """The records up to here."""
         return self.records[: self.length]
 
     def totals(self) -> Books:
         """The books up to here, to go on with."""
-        return copy(self.books)
+        return replace(self.books)
 
 
 class Marched(NamedTuple):

@@ -7,7 +7,7 @@ so that one number, 1, bounds them all.
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import inf
+from math import inf, prod
 from typing import NamedTuple
 
 from ..contact.laws.law import Law
@@ -74,6 +74,16 @@ class Located(NamedTuple):
     attempts: int
 
 
+def _just_past(known: list[tuple[float, float]]) -> float | None:
+    """Where a function known at two or three places is 1/2, within 1 past its zero: its inverse is a parabola, or a
+    line; None where it has none.
+    """
+    known = [(x, f - 0.5) for x, f in known if abs(f) < inf]
+    if len({f for _, f in known}) < max(len(known), 2):
+        return None
+    return sum(x * prod(g / (g - f) for _, g in known if g != f) for x, f in known)
+
+
 def locate(
     attempt: Callable[[float], Step | None],
     past: Callable[[Step], float],
@@ -84,7 +94,7 @@ def locate(
 ) -> Located:
     """The step that ends at an event, between no step and one of ``length``, ``trial``, that is past it.
 
-    Regula falsi with Illinois' weights, and bisection where that has not halved the bracket three times in a row. A
+    Inverse quadratic interpolation, and bisection where that has not halved the bracket three times in a row. A
     length that cannot be solved is replaced by others in the bracket; if none of them can be, the step goes to the last
     instant before the event that could.
 
@@ -100,11 +110,12 @@ def locate(
     low, f_low, safe = 0.0, min(before, 0.0), None
     high, f_high = length, past(trial)
     narrow = max(tolerances.share * length, tolerances.time)
-    side, slow, attempts = 0, 0, 0
+    slow, attempts = 0, 0
+    known = [(low, f_low), (high, f_high)]
     while f_high > 1 and high - low > narrow:
         width = high - low
-        falsi = -inf < f_low < f_high < inf and slow < 3
-        first = high - f_high * width / (f_high - f_low) if falsi else (low + high) / 2
+        guess = _just_past(known[-3:]) if slow < 3 else None
+        first = guess if guess is not None and low < guess < high else (low + high) / 2
         first = min(max(first, low + 0.001 * width), high - 0.001 * width)
         for h in (first, *(low + share * width for share in (0.5, 0.25, 0.75, 0.125, 0.875))):
             attempts += 1
@@ -114,13 +125,10 @@ def locate(
         else:
             return Located(safe, False, attempts)
         value = past(middle)
+        known.append((h, value))
         if value >= 0:
             high, f_high, trial = h, value, middle
-            f_low = f_low / 2 if side == 1 else f_low
-            side = 1
         else:
-            low, f_low, safe = h, value, middle
-            f_high = f_high / 2 if side == -1 else f_high
-            side = -1
-        slow = slow + 1 if falsi and high - low > width / 2 else 0
+            low, safe = h, middle
+        slow = slow + 1 if guess is not None and high - low > width / 2 else 0
     return Located(trial, True, attempts)

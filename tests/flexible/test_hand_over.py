@@ -36,7 +36,7 @@ def test_a_pose_at_a_boundary_is_of_one_phase():
 def test_rate_of_the_patch(k, place):
     """Under N = (4/3) eps d sqrt(2 d) a rigid ring sinks at d' = (2/3) d N'/N, with the rigid hoop's N'.
 
-    Its pulse takes k^2, and N jumps where its phases meet. The patch's 24 points ripple by parts of a thousand, the
+    Its pulse takes k^2, and N jumps where its phases meet. The patch's 18 points ripple by parts of a thousand, the
     ring yields a little: 1 %.
     """
     scene = stiff(k)

@@ -47,6 +47,8 @@ class Law:
         In a scene.
     code : int
         In compiled code, one for each law.
+    points : int
+        To a patch under the weight, for ``rtol`` = 1e-3; a friction that ends inside the patch wants more.
     tractions : compiled function
         ``tractions(forces, points, foundation, carried, mode, load, slip, parameters) -> Tractions``: fills in the
         ``forces``, zero before (:class:`~flexible.contact.points.data.PointForces`), that pull at
@@ -57,6 +59,7 @@ class Law:
 
     name: ClassVar[str]
     code: ClassVar[int]
+    points: ClassVar[int] = 8
     tractions: ClassVar[Callable[..., Any]]
 
     def __init__(self, parameters: Parameters) -> None:

@@ -105,7 +105,8 @@ def test_equilibria_of_the_levels():
     pose = Pose(2.2, 1.0, 0.0, 1.3, -0.2, Kind.ROLL)
     for mass in (0.1, 0.0):
         scene = HOOP.replace(hoop={"mass_ratio": mass})
-        states = [equilibrium(kind(scene), pose) for kind in (ReducedHoop, FullHoop, ExactHoop)]
+        hoops = ReducedHoop(scene, modes=24), FullHoop(scene), ExactHoop(scene)
+        states = [equilibrium(hoop, pose) for hoop in hoops]
         for state in states:
             assert (state.res.normal, state.res.friction) == pytest.approx((1.3, -0.2), abs=1e-9)
         heights = np.array([state.pos[1] for state in states])

@@ -11,8 +11,8 @@ SCENE = load_scene("paper-3.3-massless").replace(run={"until": "pulse"}, solve={
 
 @pytest.fixture(scope="module")
 def chattering():
-    """Undamped: it hops some ten times behind the stick."""
-    return flexible.simulate(SCENE.replace(contact={"damping": 0.0}))
+    """Undamped: it hops thirteen times behind the stick, down to rtol = 1e-6; at 1e-3 long steps may damp that."""
+    return flexible.simulate(SCENE.replace(contact={"damping": 0.0}, solve={"rtol": 3e-4}))
 
 
 def test_the_printed_column_adds_up_to_its_first_line(chattering):

@@ -1,0 +1,57 @@
+"""``rtol`` chooses contact points and modes too: neither puts a floor under a pulse's error."""
+
+import numpy as np
+import pytest
+from scenes import HOOP
+
+import rigid
+from flexible.contact.laws.listing import LAWS
+from flexible.handover import hand_over
+from flexible.models.reduced import ReducedHoop
+from flexible.models.rim_contact import points_to_a_patch
+from flexible.ring.reduction import modes_for
+from flexible.time.adaptive import march
+from flexible.time.events import Ends
+
+
+def through_the_bottom(scene, **options):
+    """(J_N, J_F, friction loss) from a few patches before the pulse to behind it."""
+    hoop = ReducedHoop(scene, **options)
+    motion = rigid.simulate(scene)
+    pulse = motion.pulses[0]
+    start = hand_over(hoop, motion, 1.5 * pulse.t_start - 0.5 * pulse.t_end)
+    last = march(hoop, start, Ends(t=pulse.t_end), scene.solve.rtol).records[-1]
+    return np.array([last.normal_impulse, last.friction_impulse, last.friction_loss])
+
+
+@pytest.mark.parametrize("law", ["patch", "brush"])
+def test_where_points_lie_does_not_matter(law):
+    """Spacings that differ by parts of a thousand put the points anywhere in the patch; half the spacing doubles them.
+
+    A fifth of rtol: what the points do is to be lost in the error of the steps.
+    """
+    scene = HOOP.replace(hoop={"mass_ratio": 0.0}, contact={"law": law, "damping": 1.0}, solve={"rtol": 1e-3})
+    points = points_to_a_patch(LAWS[law], scene.solve.rtol)
+    found = [through_the_bottom(scene, points=points * by) for by in (1, 1.0037, 1.0071, 2)]
+    assert found[0][0] > 1  # a pulse it is
+    assert np.ptp(found, axis=0).max() < 0.2 * 1e-3 * found[0][0]
+
+
+@pytest.mark.parametrize("rtol", [1e-2, 1e-3, 1e-4])
+def test_modes_that_are_left_out_do_not_matter(rtol):
+    """Against three times as many: below rtol, for a ring that rings as hard as a linear one does: E I = 60, a blow."""
+    scene = HOOP.replace(
+        release={"phi0": 2.9, "omega0": 4.0}, ring={"bending_stiffness": 60.0}, contact={"stiffness": 1e7},
+        solve={"rtol": rtol},
+    )  # fmt: skip
+    few, many = (_to_the_end(scene, modes) for modes in (modes_for(rtol), 3 * modes_for(rtol)))
+    assert np.abs(few - many).max() < rtol * many[0]
+
+
+def _to_the_end(scene, modes):
+    """Impulses and loss of the blow with which an undeformed ring rolls onto the floor."""
+    hoop = ReducedHoop(scene.replace(solve={"start": "undeformed"}), modes=modes)
+    start = hand_over(hoop, rigid.simulate(hoop.scene), 0.0)
+    # steps a tenth as large as asked for: what is left is the modes'
+    last = march(hoop, start, Ends(t=0.14), 0.1 * scene.solve.rtol).records[-1]
+    return np.array([last.normal_impulse, last.friction_impulse, last.friction_loss])
