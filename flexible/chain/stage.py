@@ -117,8 +117,7 @@ def solve_stage(
     way, reach, stuck, halved = 0.0, np.inf, 0.0, 0
     factors, stands, moves = nothing_factored(), foreseen, False
     chained, stale = factors.core, True
-    softest = largest(facing.missing)
-    damper = pulling(damper, True)
+    softest, damper = largest(facing.missing), pulling(damper, True)
     iteration, guesses = -1, GUESSES
     asked = guesses > 0  # for a tangent; nowhere a plain True, for which contact_forces would be compiled once more
     while iteration < MOST_ITERATIONS:
@@ -158,8 +157,10 @@ def solve_stage(
             contact, back = _as_foreseen((pos[:FRAME], u, facing.rim, law, mode, before), damper, foreseen, moved, res)
             there = _misfit(touch, contact, place, (frame, force), scale)
             lacks, worst = _misfit(touch, back, place, (frame, force), scale), max(there.forces, there.nodes)
-        elif moved_before:
-            last = np.inf  # of another damper
+        elif moved_before or (stands.normal == 0 and res.elastic > 0):
+            last = (
+                np.inf
+            )  # of another damper, or off the floor: what lands too deep comes up, what is taken back is off
         if worst > GROWS * last and damping > 1e-9:  # beyond a bend, the damper's onset for one
             move(d, u, 0.9 * damping, update, update_u)
             damping *= 0.1
