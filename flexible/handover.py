@@ -18,15 +18,12 @@ from rigid.output.units import without_units
 from .contact.laws.law import Rolling
 from .contact.points.data import NOTHING, no_bristles
 from .contact.points.rim import lift, sideways, upward
-from .models.chain import ChainHoop
 from .models.equilibrium import Patch, settle
-from .models.full import FullHoop
-from .models.reduced import ReducedHoop
+from .models.select import Hoop
 from .models.state import State
 from .time.step import MarchError, restart
 
 Array = NDArray[np.float64]
-Hoop = ReducedHoop | FullHoop | ChainHoop
 
 # Time between the equilibria of which rates are made, in the time in which the forces change. Its square is the error
 # of the rates; a shorter one sees how the patch's height ripples as point after point comes to bear (measured at a

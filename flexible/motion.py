@@ -25,9 +25,7 @@ from rigid.output.units import (
 if TYPE_CHECKING:
     import pandas
 
-    from .models.chain import ChainHoop
-    from .models.full import FullHoop
-    from .models.reduced import ReducedHoop
+    from .models.select import Hoop
     from .models.state import State
     from .time.course import Marched
 
@@ -120,7 +118,7 @@ class History:
 class Kept:
     """States of the ring at every accepted step of one flexible segment, in the solver's units (R = m = g = 1)."""
 
-    hoop: ReducedHoop | FullHoop | ChainHoop
+    hoop: Hoop
     states: tuple[State, ...]
 
     def __repr__(self) -> str:

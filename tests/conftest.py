@@ -29,10 +29,9 @@ def pytest_runtestloop(session: pytest.Session) -> None:
     """On a machine that has not run this code yet, compile in other processes: it takes more memory than any test."""
     if session.config.option.collectonly or "flexible" not in sys.modules:
         return  # no test that needs the dear one was collected
-    from rigid.kernel.store import is_cold
-    from studies.running.solvers import LEVELS
+    from studies.running.solvers import LEVELS, missing
 
-    if is_cold("flexible"):
-        programs = [f"from studies.running.solvers import prepare; prepare({name!r})" for name in ("rigid", *LEVELS)]
+    if absent := missing(LEVELS):
+        programs = [f"from studies.running.solvers import prepare; prepare({name!r})" for name in ("rigid", *absent)]
         others = [subprocess.Popen([sys.executable, "-c", program], cwd=ROOT) for program in programs]
         assert [other.wait() for other in others] == [0] * len(others)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import os
 import re
 import shutil
@@ -145,6 +146,26 @@ def test_two_processes_may_begin_at_once(tmp_path, monkeypatch):
     monkeypatch.setattr(Path, "is_dir", seen)
     assert store.home("kernels", "0123") == place
     assert not too_early
+
+
+def test_imports_are_read_as_python_reads_them():
+    """None of any file's imports is missed, whatever their layout (an example in a docstring may be one too many)."""
+    for package in store.PACKAGES:
+        for file in (ROOT / package).rglob("*.py"):
+            wanted: set[Path] = set()
+            for node in ast.walk(ast.parse(file.read_bytes())):
+                if isinstance(node, ast.Import):
+                    modules = [ROOT.joinpath(*alias.name.split(".")) for alias in node.names]
+                elif isinstance(node, ast.ImportFrom):
+                    base = file.parents[node.level - 1] if node.level else ROOT
+                    module = base.joinpath(*(node.module or "").split("."))
+                    modules = [module, *(module / alias.name for alias in node.names)]
+                else:
+                    continue
+                ours = [module for module in modules if module != ROOT]
+                ours = [module for module in ours if module.relative_to(ROOT).parts[0] in store.PACKAGES]
+                wanted.update(p for m in ours for p in (m.with_suffix(".py"), m / "__init__.py") if p.is_file())
+            assert wanted <= set(store._imports(file)), file
 
 
 def test_the_fingerprint_covers_every_source_and_nothing_else(tmp_path):

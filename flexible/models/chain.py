@@ -47,6 +47,8 @@ class ChainHoop(RimContact):
         Elements through the wall of the mesh.
     """
 
+    linear = False
+
     def __init__(
         self,
         scene: Scene,

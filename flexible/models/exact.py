@@ -131,5 +131,7 @@ class ExactRing(NodalRing):
 class ExactHoop(FullHoop):
     """Frame and geometrically exact ring of a scene; everything else as at the level of all nodes."""
 
+    linear = False
+
     def _make_ring(self, scene: Scene, ring: Ring) -> NodalRing:
         return ExactRing(scene, ring)

@@ -93,6 +93,9 @@ class RimContact:
         Of Newton, on forces relative to the disk's weight.
     """
 
+    linear = True
+    """Whether rotations of the ring's sections against one are neglected."""
+
     def __init__(self, scene: Scene, vertex: Array, points: int | None, tolerance: float) -> None:
         self.scene = scene
         self.vertex = vertex

@@ -6,19 +6,22 @@ them by about n m g R^2/(E I); what that changes in a pulse grows with it.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, TypeAlias
+
 import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Scene, SceneError
 
-from .chain import ChainHoop
-from .exact import ExactHoop
-from .full import FullHoop
 from .reduced import ReducedHoop
 from .state import State
 
+if TYPE_CHECKING:
+    from .chain import ChainHoop
+    from .full import FullHoop
+
 Array = NDArray[np.float64]
-Hoop = ReducedHoop | FullHoop | ChainHoop
+Hoop: TypeAlias = "ReducedHoop | FullHoop | ChainHoop"
 
 #: E I/(m g R^2) below which "auto" takes the chain, exact for large rotations. In a pulse that begins undeformed at
 #: phi = 2.9 with phidot = 4 (k = 0.1, r = 1.02, m_h/m = 0.1; E I/(m g R^2) = 0.63 for E b R/(m g) = 1e6) linear and
@@ -38,18 +41,29 @@ def level_of(scene: Scene) -> str:
 
 
 def hoop_of(scene: Scene) -> Hoop:
-    """The scene's hoop at that level; of a ring that is no rod and was left to choose, all nodes."""
+    """The scene's hoop at that level; of a ring that is no rod and was left to choose, all nodes.
+
+    A level is loaded when the first scene asks for it.
+    """
     level = level_of(scene)
     if level == "reduced":
         return ReducedHoop(scene)
     if level == "chain":
+        from .chain import ChainHoop
+
         try:
             return ChainHoop(scene)
         except SceneError:
             if scene.solve.level == "chain":
                 raise
-            return ExactHoop(scene)
-    return ExactHoop(scene) if level == "exact" else FullHoop(scene)
+            level = "exact"
+    if level == "exact":
+        from .exact import ExactHoop
+
+        return ExactHoop(scene)
+    from .full import FullHoop
+
+    return FullHoop(scene)
 
 
 class Range:
@@ -57,7 +71,7 @@ class Range:
 
     def __init__(self, hoop: Hoop) -> None:
         self.hoop = hoop
-        self.linear = not isinstance(hoop, ExactHoop | ChainHoop)
+        self.linear = hoop.linear
         #: time, rotation and angle phi of every instant at which it had turned further than before
         self.records: list[tuple[float, float, float]] = []
 

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from ..models.chain import ChainHoop
-from ..models.exact import ExactHoop
-from ..models.full import FullHoop
 from ..models.reduced import ReducedHoop
-from .chain_interior import ChainInterior
+from ..models.select import Hoop
 from .recovery import ExactInterior, Interior, ReducedInterior
 
 
-def interior_of(hoop: ReducedHoop | FullHoop | ChainHoop) -> Interior:
-    """The interior of a hoop of any level."""
-    if isinstance(hoop, ChainHoop):
-        return ChainInterior(hoop)
+def interior_of(hoop: Hoop) -> Interior:
+    """The interior of a hoop of any level; a level that the hoop has not is not loaded."""
     mass = hoop.scene.hoop.mass_ratio
     if isinstance(hoop, ReducedHoop):
         return ReducedInterior(hoop.ring, mass)
-    kind = ExactInterior if isinstance(hoop, ExactHoop) else Interior
+    from ..models.chain import ChainHoop
+
+    if isinstance(hoop, ChainHoop):
+        from .chain_interior import ChainInterior
+
+        return ChainInterior(hoop)
+    kind = Interior if hoop.linear else ExactInterior
     return kind(hoop.ring.ring, hoop.ring.stiffness, mass)

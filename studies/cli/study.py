@@ -14,6 +14,7 @@ from ..running.files import StudyError, to_json, write_text
 from .shared.options import Commands, as_json, out_folder, results_folder, scene_argument, scheduler, workers
 
 if TYPE_CHECKING:
+    from ..running.workers import Pool
     from ..stiffness.found import StiffnessStudy
 
 CODE = (
@@ -94,18 +95,19 @@ def stiffness(
     ladder = Ladder.around(described, along, low, high, count)
     solver(solver_name)
     target = results_folder(out)
-    with bar(f"{ladder.count} cases") as progress, pool(workers, scheduler) as place:
-        found = stiffness_study(
-            described,
-            ladder,
-            solver=solver_name,
-            all_pulses=all_pulses,
-            exponent=rate,
-            pool=place,
-            out=target,
-            progress=progress,
-        )
-    lost = None if target is None else _write_study(found, target, ctx.obj, solver_name == "flexible")
+    with pool(workers, scheduler) as place:
+        with bar(f"{ladder.count} cases") as progress:
+            found = stiffness_study(
+                described,
+                ladder,
+                solver=solver_name,
+                all_pulses=all_pulses,
+                exponent=rate,
+                pool=place,
+                out=target,
+                progress=progress,
+            )
+        lost = None if target is None else _write_study(found, target, ctx.obj, solver_name == "flexible", place)
     if as_json:
         click.echo(to_json(found.to_dict()))
     else:
@@ -120,11 +122,13 @@ def stiffness(
         ctx.exit(1)
 
 
-def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool) -> StudyError | None:
-    """All that a study leaves, the page last: what it names is there. What kept the fields from being written."""
-    from ..plots.style import save_both
+def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool, place: Pool) -> StudyError | None:
+    """All that a study leaves, the page last: what it names is there. What kept the fields from being written.
+
+    Figures and fields are made side by side.
+    """
     from ..running.progress import bar
-    from ..stiffness.figures import of_study
+    from ..stiffness.figures import FIGURES, write_figure
     from ..stiffness.report import stiffness_report
     from .shared.output import write_first_pulse, write_frame
 
@@ -132,12 +136,7 @@ def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool) -
     page.unlink(missing_ok=True)
     numbers = [write_text(target / "study.json", to_json(found.to_dict()))]
     numbers.insert(0, write_frame(found.to_dataframe(), target / "study.csv"))
-    with bar("figures") as progress:
-        drawn = of_study(found)
-        images = {}
-        for number, (name, figure) in enumerate(drawn.items(), 1):
-            images[name] = save_both(figure, target / name)
-            progress(number / len(drawn))
+    drawn = {name: place.beside(write_figure, found, name, target) for name in FIGURES}
     lost, beside = None, []
     if fields:
         try:
@@ -146,6 +145,12 @@ def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool) -
             beside.append(f"fields.pvd: the ring at the scene's own stiffness; hoop view {target}, ParaView, pyvista")
         except StudyError as error:
             lost = error
+    images = {}
+    with bar("figures") as progress:
+        for number, (name, figure) in enumerate(drawn.items(), 1):
+            if (image := figure.result()) is not None:
+                images[name] = image
+            progress(number / len(drawn))
     stiffness_report(found, images, line, page, numbers, beside)
     return lost
 

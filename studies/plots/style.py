@@ -84,6 +84,7 @@ def save(figure: Figure, path: Path) -> Path:
 def save_both(figure: Figure, path: Path) -> Path:
     """Write a figure as PNG and, for a page, as SVG beside it, whose path is returned."""
     save(figure, path.with_suffix(".png"))
+    figure.set_layout_engine("none")  # everything has its place, which took as long to find as to draw it
     return save(figure, path.with_suffix(".svg"))
 
 

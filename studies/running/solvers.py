@@ -60,10 +60,14 @@ def levels_of(scenes: Iterable[Scene]) -> list[str]:
 
 def missing(levels: Iterable[str]) -> list[str]:
     """Those of the levels for which this machine has no compiled code yet."""
-    import flexible  # noqa: F401  whose kernels are meant
     from rigid.kernel.store import is_cold
 
-    return [level for level in levels if is_cold(LEVELS[level])]
+    found = []
+    for level in levels:
+        import_module(LEVELS[level])  # which knows where its kernels are
+        if is_cold(LEVELS[level]):
+            found.append(level)
+    return found
 
 
 def prepare(*names: str) -> Path:

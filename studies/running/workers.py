@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
 from contextlib import contextmanager
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from rigid import scene_to_dict
 
@@ -14,6 +14,8 @@ from ..machine.processes import Processes, WorkerDied, cores
 from .case import Case, OtherBuild, Outcome, run_case
 from .files import StudyError, plain
 from .solvers import levels_of, missing, prepare, version
+
+T = TypeVar("T")
 
 _DEATHS = 3
 """A case whose worker has died this often is not tried again."""
@@ -24,13 +26,29 @@ class Pool(Protocol):
 
     def submit(self, case: Case) -> Future[Outcome]: ...
 
+    def beside(self, function: Callable[..., T], *arguments: object) -> Future[T]:
+        """Have this machine call an importable function that leaves files here."""
+        ...
+
     def workers(self) -> int:
         """How many cases run at once."""
         ...
 
 
+def at_once(function: Callable[..., T], *arguments: object) -> Future[T]:
+    """Call it now, in this process."""
+    future: Future[T] = Future()
+    try:
+        future.set_result(function(*arguments))
+    except Exception as error:
+        future.set_exception(error)
+    return future
+
+
 class Here:
     """In this process, one after the other."""
+
+    beside = staticmethod(at_once)
 
     def submit(self, case: Case) -> Future[Outcome]:
         future: Future[Outcome] = Future()
@@ -60,6 +78,9 @@ class Machine:
             self._ready.update(levels)
         return self._processes.submit(run_case, case)
 
+    def beside(self, function: Callable[..., T], *arguments: object) -> Future[T]:
+        return self._processes.submit(function, *arguments)
+
     def workers(self) -> int:
         return self._count
 
@@ -69,6 +90,8 @@ class Machine:
 
 class Cluster:
     """On a Dask cluster, which itself moves the cases of a dead worker to another one."""
+
+    beside = staticmethod(at_once)
 
     def __init__(self, address: str) -> None:
         try:

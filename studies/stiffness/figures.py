@@ -2,49 +2,73 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from pathlib import Path
 
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-from rigid import simulate
+from rigid import Motion, Pulse, simulate
 
 from ..plots.difference import at_the_same_angle, at_the_same_normal_impulse, impulses_along
 from ..plots.pulse import Curve, energy, impulses, pulse
-from ..plots.style import RIGID, STYLE, blank, colours, power_of_ten
+from ..plots.style import RIGID, STYLE, blank, colours, power_of_ten, save_both
 from ..running.history import dimensionless
 from .found import Rung, StiffnessStudy
 
 
-def of_study(study: StiffnessStudy) -> dict[str, Figure]:
-    """All figures of a stiffness study by name."""
+def write_figure(study: StiffnessStudy, name: str, folder: Path) -> Path | None:
+    """Write one of ``FIGURES`` as PNG and SVG.
+
+    Returns
+    -------
+    Path or None
+        The SVG; none where the study has nothing to draw in it.
+    """
+    figure = FIGURES[name](study)
+    return None if figure is None else save_both(figure, folder / name)
+
+
+def forces(study: StiffnessStudy) -> Figure:
+    """The first pulse over time at some of the stiffnesses, and what is left between each and the rigid hoop."""
+    motion, whole = _rigid_pulse(study)
+    own = [rung.outcome.histories[0] for rung in chosen(study.rungs)]
+    left = [dimensionless(at_the_same_angle(columns, motion, whole), study.scene) for columns in own]
+    return pulse(_curves(study), "Through the first pulse", left)
+
+
+def impulse_space(study: StiffnessStudy) -> Figure:
+    """The same in impulse space."""
+    along = impulses_along(*_rigid_pulse(study))
+    own = [rung.outcome.histories[0] for rung in chosen(study.rungs)]
+    left = [at_the_same_normal_impulse(columns, along) / study.scene.impulse_unit for columns in own]
+    return impulses(_curves(study), study.scene.friction.mu, left)
+
+
+def energies(study: StiffnessStudy) -> Figure | None:
+    """Where the energy is at a stiffness in the middle."""
+    rungs = chosen(study.rungs)
+    if not rungs:
+        return None
+    middle = rungs[len(rungs) // 2]
+    words = f"Where the energy is, foundation {power_of_ten(middle.contact_stiffness)}"
+    return energy(dimensionless(middle.outcome.histories[0], study.scene), words)
+
+
+def _rigid_pulse(study: StiffnessStudy) -> tuple[Motion, Pulse]:
+    motion = simulate(study.reference.scene)
+    return motion, next(pulse for pulse in motion.pulses if not pulse.cut)
+
+
+def _curves(study: StiffnessStudy) -> list[Curve]:
     rungs = chosen(study.rungs)
     through = [dimensionless(rung.outcome.histories[0], study.scene) for rung in rungs]
     curves: list[Curve] = [
         (power_of_ten(rung.contact_stiffness), columns, colour)
         for rung, columns, colour in zip(rungs, through, colours(len(rungs)), strict=True)
     ]
-    curves.append(("rigid", dimensionless(study.reference.histories[0], study.scene), RIGID))
-    motion = simulate(study.reference.scene)
-    whole = next(pulse for pulse in motion.pulses if not pulse.cut)
-    own = [rung.outcome.histories[0] for rung in rungs]
-    forces = [dimensionless(at_the_same_angle(columns, motion, whole), study.scene) for columns in own]
-    unit = study.scene.impulse_unit
-    along = impulses_along(motion, whole)
-    friction = [at_the_same_normal_impulse(columns, along) / unit for columns in own]
-    mu = study.scene.friction.mu
-    drawn = {
-        "pulse": pulse(curves, "Through the first pulse", forces),
-        "impulses": impulses(curves, mu, friction),
-        "distance": distances(study),
-    }
-    if rungs:
-        middle = len(rungs) // 2
-        words = f"Where the energy is, foundation {power_of_ten(rungs[middle].contact_stiffness)}"
-        if (ledger := energy(through[middle], words)) is not None:
-            drawn["energy"] = ledger
-    return drawn
+    return [*curves, ("rigid", dimensionless(study.reference.histories[0], study.scene), RIGID)]
 
 
 def chosen(rungs: Sequence[Rung], most: int = 5) -> list[Rung]:
@@ -61,3 +85,12 @@ def distances(study: StiffnessStudy) -> Figure:
         figure = blank(10.4, 5.2)
         study.plot(axes=figure.subplots(1, 2))
         return figure
+
+
+FIGURES: dict[str, Callable[[StiffnessStudy], Figure | None]] = {
+    "pulse": forces,
+    "impulses": impulse_space,
+    "distance": distances,
+    "energy": energies,
+}
+"""The figures by the name of their file, in the order of the page."""

@@ -67,7 +67,7 @@ def _settings(exu: Any, t_end: float, step: float) -> Any:
     march.discontinuous.iterationTolerance = 1e-3
     march.discontinuous.ignoreMaxIterations = True
     march.verboseMode = 0
-    settings.solutionSettings.writeSolutionToFile = False
+    settings.solution.file.write = False
     settings.linearSolverType = exu.LinearSolverType.EigenSparse
     settings.parallel.numberOfThreads = 1
     return settings

@@ -148,6 +148,6 @@ def _settings(exu: Any, step: float, t_end: float) -> Any:
     march.endTime, march.numberOfSteps = t_end, round(t_end / step)
     march.generalizedAlpha.spectralRadius = 0.8
     march.verboseMode = 0
-    settings.solutionSettings.writeSolutionToFile = False
-    settings.solutionSettings.sensorsWritePeriod = step
+    settings.solution.file.write = False
+    settings.solution.sensors.writePeriod = step
     return settings

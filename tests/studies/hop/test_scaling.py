@@ -7,7 +7,9 @@ from math import pi, radians, sqrt
 import numpy as np
 import pytest
 from scipy.integrate import trapezoid
+from scipy.linalg import eigvalsh, null_space
 
+from flexible.ring.fem import ring_of
 from rigid import Friction, Hoop, Release, Run, Scene, simulate
 from studies.hop.rolling.rule import slowest_period
 from studies.hop.rolling.scaling import pulse_time, suddenness
@@ -51,6 +53,34 @@ def test_at_the_suddenness_the_slowest_vibration_turns_by_one_radian_in_it():
     assert 2 * pi / slowest_period(sudden) * pulse_time(sudden) == pytest.approx(1.0)
     four = scene.replace(ring={"bending_stiffness": 4 * suddenness(scene)})
     assert slowest_period(four) == pytest.approx(slowest_period(sudden) / sqrt(4))
+
+
+def test_the_slowest_symmetric_vibration_beside_the_antisymmetric_one():
+    """About a weld that is held, by a Fourier series of the thin inextensional ring held at a point, tangential
+    v = sum of sines (symmetric) or cosines, radial w = v', energy of w + w''; its error falls like the number of
+    terms, 2e-3 for 400, and is extrapolated. The weld of 3 degrees and a wall of 2 % change it by less than 1 %.
+    """
+
+    def slowest(stiffness, mass, held):
+        """Of diagonal stiffness and mass under homogeneous conditions, each a row of ``held``."""
+        scale = 1 / np.sqrt(mass)
+        allowed = null_space(held * scale)
+        return sqrt(eigvalsh(allowed.T * (stiffness * scale**2) @ allowed)[0])
+
+    def ratio(terms):
+        n = np.arange(terms + 1.0)
+        bending, inertia = (n * (n**2 - 1)) ** 2, 1 + n**2
+        symmetric = slowest(bending[1:], inertia[1:], n[None, 1:])
+        inertia[0] = 2  # the mean square of a constant
+        return symmetric / slowest(bending, inertia, np.stack([np.ones_like(n), (n**2 - 1) / terms]))
+
+    thin = 2 * ratio(400) - ratio(200)
+    (first, second), shapes = ring_of(rolling(0.1, 0.1)).modes(2)
+    assert sqrt(second / first) == pytest.approx(thin, rel=0.01)
+    ring = ring_of(rolling(0.1, 0.1))
+    along = ring.mass[ring.free] @ ring.translation(0)  # the weld lies on the axis of y1
+    assert abs(along @ shapes[:, 1]) > 0.5
+    assert abs(along @ shapes[:, 0]) < 1e-6  # antisymmetric
 
 
 def test_a_ring_without_mass_has_no_vibration_to_leave():
