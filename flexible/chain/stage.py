@@ -14,6 +14,7 @@ import numpy as np
 from rigid.kernel.compile import jit, part
 
 from ..contact.forces import contact_forces
+from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by, moved_damper, short_of
 from ..contact.guess import GUESSES, guess_again
 from ..contact.newton import breaks_loose, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, pulling
@@ -46,6 +47,47 @@ def _round_off(chain: Any, contact: Any, pos: Any, acc: Any, u: Any, scale: floa
     return floor + 4e-16 * chain.body.ring_mass * largest(acc[FRAME:])
 
 
+class Misfit(NamedTuple):
+    """What frame, sections and the window's nodes lack of equilibrium."""
+
+    frame: Any
+    sections: Any
+    rest: Any  # of the nodes, flat
+    forces: float  # the largest on frame and sections
+    nodes: float  # and of the nodes
+
+
+@part
+def _misfit(touch: Any, contact: Any, place: Any, own: Any, scale: float) -> Misfit:
+    """``own``: forces of inertia, gravity and strain on frame and sections."""
+    frame, force = own[0].copy(), own[1].copy()
+    push(touch, contact, place, frame, force)
+    rest = astray_of(touch, contact.nodal, scale)
+    return Misfit(frame, force, rest, max(largest(frame), largest(force[1:-1])), largest(rest))
+
+
+@part
+def _as_foreseen(of: Any, damper: Any, foreseen: Foreseen, moved: Any, res: Any) -> tuple[Any, Any]:
+    """The contact that carries what was foreseen, and the same with the damper's move taken back."""
+    pose, u, rim, law, mode, before = of
+    share = short_of(foreseen, res)
+    by, less = moved_damper(damper, moved, 1.0), moved_damper(damper, moved, 1 - share)
+    contact = contact_forces(pose, u, rim, law, mode, before, by, share > 0)
+    return contact, moved_back(contact, contact_forces(pose, u, rim, law, mode, before, less, share <= 0), share)
+
+
+@part
+def _close(core: Any, chained: Any, touch: Any, contact: Any, chain: Any, scale: float) -> None:
+    """The core of Newton's matrix: what the elimination of the ``chained`` sections left, and the floor."""
+    rod, q, nodes, place = chain
+    for i in range(chained.shape[0]):
+        for k in range(chained.shape[0]):
+            core[i, k] = chained[i, k]
+    add_forces(core, touch, contact.nodal, contact.tangent, scale)
+    add_bending(core, rod, q, nodes, place, contact.nodal)
+    add_rim(core, touch, contact.nodal, scale)
+
+
 @jit
 def solve_stage(
     chain: Any, facing: Facing, law: Any, mode: int, before: Any, damper: Any, predictor: Any, start: Any
@@ -60,31 +102,27 @@ def solve_stage(
         See :func:`flexible.contact.forces.contact_forces`.
     predictor : flexible.models.stage.Predictor
     start : tuple
-        What the nodes move beyond the sections, (m, 2), to begin with; tolerance on forces.
+        What the nodes move beyond the sections, (m, 2), and :class:`Foreseen`, to begin with; tolerance on forces.
     """
-    beyond, tolerance = start
+    beyond, foreseen, tolerance = start
     nodes, rod = facing.nodes, chain.rod
     m = nodes.part.shape[0]
     keeps, place = kept_by(rod.theta.shape[0], nodes.part)
     inner = FRAME + 3 * keeps.sum()
     d = predictor.guess.copy()
     u = follow(rod, sections(reached(predictor, d)[0]), nodes)[0]
-    for k in range(m):
-        u[k, 0] += beyond[k, 0]
-        u[k, 1] += beyond[k, 1]
     update, update_u = np.zeros(d.shape[0]), np.zeros(2 * m)
+    move(d, u, 1.0, update, beyond.ravel())
     iterations, damping, last = -1, 1.0, np.inf
-    way, reach = 0.0, np.inf
-    stuck, halved = 0.0, 0
-    factors = nothing_factored()
+    way, reach, stuck, halved = 0.0, np.inf, 0.0, 0
+    factors, stands, moves = nothing_factored(), foreseen, False
     chained, stale = factors.core, True
-    softest = largest(facing.missing)
-    damper = pulling(damper, True)
+    softest, damper = largest(facing.missing), pulling(damper, True)
     iteration, guesses = -1, GUESSES
+    asked = guesses > 0  # for a tangent; nowhere a plain True, for which contact_forces would be compiled once more
     while iteration < MOST_ITERATIONS:
         pos, vel, acc = reached(predictor, d)
-        # always with a tangent, but not by a plain True, for which contact_forces would be compiled once more
-        contact = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper, guesses <= GUESSES)
+        contact = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper, asked)
         res = contact.res
         if guesses > 0:
             guesses = guess_again(pos[:FRAME], u, facing.rim, law, before, damper, contact, guesses)
@@ -97,42 +135,48 @@ def solve_stage(
         if share < 1:
             move(d, u, damping * (1 - share), update, update_u)
             damping *= share
+            foreseen = between(stands, foreseen, share)
             continue
         way, reach, stuck, halved = res.way, res.reach, res.stuck, 0
         q, frame, force = balance(chain, pos, vel, acc)
         touch = touch_of(rod, q, facing, place, inner, u)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
-        push(touch, contact, place, frame, force)
-        rest = astray_of(touch, contact.nodal, scale)
-        worst, astray = max(largest(frame), largest(force[1:-1])), largest(rest)
+        lacks = _misfit(touch, contact, place, (frame, force), scale)
         small = tolerance * (1 + abs(res.normal)) + _round_off(chain, contact, pos, acc, u, scale, damper)
-        if not np.isfinite(worst + astray + small):
+        if not np.isfinite(lacks.forces + lacks.nodes + small):
             break
-        if max(worst, astray) > GROWS * last and damping > 1e-9:  # beyond a bend, the damper's onset for one
-            move(d, u, 0.9 * damping, update, update_u)
-            damping *= 0.1
-            continue
-        if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
+        if lacks.forces <= small and lacks.nodes <= small * (1 + scale * softest) and iteration > 0:
             if damper.pulls and res.eta < 0:
                 damper, last = pulling(damper, False), np.inf
                 continue
             iterations = iteration
             break
-        worst = max(worst, astray)
+        moved, moved_before = moved_by(damper, foreseen, res), moves
+        moves, worst = moved.elastic != 0 or moved.way != 0, max(lacks.forces, lacks.nodes)
+        if moves:
+            contact, back = _as_foreseen((pos[:FRAME], u, facing.rim, law, mode, before), damper, foreseen, moved, res)
+            there = _misfit(touch, contact, place, (frame, force), scale)
+            lacks, worst = _misfit(touch, back, place, (frame, force), scale), max(there.forces, there.nodes)
+        elif moved_before or (stands.normal == 0 and res.elastic > 0):
+            last = (
+                np.inf
+            )  # of another damper, or off the floor: what lands too deep comes up, what is taken back is off
+        if worst > GROWS * last and damping > 1e-9:  # beyond a bend, the damper's onset for one
+            move(d, u, 0.9 * damping, update, update_u)
+            damping *= 0.1
+            foreseen = between(stands, foreseen, 0.1)
+            continue
         if stale or (iteration > 1 and worst > STALE * last):
             factors = factor(tangent(chain, pos, vel, acc, predictor.beta), keeps, 2 * m)
             chained, stale = factors.core.copy(), False
-        for i in range(chained.shape[0]):
-            for k in range(chained.shape[0]):
-                factors.core[i, k] = chained[i, k]
-        add_forces(factors.core, touch, contact.nodal, contact.tangent, scale)
-        add_bending(factors.core, rod, q, nodes, place, contact.nodal)
-        add_rim(factors.core, touch, contact.nodal, scale)
-        update, update_u = solve(factors, frame, force, rest)
+        _close(factors.core, chained, touch, contact, (rod, q, nodes, place), scale)
+        update, update_u = solve(factors, lacks.frame, lacks.sections, lacks.rest)
         if not np.isfinite(largest(update) + largest(update_u)):
             break
         damping = 0.5 if iteration > 3 and worst > last else 1.0
         last = worst
+        stands = Foreseen(contact.res.normal, contact.res.friction)
+        foreseen = between(stands, foresee(damper, moved, contact, update, update_u), damping)
         move(d, u, -damping, update, update_u)
     if contact.outside:
         iterations = -2

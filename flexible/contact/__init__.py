@@ -6,6 +6,7 @@
 ``assembly``  from points to unknowns
 ``forces``    all of it together: forces, tangent, state of the patch
 ``guess``     the same where Newton begins: the rim moved to where the forces say something
+``foreseen``  N and F as unknowns of their own, where a damper all but gives them
 ``newton``    what Newton on a stage with these forces is alike for all rings
 ``vectors``   sums and products of whole vectors, small systems
 """

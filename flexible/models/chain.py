@@ -16,6 +16,7 @@ from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
 from ..chain.stage import solve_stage
 from ..chain.touch import Facing, lowest, turned
 from ..chain.whole import balance, held, passed_on, sections
+from ..contact.foreseen import Foreseen
 from ..contact.points.data import Before, Damper, Rim
 from ..contact.vectors import largest
 from ..ring.fem import ring_of
@@ -133,8 +134,9 @@ class ChainHoop(RimContact):
             u_old, beyond = self._beyond(old, window)
             facing = Facing(Rim(window[0], ring.vertex), ring.window(*window)[1], self._lacking(window))
             before = Before(old.pos[:3], u_old, old.bristles)
+            begins = beyond, Foreseen(float(old.res.normal), float(old.res.friction)), self.tolerance
             iterations, d, u, factors, contact = solve_stage(
-                ring.chain, facing, self.law.parameters, mode, before, damper, predictor, (beyond, self.tolerance)
+                ring.chain, facing, self.law.parameters, mode, before, damper, predictor, begins
             )
             if iterations == -2:
                 margin = 2 * margin + self.element

@@ -1,0 +1,107 @@
+"""What Newton on a stage foresees the patch to carry, and the forces of the floor that go with it.
+
+A damper multiplies the elastic forces by eta = 1 + relaxation (N_el - N_el0)/N_el, and pulls a sticking patch back with
+``drag`` times what it slips. In a short step both numbers are so large that N and F are all but given, and N_el and the
+slip answer to them by some 1e-4 of themselves. Where a soft ring lies flat on the floor they are known from each shape
+of the rim far less well than that, and Newton's next matrix would be made of forces a thousand times too large.
+
+So N and F are unknowns of their own, as a pressure is in a body that cannot be compressed: Newton foresees them, and
+its matrix is made where the patch carries what was foreseen. For that ``elastic_0`` and ``way_0`` are moved, and a step
+moves them back: the forces that it is to balance are those of the stage's own damper as they follow from the moved
+one's and their derivatives. (Its own as they are would say of bristles that they slide, where all the patch lacks is
+the pressure to hold them.)
+"""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from rigid.kernel.compile import loop, part
+
+from .points.data import Contact, Damper, Resultants
+
+FRAME = 3  # V, h, phi, before the nodes
+NEAR = 0.1  # of 1 + N: nearer to what is foreseen than that the patch is taken as it is
+
+
+STEP = 0.01  # of 1 + N: over which forces are differentiated by the damper's move
+
+
+class Foreseen(NamedTuple):
+    """What the patch is expected to carry."""
+
+    normal: float  # 0 where nothing is known
+    friction: float
+
+
+class Moved(NamedTuple):
+    """A damper under which the patch carries what was foreseen."""
+
+    elastic: float  # how far ``elastic_0`` of the stage's own is moved
+    way: float  # and ``way_0``
+
+
+@loop
+def moved_by(damper: Damper, foreseen: Foreseen, res: Resultants) -> Moved:
+    """How a damper is to be moved so that the patch carries what was foreseen; not at all where it is near enough."""
+    elastic, way = 0.0, 0.0
+    if res.elastic == 0:
+        return Moved(elastic, way)
+    near = NEAR * (1 + abs(foreseen.normal))
+    linear = damper.pulls or (res.eta > 0 and foreseen.normal > 0)
+    if foreseen.normal != 0 and damper.relaxation > 0 and linear and abs(res.normal - foreseen.normal) > near:
+        elastic = (res.normal - foreseen.normal) / damper.relaxation
+    # a friction that is no drag has an end
+    if res.steepness > 0 and res.reach == np.inf and abs(res.friction - foreseen.friction) > near:
+        way = (foreseen.friction - res.friction) / res.steepness
+    return Moved(elastic, way)
+
+
+@loop
+def moved_damper(damper: Damper, moved: Moved, share: float) -> Damper:
+    """The damper itself, moved by a share of the whole."""
+    return Damper(
+        damper.relaxation, damper.elastic_0 + share * moved.elastic, damper.eta_0, damper.drag,
+        damper.way_0 + share * moved.way, damper.ratio, damper.rate, damper.velocity_0, damper.turning_0, damper.pulls,
+    )  # fmt: skip
+
+
+@loop
+def short_of(foreseen: Foreseen, res: Resultants) -> float:
+    """Share of the whole move, taken back, that changes the patch's forces by little; ``res`` where it is not moved."""
+    change = max(abs(res.normal - foreseen.normal), abs(res.friction - foreseen.friction))
+    return STEP * (1 + abs(foreseen.normal)) / change
+
+
+@part
+def moved_back(contact: Contact, near: Contact, share: float) -> Contact:
+    """Forces with the move taken back, after those with the whole move and with this share of it taken back."""
+    force, nodal = contact.force.copy(), contact.nodal.copy()
+    for i in range(force.shape[0]):
+        force[i] += (near.force[i] - contact.force[i]) / share
+    for i in range(nodal.shape[0]):
+        for a in range(2):
+            nodal[i, a] += (near.nodal[i, a] - contact.nodal[i, a]) / share
+    return Contact(force, nodal, contact.tangent, contact.res, contact.bristles, contact.outside)
+
+
+@loop
+def foresee(damper: Damper, moved: Moved, contact: Any, update: Any, update_u: Any) -> Foreseen:
+    """What the patch will carry after a step of Newton, which takes the damper's move back as well."""
+    res, tangent = contact.res, contact.tangent
+    normal, friction = -damper.relaxation * moved.elastic, res.steepness * moved.way
+    for i in range(FRAME + update_u.shape[0]):
+        change = update[i] if i < FRAME else update_u[i - FRAME]
+        normal += tangent[1, i] * change
+        friction += tangent[0, i] * change
+    return Foreseen(res.normal - normal, res.friction - friction) if res.elastic > 0 else Foreseen(0.0, 0.0)
+
+
+@loop
+def between(start: Foreseen, end: Foreseen, share: float) -> Foreseen:
+    """What it will carry after a share of the step from one to the other."""
+    return Foreseen(
+        start.normal + share * (end.normal - start.normal), start.friction + share * (end.friction - start.friction)
+    )
