@@ -65,7 +65,8 @@ def _forget() -> None:
     solve._interpreted_steps = 0
 
 
-def _remember() -> None:
+def remember() -> None:
+    """Make it a compiled one, as after some tenths of a second of runs."""
     solve._interpreted_steps = solve.PATIENCE
 
 
@@ -103,7 +104,7 @@ def contestants(quick: bool) -> list[Contestant]:
     for k in DISKS[:1] if quick else DISKS:
         name = f"k = {k:g}"
         entries.append(
-            Contestant("hoop-pulse", "one call, compiled", name, _ours(k), _judge_motion(k), 50, prepare=_remember)
+            Contestant("hoop-pulse", "one call, compiled", name, _ours(k), _judge_motion(k), 50, prepare=remember)
         )
         entries.append(
             Contestant("hoop-pulse", "first call, interpreted", name, _ours(k), _judge_motion(k), prepare=_forget)
@@ -128,10 +129,10 @@ def contestants(quick: bool) -> list[Contestant]:
 
 def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[float], None] | None = None) -> Result:
     """Time everyone and check what is stated."""
-    _remember()
+    remember()
     simulate(scene_of(DISKS[0]))
     rows = race(contestants(quick), 3 if quick else 7, progress)
-    _remember()
+    remember()
     count = 1_000 if quick else 10_000
     judge, name = _judge_batch(many_disks(count)), f"k = {DISKS[0]:g}"
     entries = [
