@@ -235,3 +235,18 @@ def test_a_hundred_slips_are_not_the_end():
 def test_a_smooth_whirl_has_no_turn_to_wait_for():
     motion = simulate(Scene(Hoop(0.5), Friction(0.0, 0.0), Release(0.1, 1.0), Run(turns=2)))
     assert motion.ended.startswith("slides for ever")
+
+
+@pytest.mark.parametrize("omega0", [1e-200, -1e-200, 1e-313])
+@pytest.mark.parametrize("phi0", [0.0, 1.0])
+def test_a_rate_whose_square_is_no_number_is_no_rate(monkeypatch, omega0, phi0):
+    """Interpreted, where a division by zero is an error, and compiled, what hardly turns slips like what does not."""
+    release = Release(phi0, 0.0, 0.5)
+    scene = Scene(Hoop(0.1), Friction(0.3, 0.3), release, Run(turns=2))
+    for patience in (10**9, 0):
+        monkeypatch.setattr("rigid.solve.PATIENCE", patience)
+        rest, hardly = simulate(scene), simulate(scene.replace(release={"omega0": omega0}))
+        assert kinds(hardly) == kinds(rest)
+        if phi0:  # at the top it is the sign of the rate that says where it falls
+            ends = np.array([[phase.t_end, phase.phi_end] for phase in hardly.phases])
+            assert ends == pytest.approx(np.array([[phase.t_end, phase.phi_end] for phase in rest.phases]), rel=1e-12)

@@ -101,7 +101,7 @@ def stride(par, state, mu_hat, poles, rows, events):
     at the start of a slip on a tie, where events crowd, and without friction (whose own rules are those of a series).
     """
     omega = state[OMEGA]
-    if omega == 0.0 or par[MU] == 0.0:
+    if omega * omega == 0.0 or par[MU] == 0.0:  # the square of a rate of 1e-162 is no number
         return NOT_TAKEN
     angle = trig(state[ANGLE], state[TOP])
     s, _, h, _ = angle
