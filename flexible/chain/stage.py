@@ -31,7 +31,7 @@ STALE = 0.1  # a step of Newton that leaves more than this of the forces is foll
 class Solved(NamedTuple):
     """A stage as compiled code leaves it."""
 
-    iterations: int  # Newton's; negative when it did not converge, -2 when the window was too short
+    iterations: int  # Newton's; -1 when it did not converge, -2 when it did in too short a window
     d: Any
     u: Any  # (m, 2) displacement of the window's nodes
     factors: Factors  # of Newton's last matrix
@@ -152,7 +152,7 @@ def solve_stage(
             iterations = iteration
             break
         moved, moved_before = moved_by(damper, foreseen, res), moves
-        moves, worst = moved.elastic != 0 or moved.way != 0, max(lacks.forces, lacks.nodes)
+        moves, worst = moved.elastic != 0 or moved.held != 0, max(lacks.forces, lacks.nodes)
         if moves:
             contact, back = _as_foreseen((pos[:FRAME], u, facing.rim, law, mode, before), damper, foreseen, moved, res)
             there = _misfit(touch, contact, place, (frame, force), scale)
@@ -178,6 +178,6 @@ def solve_stage(
         stands = Foreseen(contact.res.normal, contact.res.friction)
         foreseen = between(stands, foresee(damper, moved, contact, update, update_u), damping)
         move(d, u, -damping, update, update_u)
-    if contact.outside:
+    if iterations >= 0 and contact.outside:
         iterations = -2
     return Solved(iterations, d, u, factors, contact)

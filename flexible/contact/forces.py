@@ -188,7 +188,8 @@ def _touch(
     else:
         moved = dot(foundation.force, points.move) / elastic
         way = moved + dphi * dot(foundation.force, points.lifted) / elastic
-    slip = Slip(way, damper.way_0, damper.velocity_0 + damper.rate * (way - damper.way_0), damper.rate, damper.drag)
+    velocity = damper.velocity_0 + damper.rate * (way - damper.way_0)
+    slip = Slip(way, damper.way_0, velocity, damper.rate, damper.drag, damper.held)
     carry(carried, points, before.bristles, dphi, damper, slip, moved)
     answer = tractions(forces, points, foundation, carried, mode, load, slip, law)
     shared, pull = answer.shared, room.rows[PULL]

@@ -6,7 +6,7 @@ slip answer to them by some 1e-4 of themselves. Where a soft ring lies flat on t
 of the rim far less well than that, and Newton's next matrix would be made of forces a thousand times too large.
 
 So N and F are unknowns of their own, as a pressure is in a body that cannot be compressed: Newton foresees them, and
-its matrix is made where the patch carries what was foreseen. For that ``elastic_0`` and ``way_0`` are moved, and a step
+its matrix is made where the patch carries what was foreseen. For that ``elastic_0`` and ``held`` are moved, and a step
 moves them back: the forces that it is to balance are those of the stage's own damper as they follow from the moved
 one's and their derivatives. (Its own as they are would say of bristles that they slide, where all the patch lacks is
 the pressure to hold them.)
@@ -40,23 +40,23 @@ class Moved(NamedTuple):
     """A damper under which the patch carries what was foreseen."""
 
     elastic: float  # how far ``elastic_0`` of the stage's own is moved
-    way: float  # and ``way_0``
+    held: float  # and what its drag holds the patch with
 
 
 @loop
 def moved_by(damper: Damper, foreseen: Foreseen, res: Resultants) -> Moved:
     """How a damper is to be moved so that the patch carries what was foreseen; not at all where it is near enough."""
-    elastic, way = 0.0, 0.0
+    elastic, held = 0.0, 0.0
     if res.elastic == 0:
-        return Moved(elastic, way)
+        return Moved(elastic, held)
     near = NEAR * (1 + abs(foreseen.normal))
     linear = damper.pulls or (res.eta > 0 and foreseen.normal > 0)
     if foreseen.normal != 0 and damper.relaxation > 0 and linear and abs(res.normal - foreseen.normal) > near:
         elastic = (res.normal - foreseen.normal) / damper.relaxation
     # a friction that is no drag has an end
     if res.steepness > 0 and res.reach == np.inf and abs(res.friction - foreseen.friction) > near:
-        way = (foreseen.friction - res.friction) / res.steepness
-    return Moved(elastic, way)
+        held = foreseen.friction - res.friction
+    return Moved(elastic, held)
 
 
 @loop
@@ -64,7 +64,8 @@ def moved_damper(damper: Damper, moved: Moved, share: float) -> Damper:
     """The damper itself, moved by a share of the whole."""
     return Damper(
         damper.relaxation, damper.elastic_0 + share * moved.elastic, damper.eta_0, damper.drag,
-        damper.way_0 + share * moved.way, damper.ratio, damper.rate, damper.velocity_0, damper.turning_0, damper.pulls,
+        damper.way_0, damper.ratio, damper.rate, damper.velocity_0, damper.turning_0, damper.pulls,
+        damper.held + share * moved.held,
     )  # fmt: skip
 
 
@@ -91,7 +92,7 @@ def moved_back(contact: Contact, near: Contact, share: float) -> Contact:
 def foresee(damper: Damper, moved: Moved, contact: Any, update: Any, update_u: Any) -> Foreseen:
     """What the patch will carry after a step of Newton, which takes the damper's move back as well."""
     res, tangent = contact.res, contact.tangent
-    normal, friction = -damper.relaxation * moved.elastic, res.steepness * moved.way
+    normal, friction = -damper.relaxation * moved.elastic, moved.held
     for i in range(FRAME + update_u.shape[0]):
         change = update[i] if i < FRAME else update_u[i - FRAME]
         normal += tangent[1, i] * change

@@ -12,6 +12,7 @@ from .points.data import Contact, Damper, Resultants
 from .vectors import add, largest, plus, times
 
 HALVINGS = 6  # of a step of Newton that breaks a patch loose
+FEW = 0.1  # share of a patch that sticks whose breaking loose is no danger to Newton
 
 
 @part
@@ -44,9 +45,10 @@ def breaks_loose(res: Resultants, stuck: float, halved: int) -> bool:
     """Whether a step of Newton after which no point of a patch sticks, where a share of it did, is to be halved.
 
     It may pass the bristles' reach on both sides; and where all slide nothing tells where they would stick. A patch
-    that does break loose still does so after a 64th of the step.
+    that does break loose still does so after a 64th of the step. The last points to stick, at an edge, are let go at
+    once: what they pull is nothing.
     """
-    return bool(stuck > 0 and res.stuck == 0 and res.elastic > 0 and halved < HALVINGS)
+    return bool(stuck > FEW and res.stuck == 0 and res.elastic > 0 and halved < HALVINGS)
 
 
 @loop

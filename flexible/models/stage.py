@@ -19,7 +19,6 @@ from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Para
 from ..contact.vectors import largest, plus, solve_dense
 from ..ring.frame import Frame, inertia
 
-FEW = 0.1  # share of a patch that sticks whose breaking loose is no danger to Newton
 MOST_POINTS = 5000  # to a patch, forty times as wide as under the weight or more: 1e5 weights are no solution
 
 
@@ -155,8 +154,7 @@ def solve_stage(
             move(d, u, damping * (1 - share), update[:m], update[m:])
             damping *= share
             continue
-        # not for the last point to stick, at an edge, again and again: what it pulls is nothing
-        way, reach, stuck = res.way, res.reach, res.stuck if res.stuck > FEW else 0.0
+        way, reach, stuck = res.way, res.reach, res.stuck
         own, own_tangent = inertia(frame, pos, vel, acc, predictor.beta)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
         _misfit(residual, own, contact, window, pos, u, scale)

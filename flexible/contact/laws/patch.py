@@ -47,7 +47,7 @@ def _stick(forces: Any, points: Any, carried: Any, load: Any, slip: Any, law: An
             behind = i + 1 < total and not points.last[i] and points.gap[i + 1] < 0
             forces.keeps[i] = before or behind
     dragging = load.elastic > 0 and slip.drag > 0
-    drag = -slip.drag * (slip.way - slip.way_0) if dragging else 0.0
+    drag = slip.held - slip.drag * (slip.way - slip.way_0) if dragging else 0.0
     shared = Shared(dragging, drag, -slip.drag if dragging else 0.0, 0.0, drag, np.inf)
     return Tractions(shared, energy, stuck, 0.0)
 

@@ -59,8 +59,8 @@ class Damper(NamedTuple):
     unless the damper ``pulls``: a floor does not, but Newton without that bound meets no bend in N, see
     :func:`pulling`.
     With x the mean way of the patch in the step, its slip velocity at the end of the stage is ``velocity_0`` + ``rate``
-    (x - ``way_0``); a damped patch that sticks drags with -``drag`` (x - ``way_0``), shared like the pressure. The hoop
-    turns by dphi, at the end with ``turning_0`` + ``ratio`` dphi over the stage's length.
+    (x - ``way_0``); a damped patch that sticks drags with ``held`` - ``drag`` (x - ``way_0``), shared like the pressure.
+    The hoop turns by dphi, at the end with ``turning_0`` + ``ratio`` dphi over the stage's length.
     """
 
     relaxation: float  # the damper's time over the stage's beta
@@ -73,6 +73,7 @@ class Damper(NamedTuple):
     velocity_0: float
     turning_0: float = 0.0  # end rate of phi, over the stage's length, if the hoop had not turned
     pulls: bool = False
+    held: float = 0.0  # nothing but on the way of Newton, see :mod:`flexible.contact.foreseen`
 
 
 UNDAMPED = Damper(0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
@@ -94,6 +95,7 @@ class Slip(NamedTuple):
     velocity: float
     rate: float  # derivative of the velocity by the way
     drag: float  # of a sticking patch
+    held: float  # the force of the drag at ``way_0``
 
 
 class PointForces(NamedTuple):
@@ -174,7 +176,7 @@ def pulling(damper: Damper, pulls: bool) -> Damper:
     """
     return Damper(
         damper.relaxation, damper.elastic_0, damper.eta_0, damper.drag, damper.way_0, damper.ratio, damper.rate,
-        damper.velocity_0, damper.turning_0, pulls,
+        damper.velocity_0, damper.turning_0, pulls, damper.held,
     )  # fmt: skip
 
 
