@@ -24,7 +24,8 @@ from .rim import follow
 from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
 from .whole import balance, sections, tangent
 
-GROWS = 100.0  # a step of Newton after which the forces are off by this many times as much is taken back to a tenth
+GROWS = 3.0  # a step of Newton after which the forces are off by this many times as much is taken back to
+BACK = 0.3  # of itself
 STALE = 0.1  # a step of Newton that leaves more than this of the forces is followed by a new matrix of the chain
 
 
@@ -162,9 +163,9 @@ def solve_stage(
                 np.inf
             )  # of another damper, or off the floor: what lands too deep comes up, what is taken back is off
         if worst > GROWS * last and damping > 1e-9:  # beyond a bend, the damper's onset for one
-            move(d, u, 0.9 * damping, update, update_u)
-            damping *= 0.1
-            foreseen = between(stands, foreseen, 0.1)
+            move(d, u, (1 - BACK) * damping, update, update_u)
+            damping *= BACK
+            foreseen = between(stands, foreseen, BACK)
             continue
         if stale or (iteration > 1 and worst > STALE * last):
             factors = factor(tangent(chain, pos, vel, acc, predictor.beta), keeps, 2 * m)

@@ -135,12 +135,21 @@ def edge_of_patch(g_in: float, g_out: float, inner: float) -> tuple[float, float
 
     The gap is the parabola through the points before, at and behind the edge. A straight line would misplace the edge
     by up to an eighth of a cell's share of the patch, in a rhythm with the points, and there the bristles pull most.
+    Where the ``inner`` point is less deep than the one at the edge, a patch of two points or one, the parabola is the
+    less bent the less deep it is: the second root of that of a single point is somewhere in the next cell still as the
+    point leaves the floor, and what lay between would let go all at once.
     """
     bend = (g_out - 2 * g_in + inner) / 2
-    rise = g_out - g_in - bend
-    slope = sqrt(rise * rise - 4 * bend * g_in)
+    share = min(max(inner / g_in, 0.0), 1.0)
+    rise = g_out - g_in - share * bend
+    slope = sqrt(rise * rise - 4 * share * bend * g_in)
     f = -2 * g_in / (rise + slope)
-    return f, -(1 - f) * (1 + f) / slope, -f * (1 + f) / 2 / slope, f * (1 - f) / 2 / slope
+    over = f * (1 - f) / slope  # derivative by how much the gap is bent
+    by_in, by_out, by_inner = -(1 - f) / slope - over * share, over * share / 2 - f / slope, over * share / 2
+    if 0 < share < 1:
+        by_in -= over * bend * share / g_in
+        by_inner += over * bend / g_in
+    return f, by_in, by_out, by_inner
 
 
 @loop
