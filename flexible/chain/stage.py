@@ -24,8 +24,7 @@ from .rim import follow
 from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
 from .whole import balance, sections, tangent
 
-GROWS = 3.0  # a step of Newton after which the forces are off by this many times as much is taken back to
-BACK = 0.3  # of itself
+GROWS = 3.0  # a step of Newton after which the forces are off by this many times as much is taken back to a half
 STALE = 0.1  # a step of Newton that leaves more than this of the forces is followed by a new matrix of the chain
 
 
@@ -138,7 +137,7 @@ def solve_stage(
             damping *= share
             foreseen = between(stands, foreseen, share)
             continue
-        way, reach, stuck, halved = res.way, res.reach, res.stuck, 0
+        way, reach, halved = res.way, res.reach, 0
         q, frame, force = balance(chain, pos, vel, acc)
         touch = touch_of(rod, q, facing, place, inner, u)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
@@ -163,9 +162,9 @@ def solve_stage(
                 np.inf
             )  # of another damper, or off the floor: what lands too deep comes up, what is taken back is off
         if worst > GROWS * last and damping > 1e-9:  # beyond a bend, the damper's onset for one
-            move(d, u, (1 - BACK) * damping, update, update_u)
-            damping *= BACK
-            foreseen = between(stands, foreseen, BACK)
+            move(d, u, 0.5 * damping, update, update_u)
+            damping *= 0.5
+            foreseen = between(stands, foreseen, 0.5)
             continue
         if stale or (iteration > 1 and worst > STALE * last):
             factors = factor(tangent(chain, pos, vel, acc, predictor.beta), keeps, 2 * m)
@@ -176,7 +175,7 @@ def solve_stage(
             break
         damping = 0.5 if iteration > 3 and worst > last else 1.0
         last = worst
-        stands = Foreseen(contact.res.normal, contact.res.friction)
+        stands, stuck = Foreseen(contact.res.normal, contact.res.friction), contact.res.stuck
         foreseen = between(stands, foresee(damper, moved, contact, update, update_u), damping)
         move(d, u, -damping, update, update_u)
     if iterations >= 0 and contact.outside:

@@ -56,7 +56,7 @@ def round_off(contact: Contact, height: float, u: Any, scale: float, damper: Dam
     """Size of the rounding errors in the contact's forces: of the gap's, of the damping factor's, of the slip's."""
     res = contact.res
     gap = 4e-16 * scale * (abs(height) + largest(u))
-    floor = (damper.relaxation + 1) * (gap + 1e-14 * res.elastic)
+    floor = (damper.relaxation + damper.eta_0) * (gap + 1e-14 * res.elastic)
     return floor + 1e-15 * max(damper.drag, res.steepness) * (abs(res.way) + abs(damper.way_0))
 
 

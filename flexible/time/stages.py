@@ -181,7 +181,7 @@ def _posed(old: Any, h: float, table: Table, known: _Known, i: int, damping: Any
     turning = table.c[i] * (h * vel[2] - (pos[2] - old.pos[2]) / table.gamma)
     drag = damping[1] * _widening(old, table.c[i] * h) / beta
     damper = Damper(
-        damping[0] / beta, elastic, 1.0, drag, way, table.c[i] / table.gamma, 1 / beta, 0.0, turning, False
+        damping[0] / beta, elastic, 1.0, drag, way, table.c[i] / table.gamma, 1 / beta, 0.0, turning, False, 0.0
     )  # fmt: skip
     return Predictor(pos, vel, beta, times(beta**2, _expected(table, known.acc, i))), damper
 
@@ -190,7 +190,7 @@ def _posed(old: Any, h: float, table: Table, known: _Known, i: int, damping: Any
 def _at_once(old: Any, known: _Known) -> tuple[Predictor, Damper]:
     """The same of a step of no length: rates stay what they are."""
     eta = old.res.eta if old.res.elastic > 0 else 1.0
-    damper = Damper(0.0, 0.0, eta, 0.0, 0.0, 1.0, 0.0, old.slip_velocity, 0.0, False)
+    damper = Damper(0.0, 0.0, eta, 0.0, 0.0, 1.0, 0.0, old.slip_velocity, 0.0, False, 0.0)
     return Predictor(known.pos[0].copy(), known.vel[0].copy(), INSTANT, times(INSTANT**2, known.acc[0])), damper
 
 
