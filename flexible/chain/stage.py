@@ -11,21 +11,38 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit, part
+from rigid.kernel.compile import jit, part, written_out
 
 from ..contact.forces import contact_forces
 from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by, moved_damper, short_of
 from ..contact.guess import GUESSES, guess_again
 from ..contact.newton import breaks_loose, move, reached, round_off, share_before_bend
-from ..contact.points.data import MOST_ITERATIONS, pulling
-from ..contact.vectors import largest
+from ..contact.points.data import MOST_ITERATIONS, Before, Parameters, Rim, pulling
+from ..contact.points.rim import window_around
+from ..contact.vectors import largest, plus, times
 from .bordered import FRAME, Factors, factor, nothing_factored, solve
-from .rim import follow
+from .inertia import Chain
+from .rim import RimNodes, follow
 from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
-from .whole import balance, sections, tangent
+from .whole import balance, lacking, moved, near_floor, reach, sections, tangent
 
 GROWS = 3.0  # a step of Newton after which the forces are off by this many times as much is taken back to a half
 STALE = 0.1  # a step of Newton that leaves more than this of the forces is followed by a new matrix of the chain
+
+
+class Arrays(NamedTuple):
+    """A hoop whose ring is a chain, in compiled code."""
+
+    chain: Chain
+    nodes: RimNodes  # of the whole rim
+    missing: Any  # (2 n_rim, 2 n_rim) compliance that the chain lacks
+    slow: Any  # (k, 3 n) momenta of the slow vibrations of a rate of the sections
+    vertex: Any  # (n_elements,) angles at which rim elements begin
+    theta: Any  # (n_rim,) angles of rim nodes
+    element: float  # mean length of one
+    law: Parameters
+    tolerance: float  # of Newton
+    looked: Any  # (2,) angles between which the first stage of a step has looked for the floor
 
 
 class Solved(NamedTuple):
@@ -181,3 +198,69 @@ def solve_stage(
     if iterations >= 0 and contact.outside:
         iterations = -2
     return Solved(iterations, d, u, factors, contact)
+
+
+class Stage(NamedTuple):
+    """See :class:`flexible.models.stage.Stage`."""
+
+    ok: bool
+    d: Any
+    acc: Any
+    matrix: Factors
+    window: Any
+    u: Any
+    nodal: Any
+    res: Any
+    bristles: Any
+
+
+def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, near: Any, first: bool) -> Stage:
+    """See ``stage`` of :class:`flexible.models.state.Model`."""
+    massless, vertex = arrays.chain.body.ring_mass == 0, arrays.vertex
+    if massless:  # no inertia to go by: from where the ring was
+        for i in range(FRAME, old.pos.shape[0]):
+            predictor.guess[i] = old.pos[i] - predictor.pos[i]
+    expected = plus(predictor.pos, 1.0, predictor.guess)
+    looked = arrays.looked  # both stages of a step look where the first one does
+    if first:
+        low, high = reach(arrays, expected)
+        if old.res.normal > 0:
+            low, high = min(low, old.res.low), max(high, old.res.high)
+        looked[0], looked[1] = low, high
+    margin = 0.3 * (looked[1] - looked[0]) + 0.1 * arrays.element
+    found = Stage(
+        False, expected, expected, nothing_factored(), old.window, old.u, old.nodal, old.res, old.bristles
+    )  # fmt: skip
+    for _ in range(4):
+        window = window_around(vertex, expected[2], looked[0], looked[1], margin)
+        u_old, beyond = moved(arrays, old, window)
+        number, nodes = near_floor(arrays, window)
+        facing = Facing(Rim(window[0], vertex), nodes, lacking(arrays.missing, number, number))
+        begins = beyond, Foreseen(old.res.normal, old.res.friction), arrays.tolerance
+        before = Before(old.pos[:FRAME], u_old, old.bristles)
+        answer = solve_stage(arrays.chain, facing, arrays.law, mode, before, damper, predictor, begins)
+        contact, d = answer.contact, answer.d
+        acc = times(1 / predictor.beta**2, d)
+        if massless:
+            acc[FRAME:] = 0.0
+        found = Stage(
+            False, d, acc, answer.factors, window, answer.u, contact.nodal, contact.res, contact.bristles
+        )  # fmt: skip
+        if answer.iterations == -2:
+            margin = 2 * margin + arrays.element
+            continue
+        if answer.iterations < 0:
+            break
+        # a soft ring bulges: in a long step another part of it may have come down
+        at = plus(predictor.pos, 1.0, d)
+        lower, higher = reach(arrays, at)
+        begin, count = window_around(vertex, at[2], lower, higher, 0.0)
+        if window[0] <= begin and begin + count <= window[0] + window[1]:
+            return Stage(
+                True, d, acc, answer.factors, window, answer.u, contact.nodal, contact.res, contact.bristles
+            )  # fmt: skip
+        looked[0], looked[1] = min(looked[0], lower), max(looked[1], higher)
+    return found
+
+
+solved, solved_in_step = jit(_solved), written_out(_solved)

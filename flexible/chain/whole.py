@@ -1,4 +1,7 @@
-"""Frame and chain as one vector (V, h, phi, then u1, u2 and the rotation of each free section in turn)."""
+"""Frame and chain as one vector (V, h, phi, then u1, u2 and the rotation of each free section in turn).
+
+And what stands with it: energies, forces, the rim.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel.compile import jit, written_out
+from rigid.kernel.compile import jit, part, written_out
 
-from ..contact.vectors import times
+from ..contact.vectors import largest, times
 from .bordered import FRAME, no_blocks, solve
 from .corotated import elastic, elastic_tangent, strain_energy
 from .inertia import energies, inertia, inertia_tangent, momenta
+from .rim import RimNodes, follow
+from .touch import lowest, turned
 
 
 @jit
@@ -62,3 +67,89 @@ def passed_on(factors: Any, chain: Any, pos: Any, error: Any, beta: float) -> An
     rest = np.zeros(factors.core.shape[0] - FRAME - 3 * factors.kept.shape[0])
     rate = solve(factors, frame, force, rest)[0]
     return times(1 / beta**2, rate)
+
+
+@part
+def floor_forces(arrays: Any, pos: Any, vel: Any, acc: Any) -> Any:
+    """Forces of the floor on all coordinates that go with these accelerations."""
+    _, frame, force = balance(arrays.chain, pos, vel, acc)
+    whole = np.empty(pos.shape[0])
+    for i in range(whole.shape[0]):
+        whole[i] = frame[i] if i < FRAME else force[i // 3, i % 3]
+    return whole
+
+
+@part
+def held_by(arrays: Any, pos: Any, vel: Any) -> tuple[float, float, float]:
+    """What the coordinates hold by themselves, see :class:`flexible.models.state.Model`."""
+    return held(arrays.chain, pos, vel)
+
+
+@part
+def momentum_error(arrays: Any, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any) -> float:
+    """Size of an ``error`` in the velocities, see :class:`flexible.models.state.Model`.
+
+    Of the ring that of the slow vibrations: steps do not follow the fast.
+    """
+    rate, slow = passed_on(matrix, arrays.chain, pos, error, beta), arrays.slow
+    ringing = 0.0
+    for i in range(slow.shape[0]):
+        momentum = 0.0
+        for k in range(slow.shape[1]):
+            momentum += slow[i, k] * rate[FRAME + k]
+        ringing = max(ringing, abs(momentum))
+    ringing /= (1 + arrays.chain.body.ring_mass) ** 0.5
+    return max(largest(rate[1:FRAME]), abs(rate[0] + rate[2]), ringing)
+
+
+@part
+def near_floor(arrays: Any, window: tuple[int, int]) -> tuple[Any, RimNodes]:
+    """Rim nodes of a window: their numbers, and what they follow."""
+    count, every = 2 * window[1] + 1, arrays.nodes
+    number, at = np.empty(count, np.int64), np.empty(count, np.int64)
+    xi, root = np.empty(count), np.empty((count, 2, 6))
+    for k in range(count):
+        number[k] = (2 * window[0] + k) % arrays.theta.shape[0]
+        at[k], xi[k] = every.part[number[k]], every.xi[number[k]]
+        for a in range(2):
+            for i in range(6):
+                root[k, a, i] = every.root[number[k], a, i]
+    return number, RimNodes(at, xi, root)
+
+
+@part
+def lacking(missing: Any, rows: Any, columns: Any) -> Any:
+    """Compliance between rim nodes that the chain lacks, (2 rows, 2 columns)."""
+    block = np.empty((2 * rows.shape[0], 2 * columns.shape[0]))
+    for i in range(block.shape[0]):
+        for j in range(block.shape[1]):
+            block[i, j] = missing[2 * rows[i // 2] + i % 2, 2 * columns[j // 2] + j % 2]
+    return block
+
+
+@jit
+def moved(arrays: Any, old: Any, window: tuple[int, int]) -> tuple[Any, Any]:
+    """Displacement of the rim nodes of a window at a known state, and what of it the sections do not account for."""
+    rod, q = arrays.chain.rod, sections(old.pos)
+    here, nodes = near_floor(arrays, window)
+    u, _, turn = follow(rod, q, nodes)
+    beyond = np.zeros(u.shape)
+    if window == old.window:
+        for i in range(u.shape[0]):
+            for a in range(2):
+                beyond[i, a] = old.u[i, a] - u[i, a]
+        return old.u, beyond
+    if old.res.normal != 0:
+        there, nodes = near_floor(arrays, old.window)
+        gives = turned(lacking(arrays.missing, here, there), turn, follow(rod, q, nodes)[2])
+        for i in range(gives.shape[0]):
+            for j in range(gives.shape[1]):
+                beyond[i // 2, i % 2] += gives[i, j] * old.nodal[j // 2, j % 2]
+            u[i // 2, i % 2] += beyond[i // 2, i % 2]
+    return u, beyond
+
+
+@part
+def reach(arrays: Any, pos: Any) -> tuple[float, float]:
+    """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is."""
+    return lowest(arrays.chain.rod, sections(pos), arrays.nodes, arrays.theta, pos[2], pos[1])

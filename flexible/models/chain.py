@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
@@ -13,13 +15,12 @@ from ..chain.bordered import Factors
 from ..chain.corotated import elastic
 from ..chain.rim import follow
 from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
-from ..chain.stage import solve_stage
-from ..chain.touch import Facing, lowest, turned
-from ..chain.whole import balance, held, passed_on, sections
-from ..contact.foreseen import Foreseen
-from ..contact.points.data import Before, Damper, Rim
-from ..contact.vectors import largest
+from ..chain.stage import Arrays, solved
+from ..chain.touch import turned
+from ..chain.whole import floor_forces, held, momentum_error, moved
+from ..contact.points.data import Damper
 from ..ring.fem import ring_of
+from .reduced import start_of
 from .rim_contact import RimContact
 from .stage import Predictor, Stage
 from .state import Energies, State
@@ -60,8 +61,6 @@ class ChainHoop(RimContact):
         parts = scene.solve.elements // PER_PART if parts is None else parts
         self.ring = ChainRing(scene, ring_of(scene, through), parts)
         super().__init__(scene, self.ring.vertex, points, tolerance)
-        self._missing: dict[Window, Array] = {}
-        self._looked = (0.0, 0.0)
         rod = self.ring.chain.rod
         mass = np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1].ravel()
         #: momenta of the slow vibrations, by which steps are chosen, of a rate of the sections
@@ -74,36 +73,23 @@ class ChainHoop(RimContact):
         """Number of coordinates of the ring in ``State.pos``."""
         return 3 * self.ring.sections
 
-    def _lacking(self, window: Window) -> Array:
-        """Compliance of the rim nodes of a window that the chain lacks."""
-        key = (window[0] % len(self.vertex), window[1])
-        if key not in self._missing:
-            number = self.ring.window(*key)[0]
-            self._missing[key] = self.ring.missing(number, number)
-        return self._missing[key]
+    @cached_property
+    def arrays(self) -> Arrays:
+        """What the compiled step takes."""
+        ring, every = self.ring, np.arange(len(self._rim_theta))
+        return Arrays(
+            ring.chain, ring.nodes, ring.missing(every, every), self._slow, self.vertex, self._rim_theta, self.element,
+            self.law.parameters, self.tolerance, np.zeros(2),
+        )  # fmt: skip
 
     def displacement(self, state: State, window: Window) -> Array:
         """Displacement of the rim nodes of a window."""
-        return state.u if window == state.window else self._beyond(state, window)[0]
+        return state.u if window == state.window else self._moved(state, window)[0]
 
-    def _beyond(self, state: State, window: Window) -> tuple[Array, Array]:
+    def _moved(self, state: State, window: Window) -> tuple[Array, Array]:
         """Displacement of the rim nodes of a window, and what of it the sections do not account for."""
-        ring, q = self.ring, sections(state.pos)
-        here, nodes = ring.window(*window)
-        moved, _, turn = follow(ring.chain.rod, q, nodes)
-        if window == state.window:
-            return state.u, state.u - moved
-        if state.res.normal == 0:
-            return moved, np.zeros_like(moved)
-        there, nodes = ring.window(*state.window)
-        turn_there = follow(ring.chain.rod, q, nodes)[2]
-        gives = (turned(ring.missing(here, there), turn, turn_there) @ state.nodal.ravel()).reshape(-1, 2)
-        return moved + gives, gives
-
-    def _reach(self, pos: Array) -> tuple[float, float]:
-        """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is."""
-        ring = self.ring
-        return lowest(ring.chain.rod, sections(pos), ring.nodes, self._rim_theta, float(pos[2]), float(pos[1]))
+        u, beyond = moved(self.arrays, start_of(state), window)
+        return u, beyond
 
     def stage(
         self,
@@ -115,53 +101,13 @@ class ChainHoop(RimContact):
         first: bool,
     ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
-        ring = self.ring
-        massless = ring.chain.body.ring_mass == 0
-        if massless:  # no inertia to go by: from where the ring was
-            guess = predictor.guess.copy()
-            guess[3:] = old.pos[3:] - predictor.pos[3:]
-            predictor = predictor._replace(guess=guess)
-        expected = predictor.pos + predictor.guess
-        if first:
-            low, high = self._reach(expected)
-            if old.res.normal > 0:
-                low, high = min(low, old.res.low), max(high, old.res.high)
-            self._looked = low, high
-        low, high = self._looked  # both stages of a step look where the first one does
-        margin = 0.3 * (high - low) + 0.1 * self.element
-        for _ in range(4):
-            window = self.window(float(expected[2]), low, high, margin)
-            u_old, beyond = self._beyond(old, window)
-            facing = Facing(Rim(window[0], ring.vertex), ring.window(*window)[1], self._lacking(window))
-            before = Before(old.pos[:3], u_old, old.bristles)
-            begins = beyond, Foreseen(float(old.res.normal), float(old.res.friction)), self.tolerance
-            iterations, d, u, factors, contact = solve_stage(
-                ring.chain, facing, self.law.parameters, mode, before, damper, predictor, begins
-            )
-            if iterations == -2:
-                margin = 2 * margin + self.element
-                continue
-            if iterations < 0:
-                break
-            # a soft ring bulges: in a long step another part of it may have come down
-            at = predictor.pos + d
-            lower, higher = self._reach(at)
-            begin, count = self.window(float(at[2]), lower, higher, 0.0)
-            if window[0] <= begin and begin + count <= window[0] + window[1]:
-                break
-            low, high = self._looked = min(low, lower), max(high, higher)
-        else:  # whatever came out leaves a part of the rim below the floor
-            iterations = -2
-        acc = d / predictor.beta**2
-        if massless:
-            acc[3:] = 0.0
-        return Stage(iterations >= 0, d, acc, factors, window, u, contact.nodal, contact.res, contact.bristles)
+        return Stage(*solved(self.arrays, start_of(old), mode, damper, predictor, near, first))
 
     def energies(self, state: State, held: Energies | None = None) -> Energies:
         """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
         kinetic, gravity, strain = held or self.held(state.pos, state.vel)
         if state.res.normal > 0:
-            strain += float((state.nodal * self._beyond(state, state.window)[1]).sum()) / 2
+            strain += float((state.nodal * self._moved(state, state.window)[1]).sum()) / 2
         return kinetic, gravity, strain
 
     def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:
@@ -171,15 +117,12 @@ class ChainHoop(RimContact):
 
     def forces(self, pos: Array, vel: Array, acc: Array) -> Array:
         """See :class:`flexible.models.state.Model`."""
-        _, frame, force = balance(self.ring.chain, pos, vel, acc)
-        return np.concatenate([frame, force[1:-1].ravel()])
+        force: Array = floor_forces(self.arrays, pos, vel, acc)
+        return force
 
     def error(self, pos: Array, vel: Array, acc: Array, beta: float, matrix: Factors, error: Array) -> float:
-        """See :class:`flexible.models.state.Model`; of the ring, the slow vibrations: steps do not follow the fast."""
-        chain = self.ring.chain
-        rate = passed_on(matrix, chain, pos, error, beta)
-        slow = np.abs(self._slow @ rate[3:]).max(initial=0.0) / (1 + chain.body.ring_mass) ** 0.5
-        return float(largest(np.array([rate[0] + rate[2], rate[1], rate[2], slow])))
+        """See :class:`flexible.models.state.Model`."""
+        return float(momentum_error(self.arrays, pos, vel, acc, beta, matrix, error))
 
     def resting(self, omega: float, alpha: float, a1: float, a2: float) -> RestingChain:
         """The ring at rest in a frame with these rates and this acceleration of C, gravity included."""

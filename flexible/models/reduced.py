@@ -13,12 +13,12 @@ from rigid.kernel.compile import jit, loop, part, written_out
 
 from ..contact.points.data import Before, Bristles, Damper, Parameters, Resultants
 from ..contact.points.data import Rim as NearFloor
-from ..contact.points.rim import below_floor
+from ..contact.points.rim import below_floor, window_around
 from ..contact.vectors import largest, plus
 from ..ring.frame import Frame, energies, inertia
 from ..ring.reduction import ReducedRing, Rim, is_known, reduce, residual, window_dofs
 from .equilibrium import RestingModes
-from .rim_contact import RimContact, window_around
+from .rim_contact import RimContact
 from .stage import Predictor, Stage, Window, filtered_error, solve_stage
 from .state import Energies, State
 

@@ -6,7 +6,6 @@ from math import ceil, pi
 from typing import Any
 
 import numpy as np
-from numba.extending import register_jitable
 from numpy.typing import NDArray
 
 from rigid import Scene
@@ -14,7 +13,7 @@ from rigid import Scene
 from ..contact.laws.law import Law
 from ..contact.laws.listing import LAWS
 from ..contact.points.data import Parameters
-from ..contact.points.rim import below_floor, element_at
+from ..contact.points.rim import below_floor, window_around
 from .state import State
 
 Array = NDArray[np.float64]
@@ -69,15 +68,6 @@ def relaxation_time(scene: Scene) -> float:
     foundation the ratio elsewhere is zeta (N/(M g))^(1/6) sqrt(1 + (e sin phi)^2/K).
     """
     return 2 * scene.contact.damping * ((1 + scene.hoop.mass_ratio) / patch_stiffness(scene)) ** 0.5
-
-
-@register_jitable
-def window_around(vertex: Any, phi: float, low: float, high: float, margin: float) -> tuple[int, int]:
-    """First rim element and number of elements of the part ``low`` to ``high`` (angles from the bottom)."""
-    theta = pi - phi
-    first = element_at(vertex, theta + low - margin)
-    last = element_at(vertex, theta + high + margin)
-    return first, last - first + 1
 
 
 class RimContact:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..models.reduced import start_of
 from ..models.state import Energies, Model, State
 from .methods import ESDIRK3, Method
-from .stages import Taken, take, take_compiled
+from .stages import COMPILED, Taken, take
 
 Array = NDArray[np.float64]
 
@@ -60,7 +60,7 @@ def _taken(model: Model, old: State, h: float, method: Method) -> Taken | None:
             if model.arrays is None:
                 taken = take(model, old, h, method.table, damping)
             else:
-                taken = take_compiled(model.arrays, start_of(old), h, method.table, damping)
+                taken = COMPILED[type(model.arrays)](model.arrays, start_of(old), h, method.table, damping)
         except np.linalg.LinAlgError:
             return None
         if taken.ok:

@@ -59,8 +59,8 @@ class Damper(NamedTuple):
     unless the damper ``pulls``: a floor does not, but Newton without that bound meets no bend in N, see
     :func:`pulling`.
     With x the mean way of the patch in the step, its slip velocity at the end of the stage is ``velocity_0`` + ``rate``
-    (x - ``way_0``); a damped patch that sticks drags with ``held`` - ``drag`` (x - ``way_0``), shared like the pressure.
-    The hoop turns by dphi, at the end with ``turning_0`` + ``ratio`` dphi over the stage's length.
+    (x - ``way_0``); a damped patch that sticks drags with ``held`` - ``drag`` (x - ``way_0``), shared like the
+    pressure. The hoop turns by dphi, at the end with ``turning_0`` + ``ratio`` dphi over the stage's length.
     """
 
     relaxation: float  # the damper's time over the stage's beta

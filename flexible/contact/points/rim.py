@@ -89,3 +89,12 @@ def below_floor(theta: Any, phi: float, height: float, moved: Any) -> tuple[floa
         if gap[i] <= deepest:
             low, high = min(low, psi[i]), max(high, psi[i])
     return low, high
+
+
+@register_jitable
+def window_around(vertex: Any, phi: float, low: float, high: float, margin: float) -> tuple[int, int]:
+    """First rim element and number of elements of the part ``low`` to ``high`` (angles from the bottom)."""
+    theta = pi - phi
+    first = element_at(vertex, theta + low - margin)
+    last = element_at(vertex, theta + high + margin)
+    return first, last - first + 1

@@ -6,23 +6,24 @@ from scenes import HOOP, flying
 
 import rigid
 from flexible.handover import hand_over
+from flexible.models.chain import ChainHoop
 from flexible.models.reduced import ReducedHoop, start_of
 from flexible.ring.fem import COLUMNS
 from flexible.time.methods import METHODS
-from flexible.time.stages import take, take_compiled
+from flexible.time.stages import COMPILED, take
 from flexible.time.step import attempt
 
 
-def rolling(scene):
+def rolling(scene, level=ReducedHoop):
     """The hoop in the equilibrium of its release, at the bottom of a swing."""
-    hoop = ReducedHoop(scene)
+    hoop = level(scene)
     return hoop, hand_over(hoop, rigid.simulate(scene), 0.0)
 
 
 def both(hoop, state, h, method):
     damping = hoop.relaxation, hoop.patch_damping(state)
     by_python = take(hoop, state, h, METHODS[method].table, damping)
-    return by_python, take_compiled(hoop.arrays, start_of(state), h, METHODS[method].table, damping)
+    return by_python, COMPILED[type(hoop.arrays)](hoop.arrays, start_of(state), h, METHODS[method].table, damping)
 
 
 def agree(one, other, tolerance):
@@ -49,6 +50,21 @@ def test_a_step_on_the_floor(law, mass_ratio, method):
     )  # fmt: skip
     hoop, state = rolling(scene)
     one, other = both(hoop, state, 1e-3, method)
+    assert one.ok
+    assert one.res.normal > 0
+    agree(one, other, 1e-7)
+
+
+@pytest.mark.parametrize("law", ["patch", "brush"])
+@pytest.mark.parametrize("mass_ratio", [0.0, 0.1])
+def test_a_step_of_a_chain(law, mass_ratio):
+    """As above, of a soft ring."""
+    scene = HOOP.replace(
+        release={"phi0": 1.5, "omega0": 1.0}, hoop={"mass_ratio": mass_ratio}, contact={"law": law, "damping": 1.0},
+        ring={"bending_stiffness": 5.0},
+    )  # fmt: skip
+    hoop, state = rolling(scene, ChainHoop)
+    one, other = both(hoop, state, 1e-3, "esdirk3")
     assert one.ok
     assert one.res.normal > 0
     agree(one, other, 1e-7)
