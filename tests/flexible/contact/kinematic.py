@@ -33,9 +33,9 @@ class Floor:
         before = Before(self.pose, flat, self.bristles)
         return contact_forces(pose, flat, rim, self.law, self.mode, before, damper, True)
 
-    def move(self, dv, dphi, damper=UNDAMPED):
+    def move(self, dv, dphi, damper=UNDAMPED, rise=0.0):
         """One step; returns the resultants."""
-        pose = self.pose + np.array([dv, 0.0, dphi])
+        pose = self.pose + np.array([dv, rise, dphi])
         self.result = self._forces(pose, damper)
         self.bristles = self.result.bristles
         self.pose = np.array([0.0, pose[1], pose[2]])
