@@ -97,6 +97,7 @@ class HopStudy:
                     continue
                 row: dict[str, Any] = {} if self.second is None else {self.second: line.value}
                 row |= line.threshold(where).to_dict()
+                row["phi"] = line.angles(where)
                 row["omega_1_t"] = line.turning(where)
                 row["times_duration_squared"] = line.times_duration(where)
                 row["at_a_third_of_the_tolerance"] = line.holds(where)
@@ -106,6 +107,7 @@ class HopStudy:
         return {
             "scene": scene_to_dict(self.scene),
             "over": [STIFFNESS, *([self.second] if self.second else [])],
+            "rtol": self.lines[0].scene.solve.rtol,
             "cases": [case.to_dict() for case in self.cases],
             "threshold": threshold,
         }
