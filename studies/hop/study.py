@@ -16,6 +16,7 @@ from ..running.runs import run_cases
 from ..running.workers import Here, Pool
 from .rolling.roll import SOLVER, STIFFNESS, WHOLE, Ask, HopMap
 from .rolling.rule import DECADE
+from .rolling.scaling import foreseen
 from .rolling.threshold import TOLD, WHERE, HopCase, Line, windows
 
 if TYPE_CHECKING:
@@ -98,6 +99,8 @@ class HopStudy:
                 row: dict[str, Any] = {} if self.second is None else {self.second: line.value}
                 row |= line.threshold(where).to_dict()
                 row["phi"] = line.angles(where)
+                if where == "anywhere":
+                    row["foreseen"] = foreseen(line.scene)
                 row["omega_1_t"] = line.turning(where)
                 row["times_duration_squared"] = line.times_duration(where)
                 row["at_a_third_of_the_tolerance"] = line.holds(where)

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..plots.sheet import Column, Sheet, number
 from .rolling.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG
+from .rolling.scaling import foreseen
 from .rolling.threshold import SYMBOL, Bracket, HopCase, Line, rigid_hops
 from .study import HopStudy
 
@@ -141,6 +142,8 @@ def threshold_sheet(study: HopStudy) -> Sheet:
             Column("rule over\na decade", ["-" if line is None else _span(line, where) for line in lines], joined=True),
             Column("rtol/3\nagrees", ["-" if line is None else _yes(line.holds(where)) for line in lines], joined=True),
         ]
+        if where == "anywhere":
+            columns.append(Column("fore-\nseen", [_number(foreseen(line.scene)) for line in study.lines], joined=True))
     return Sheet(f"{SYMBOL} below which the hoop hops (hops at the first, not at the second)", keys, columns)
 
 
@@ -154,6 +157,10 @@ def _middle(found: Bracket) -> str:
     if found.value is not None:
         return number(found.value, 3)
     return "none" if found.low == 0 else f">{number(found.low, 3)}"
+
+
+def _number(value: float | None) -> str:
+    return "-" if value is None else number(value, 3)
 
 
 def _yes(holds: bool | None) -> str:
@@ -242,6 +249,11 @@ def _suddenness(study: HopStudy) -> list[str]:
         said.append(
             f"ω₁t* is {turning} there: ω₁ the slowest vibration of the ring about its weld, exp(-ω₁t*) how much of it "
             "is in the pulse of the rigid hoop."
+        )
+    if any(foreseen(line.scene) for line in study.lines):
+        said.append(
+            "Foreseen, for k up to 0.2, is where the vibration that the pulse leaves exceeds the least N of the rigid "
+            "hoop behind it: ω_s t* = 4.2 + ln(N_max/N_min), ω_s = 2.8 ω₁."
         )
     return said
 
