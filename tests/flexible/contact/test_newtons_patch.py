@@ -57,7 +57,7 @@ def test_derivatives_of_an_edge():
 
 @pytest.mark.parametrize("turned", [0.0, 0.5, 3.0])
 def test_a_moved_damper_carries_what_was_foreseen(turned):
-    """However much of the patch is new in the step: points that enter stretch by the slip that the stage counts from."""
+    """However much of the patch is new in the step: points that enter count their slip from where the stage does."""
     floor = stretched(20, 0.3)
     damper = UNDAMPED._replace(relaxation=2.0, elastic_0=0.9 * floor.result.res.elastic, drag=1e4, ratio=2.0)
     res = floor._forces(floor.pose + np.array([1e-8, 0.0, turned * HALF]), damper).res
