@@ -19,7 +19,7 @@ from ..chain.whole import balance, held, passed_on, sections
 from ..contact.foreseen import Foreseen
 from ..contact.points.data import Before, Damper, Rim
 from ..contact.vectors import largest
-from ..ring.fem import ring_of
+from ..ring.fem import AROUND, ring_of
 from .rim_contact import RimContact
 from .stage import Predictor, Stage
 from .state import Energies, State
@@ -57,8 +57,8 @@ class ChainHoop(RimContact):
         tolerance: float = 1e-9,
         through: int = THROUGH,
     ) -> None:
-        parts = scene.solve.elements // PER_PART if parts is None else parts
-        self.ring = ChainRing(scene, ring_of(scene, through), parts)
+        parts = (scene.solve.elements or AROUND) // PER_PART if parts is None else parts
+        self.ring = ChainRing(scene, ring_of(scene, through, AROUND), parts)
         super().__init__(scene, self.ring.vertex, points, tolerance)
         self._missing: dict[Window, Array] = {}
         self._looked = (0.0, 0.0)
