@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from dataclasses import dataclass, replace
 from functools import cached_property
-from math import inf, pi
+from math import ceil, inf, pi
 from os import PathLike
 from typing import Any, NamedTuple
 from weakref import ref
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .kernel import layout as at
-from .kernel.compile import compiled
+from .kernel.compile import compiled, patience
 from .kernel.spectral import compiled_workspace, workspace
 from .lists import Deferred, Listing
 from .motion import Array, Motion, Side, States
@@ -30,11 +30,8 @@ from .scenefile import SceneLike, as_scene, scene_from_dict
 LOG_RECORDS = 128
 STEPS = 200_000  # the work bound of one motion: Taylor steps and phases
 MOST_RECORDS = 200_000  # and its phases, turns and pulses together
-PATIENCE = 4_000  # interpreted steps, some 0.4 s, after which a process goes over to the compiled kernel
-INSTANTS = 16_000  # of a motion, some 0.7 s, from which on their states are asked of it
 
 UNTIL_CODES = {None: at.NOTHING, "pulse": at.FIRST_PULSE, "rest": at.REST}
-_interpreted_steps = 0
 
 
 def parameters(scene: Scene) -> list[float]:
@@ -91,11 +88,10 @@ class Log(NamedTuple):
 def _run(scene: Scene) -> Log:
     """Run to the end.
 
-    Interpreted until this process has spent ``PATIENCE`` steps, from then on compiled: the same numbers to
-    round-off.
+    Interpreted until the ``patience`` of this process is spent, from then on compiled: the same numbers to round-off.
     """
     par = parameters(scene)
-    if _interpreted_steps >= PATIENCE:
+    if patience.left() <= 0:
         state, events, work = _workspace.state, _workspace.events, _workspace.work
         code = compiled()["entry_start"](np.array(par), (*release_of(scene), float(STEPS)), state, work, events)
         return _run_on(par, code, state, [_logged(events, state)])
@@ -107,17 +103,15 @@ def _run(scene: Scene) -> Log:
 
 def _run_interpreted(par: list[float], state: list[float]) -> tuple[int, list[float], list[Array]]:
     """Run to the end or to the end of the patience: why it ended, the state there, the records in parts."""
-    global _interpreted_steps
     events, work = [0.0] * (LOG_RECORDS * at.WIDTH), workspace()
     logs: list[Array] = []
     code, left = at.MORE, float(STEPS)
-    while code == at.MORE and _interpreted_steps < PATIENCE:
-        allowance = float(PATIENCE - _interpreted_steps)
+    while code == at.MORE and (allowance := float(ceil(patience.left()))) > 0:
         state[at.RECORDS], state[at.STEPS] = 0.0, allowance
         code = entry_run(par, state, work, events)
         spent = allowance - state[at.STEPS]
         left -= spent
-        _interpreted_steps += int(spent)
+        patience.spend(spent)
         logs.append(_logged(events, state))
     state[at.STEPS] = left
     return code, state, logs
@@ -280,7 +274,8 @@ class Sampler:
         constants = parameters(self.scene)
         padded = [list(row) + [0.0] * (at.WIDTH - len(row)) for row in self.listing.starts]
         flat = [number for row in padded for number in row]
-        if _interpreted_steps < PATIENCE and len(times) < INSTANTS:
+        if patience.left(len(times)) > 0:
+            patience.spend(instants=len(times))
             out: Any = [0.0] * (len(times) * width)
             work: Any = workspace()[0]
             events = [0.0] * (16 * at.WIDTH)

@@ -17,6 +17,7 @@ import pytest
 import flexible
 import rigid
 from rigid.kernel import announce, store
+from rigid.kernel.compile import Patience
 
 ROOT = Path(__file__).parent.parent
 CALLEE = "flexible/contact/points/normal.py"
@@ -267,3 +268,21 @@ def test_seconds_of_compiling_are_no_run_time(monkeypatch, caplog):
     assert announce.compile_seconds() - before == 10.0
     assert announce.running_clock() - clock == 5.0
     assert [record.name for record in caplog.records] == ["hoop-pulse"]
+
+
+def test_a_process_goes_over_to_compiled_code_sooner_where_there_is_some(monkeypatch):
+    """Both steps and instants count; what is said of a process once holds for all of it."""
+    for there in (True, False):
+        monkeypatch.setattr(store, "is_compiled", lambda place, there=there: there)
+        patience = Patience()
+        assert patience.left() > 0
+        patience.spend(steps=Patience.LOAD / 2)
+        patience.spend(instants=Patience.INSTANTS * Patience.LOAD // 2)
+        assert (patience.left() <= 0) == there
+        assert patience.left(instants=Patience.INSTANTS * Patience.COMPILE) <= 0
+        patience.spend(steps=Patience.COMPILE)
+        assert patience.left() <= 0
+        patience.renew()
+        assert patience.left() > 0
+        patience.renew(0)
+        assert patience.left() <= 0

@@ -32,15 +32,64 @@ def kernel(function: F) -> F:
 
 
 @cache
+def _home() -> Path:
+    """Where the kernels' compiled code is."""
+    from .store import fingerprint, home
+
+    return home("rigid", fingerprint({function.__code__.co_filename for function in _REGISTER.values()}))
+
+
+class Patience:
+    """How much a process does interpreted before it goes over to the compiled kernels.
+
+    The measure is a step of a motion, interpreted some 0.3 ms: what loading compiled code takes where this machine has
+    it, a tenth of what compiling takes where it does not.
+    """
+
+    LOAD, COMPILE = 1_000, 10_000
+    INSTANTS = 8  # of a motion that cost a step
+
+    _spent: float
+    _limit: float
+    _known: bool  # whether the limit stays, be there compiled code or none
+
+    def __init__(self, limit: float = LOAD) -> None:
+        self.renew(limit)
+
+    def left(self, instants: int = 0) -> float:
+        """Steps that may still be interpreted once so many instants of a motion are; none or less is none."""
+        left = self._limit - self._spent - instants / self.INSTANTS
+        if left <= 0 and not self._known:
+            from .store import is_compiled
+
+            self._known = True
+            self._limit = float(self.LOAD if is_compiled(_home()) else self.COMPILE)
+            return self.left(instants)
+        return left
+
+    def spend(self, steps: float = 0.0, instants: int = 0) -> None:
+        """What was interpreted."""
+        self._spent += steps + instants / self.INSTANTS
+
+    def renew(self, limit: float = LOAD) -> None:
+        """Begin anew, with so many steps: 0 is compiled from now on."""
+        self._spent = 0.0
+        self._limit = float(limit)
+        self._known = limit != self.LOAD
+
+
+patience = Patience()
+
+
+@cache
 def compiled() -> dict[str, Callable[..., Any]]:
     """The compiled twins by name; the first call in a process loads numba, the first on a machine compiles.
 
     Only the functions named ``entry_*`` are cached on disk (the others become part of them).
     """
-    from .store import fingerprint, home, moved
+    from .store import moved
 
-    stamp = fingerprint({function.__code__.co_filename for function in _REGISTER.values()})
-    place = home("rigid", stamp)
+    place = _home()
     twins: dict[str, Any] = {}
     scopes: list[dict[str, Any]] = []
     for name, function in _REGISTER.items():

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 import rigid
-from rigid import Friction, Hoop, Release, Run, Scene, simulate, simulate_batch, solve
+from rigid import Friction, Hoop, Release, Run, Scene, simulate, simulate_batch
+from rigid.kernel.compile import patience
 
 from .peers import scipy_ivp as peers
 from .race import Claim, Contestant, Result, Row, race
@@ -62,12 +63,12 @@ def _judge_motion(k: float) -> Callable[[rigid.Motion], float]:
 
 def _forget() -> None:
     """Make the next call an interpreted one, as the first of a process is."""
-    solve._interpreted_steps = 0
+    patience.renew()
 
 
 def remember() -> None:
     """Make it a compiled one, as after some tenths of a second of runs."""
-    solve._interpreted_steps = solve.PATIENCE
+    patience.renew(0)
 
 
 def _judge_batch(ks: np.ndarray) -> Callable[[rigid.Batch], float]:

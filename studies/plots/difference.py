@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,19 +18,34 @@ FORCES = ("normal_force", "friction_force", "slip_velocity")
 
 _FINER = 32  # its square is by how much finer
 _NEWTON = 4  # from a guess that is good to a sampling interval each step squares what is left
+_ROUND_OFF = 1e-15  # of an angle
 
 
-def at_the_same_angle(columns: Columns, motion: Motion, pulse: Pulse) -> Columns:
-    """Forces and slip velocity minus those of ``motion`` where its disk is at the same angle.
+class Passage(NamedTuple):
+    """A pulse of a motion at times between which its forces are straight."""
+
+    motion: Motion
+    t: Array
+    phi: Array
+
+
+def passage_of(motion: Motion, pulse: Pulse) -> Passage:
+    """A pulse with which others are compared."""
+    t = motion.times(pulse.t_start, pulse.t_end)
+    return Passage(motion, t, motion.at(t).phi)
+
+
+def at_the_same_angle(columns: Columns, passage: Passage) -> Columns:
+    """Forces and slip velocity minus those of a motion where its disk is at the same angle.
 
     Not at the same time: two clocks that are apart by little would make the steep flanks of a pulse differ by much.
 
     Parameters
     ----------
     columns : dict of (n,) arrays
-        Through a pulse, in the units of ``motion``, with ``phi``.
-    motion, pulse
-        What is compared with, and the pulse of it that is.
+        Through a pulse, in the units of the motion, with ``phi``.
+    passage : Passage
+        What is compared with.
 
     Returns
     -------
@@ -36,19 +53,21 @@ def at_the_same_angle(columns: Columns, motion: Motion, pulse: Pulse) -> Columns
         NaN at angles that the pulse does not have and at both ends, and all of it where phi turns back within the
         pulse.
     """
-    t = motion.times(pulse.t_start, pulse.t_end)
-    phi = motion.at(t).phi
+    motion, t, phi = passage
     way = np.sign(phi[-1] - phi[0])
     if not np.all(way * np.diff(phi) >= 0) or way == 0:
         return {name: np.full(columns["phi"].size, np.nan) for name in FORCES}
     asked = columns["phi"]
-    when = np.interp(way * asked, way * phi, t)
-    for _ in range(_NEWTON):
-        states = motion.at(when)
-        when = np.clip(when - (states.phi - asked) / np.where(states.omega == 0, np.inf, states.omega), t[0], t[-1])
-    states = motion.at(when)
     outside = (way * asked < way * phi[0]) | (way * asked > way * phi[-1])
     outside[[0, -1]] = True  # a pulse begins and ends between two steps of a solver: these are interpolated
+    when = np.interp(way * asked, way * phi, t)
+    states = motion.at(when)
+    for _ in range(_NEWTON):
+        away = np.where(outside, 0.0, states.phi - asked)
+        if np.max(np.abs(away)) <= _ROUND_OFF * np.max(np.abs(phi)):
+            break
+        when = np.clip(when - away / np.where(states.omega == 0, np.inf, states.omega), t[0], t[-1])
+        states = motion.at(when)
     return {name: np.where(outside, np.nan, columns[name] - getattr(states, name)) for name in FORCES}
 
 

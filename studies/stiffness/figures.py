@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from rigid import Motion, Pulse, simulate
 
-from ..plots.difference import at_the_same_angle, at_the_same_normal_impulse, impulses_along
+from ..plots.difference import at_the_same_angle, at_the_same_normal_impulse, impulses_along, passage_of
 from ..plots.pulse import Curve, energy, impulses, pulse
 from ..plots.style import RIGID, STYLE, blank, colours, power_of_ten, save_both
 from ..running.history import dimensionless
@@ -32,9 +32,9 @@ def write_figure(study: StiffnessStudy, name: str, folder: Path) -> Path | None:
 
 def forces(study: StiffnessStudy) -> Figure:
     """The first pulse over time at some of the stiffnesses, and what is left between each and the rigid hoop."""
-    motion, whole = _rigid_pulse(study)
+    passage = passage_of(*_rigid_pulse(study))
     own = [rung.outcome.histories[0] for rung in chosen(study.rungs)]
-    left = [dimensionless(at_the_same_angle(columns, motion, whole), study.scene) for columns in own]
+    left = [dimensionless(at_the_same_angle(columns, passage), study.scene) for columns in own]
     return pulse(_curves(study), "Through the first pulse", left)
 
 

@@ -12,8 +12,8 @@ from math import hypot, inf, isfinite, nan, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import stats
 from scipy.optimize import minimize_scalar
+from scipy.special import stdtrit
 
 from .series import extrapolated, fewest
 
@@ -234,7 +234,7 @@ def _cost(solved: tuple[Array, Array, Array]) -> float:
 
 
 def _t(free: int) -> float:
-    return float(stats.t.ppf(0.5 + CONFIDENCE / 2, free))
+    return float(stdtrit(free, 0.5 + CONFIDENCE / 2))
 
 
 def limit_of(

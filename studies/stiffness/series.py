@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
-from scipy.stats import norm
+from scipy.special import ndtr
 
 Array = NDArray[np.float64]
 
@@ -140,7 +140,7 @@ def _inferred(
 
     def outside(half: float) -> float:
         above, below = (middle + half - means) / deviations, (middle - half - means) / deviations
-        return float(likely @ (norm.sf(above) + norm.cdf(below))) - (1 - confidence)
+        return float(likely @ (ndtr(-above) + ndtr(below))) - (1 - confidence)
 
     widest = float(np.max(np.abs(means - middle) + 10 * deviations))
     return Extrapolated(middle + origin, float(brentq(outside, 0.0, widest, rtol=1e-6)))

@@ -97,7 +97,7 @@ def stiffness_study(
     scenes = ladder.rungs(scene)
     pulse = reference.pulses[0]
     cases = [Case(solver, rung, _against(rung, pulse, foreseen, separate), histories=True) for rung in scenes]
-    outcomes = run_cases(cases, pool, out, progress)
+    outcomes = run_cases(cases[::-1], pool, out, progress)[::-1]  # the stiffest, which takes longest, first
     rungs = tuple(
         Rung(rung.ring.bending_stiffness, rung.contact.stiffness, stiffness, outcome)
         for rung, stiffness, outcome in zip(scenes, ladder.stiffness.tolist(), outcomes, strict=True)

@@ -14,6 +14,7 @@ from hypothesis import given, settings
 from strategies import scenes
 
 from rigid import Friction, Hoop, Release, Run, Scene, load_scene, simulate, simulate_batch, solve
+from rigid.kernel.compile import Patience
 
 
 @settings(max_examples=60, deadline=None)
@@ -114,9 +115,9 @@ def test_a_smooth_floor_without_drift():
 
 def test_interpreted_and_compiled_agree(monkeypatch):
     """One source, two machines: turns and pulses agree to round-off, batch and single call exactly."""
-    monkeypatch.setattr(solve, "_interpreted_steps", 0)
+    monkeypatch.setattr(solve, "patience", Patience(10**9))
     slow = simulate(SCENE)
-    monkeypatch.setattr(solve, "_interpreted_steps", solve.PATIENCE)
+    monkeypatch.setattr(solve, "patience", Patience(0))
     fast = simulate(SCENE)
     assert [t.t for t in fast.turns] == pytest.approx([t.t for t in slow.turns], rel=1e-13)
     assert [p.friction_impulse for p in fast.pulses] == pytest.approx(

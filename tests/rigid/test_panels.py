@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from rigid import Friction, Hoop, Landing, Release, Run, Scene, simulate, solve
+from rigid.kernel.compile import Patience
 from rigid.phases import flight
 from rigid.phases.slipping import phase
 from rigid.phases.slipping.stride import NOT_TAKEN
@@ -28,7 +29,7 @@ def by_series(scene: Scene, monkeypatch: pytest.MonkeyPatch):
     """The motion with the panels switched off, interpreted."""
     with monkeypatch.context() as patch:
         patch.setattr(phase, "stride", lambda *_: NOT_TAKEN)
-        patch.setattr(solve, "PATIENCE", 10**9)
+        patch.setattr(solve, "patience", Patience(10**9))
         motion = simulate(scene)
         return motion, (list(motion.phases), list(motion.turns), list(motion.pulses))
 
@@ -39,7 +40,7 @@ def test_panels_and_series_agree(seed: int, monkeypatch: pytest.MonkeyPatch) -> 
     scene = drawn(seed)
     _, (phases, turns, pulses) = by_series(scene, monkeypatch)
     with monkeypatch.context() as patch:
-        patch.setattr(solve, "PATIENCE", 10**9)
+        patch.setattr(solve, "patience", Patience(10**9))
         motion = simulate(scene)
         assert [p.kind for p in motion.phases] == [p.kind for p in phases]
         # a hundred steps to 1e-15 each; where slip and roll follow upon one another errors grow, by 1e4 in some

@@ -23,6 +23,7 @@ from rigid import (
     simulate,
     simulate_batch,
 )  # fmt: skip
+from rigid.kernel.compile import Patience
 
 RELEASE = Release(radians(10))
 
@@ -243,8 +244,8 @@ def test_a_rate_whose_square_is_no_number_is_no_rate(monkeypatch, omega0, phi0):
     """Interpreted, where a division by zero is an error, and compiled, what hardly turns slips like what does not."""
     release = Release(phi0, 0.0, 0.5)
     scene = Scene(Hoop(0.1), Friction(0.3, 0.3), release, Run(turns=2))
-    for patience in (10**9, 0):
-        monkeypatch.setattr("rigid.solve.PATIENCE", patience)
+    for steps in (10**9, 0):
+        monkeypatch.setattr("rigid.solve.patience", Patience(steps))
         rest, hardly = simulate(scene), simulate(scene.replace(release={"omega0": omega0}))
         assert kinds(hardly) == kinds(rest)
         if phi0:  # at the top it is the sign of the rate that says where it falls

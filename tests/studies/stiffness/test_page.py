@@ -17,7 +17,13 @@ import pytest
 from rigid import load_scene, scene_from_dict, simulate
 from studies import StudyError, limit_of, stiffness_study
 from studies.cli import hoop as cli
-from studies.plots.difference import FORCES, at_the_same_angle, at_the_same_normal_impulse, impulses_along
+from studies.plots.difference import (
+    FORCES,
+    at_the_same_angle,
+    at_the_same_normal_impulse,
+    impulses_along,
+    passage_of,
+)
 from studies.running import history
 from studies.stiffness.limits import CONFIDENCE, fitted_series
 from studies.stiffness.summary import case_cells, verdict
@@ -120,7 +126,7 @@ def test_a_curve_differs_from_itself_by_nothing_whatever_the_clock():
     columns = history.through(motion, motion.pulses[0])
     late = {**columns, "t": columns["t"] + 0.1}
     for each in (columns, late):
-        apart = at_the_same_angle(each, motion, motion.pulses[0])
+        apart = at_the_same_angle(each, passage_of(motion, motion.pulses[0]))
         # an angle is found to round-off, over which a force changes by its slope: some 1e5 times as much
         jumps = np.r_[False, np.diff(columns["t"]) < 1e-9] | np.r_[np.diff(columns["t"]) < 1e-9, False]
         for name in FORCES:
@@ -134,7 +140,8 @@ def test_a_curve_differs_from_itself_by_nothing_whatever_the_clock():
 def test_a_force_that_is_larger_by_a_known_part_differs_by_that():
     motion = simulate(load_scene("paper-3.3-massless").replace(run={"until": "pulse"}))
     columns = history.through(motion, motion.pulses[0])
-    apart = at_the_same_angle({**columns, "normal_force": 1.01 * columns["normal_force"]}, motion, motion.pulses[0])
+    larger = {**columns, "normal_force": 1.01 * columns["normal_force"]}
+    apart = at_the_same_angle(larger, passage_of(motion, motion.pulses[0]))
     smooth = slice(1, int(np.argmax(columns["normal_force"])))  # before any jump
     assert apart["normal_force"][smooth] == pytest.approx(0.01 * columns["normal_force"][smooth], rel=1e-5)
 
