@@ -16,6 +16,7 @@ from ..running.runs import run_cases
 from ..running.workers import Here, Pool
 from .rolling.roll import SOLVER, STIFFNESS, WHOLE, Ask, HopMap
 from .rolling.rule import DECADE
+from .rolling.scaling import foreseen
 from .rolling.threshold import TOLD, WHERE, HopCase, Line, windows
 
 if TYPE_CHECKING:
@@ -97,6 +98,9 @@ class HopStudy:
                     continue
                 row: dict[str, Any] = {} if self.second is None else {self.second: line.value}
                 row |= line.threshold(where).to_dict()
+                row["phi"] = line.angles(where)
+                if where == "anywhere":
+                    row["foreseen"] = foreseen(line.scene)
                 row["omega_1_t"] = line.turning(where)
                 row["times_duration_squared"] = line.times_duration(where)
                 row["at_a_third_of_the_tolerance"] = line.holds(where)
@@ -106,6 +110,7 @@ class HopStudy:
         return {
             "scene": scene_to_dict(self.scene),
             "over": [STIFFNESS, *([self.second] if self.second else [])],
+            "rtol": self.lines[0].scene.solve.rtol,
             "cases": [case.to_dict() for case in self.cases],
             "threshold": threshold,
         }

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from math import asin, isfinite, pi, sqrt
+from math import asin, isfinite, pi, sin, sqrt
 from typing import Any, Protocol
 
 from rigid import Kind, Run, Scene, simulate
@@ -189,6 +189,12 @@ class Line:
     def threshold(self, where: str, least: float = 1.0) -> Bracket:
         """Below which it hops there."""
         return bracket(self.answers(where, least))
+
+    def angles(self, where: str) -> list[float] | None:
+        """Of the disk, between which a lift-off counts there, in the order in which it comes to them; None is any."""
+        window, release = self.windows[where], self.scene.release.phi0
+        down = 1 if sin(release) >= 0 else -1
+        return None if window is None else [release + down * swept for swept in (window.low, window.high)]
 
     def turning(self, where: str) -> float | None:
         """omega_1 t* at the threshold, see :mod:`studies.hop.rolling.scaling`; None without one, or without a mass."""

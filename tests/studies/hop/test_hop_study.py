@@ -11,13 +11,14 @@ from command_line import is_one_sentence
 from third_hop import LIFTS
 
 from rigid import SceneError, load_scene, simulate
-from studies import StudyError, hop_study
+from studies import HopStudy, StudyError, hop_study
 from studies.cli.hop import map_of, parse_over
 from studies.hop.maps import place
-from studies.hop.rolling.roll import DEFAULT, from_rest, spans, through_the_pulse
+from studies.hop.rolling.roll import DEFAULT, RTOL, from_rest, spans, through_the_pulse
 from studies.hop.rolling.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG, Scales
 from studies.hop.rolling.scaling import suddenness
 from studies.hop.rolling.threshold import HopCase, Line, Window, bracket, hops_in, windows
+from studies.hop.summary import answer, verdict
 from studies.running.case import Outcome
 
 SCENE = "paper-3.3-heavier"
@@ -119,8 +120,8 @@ def test_only_the_threshold_anywhere_is_closed_in_on_by_whole_rolls():
 @pytest.mark.usefixtures("leaping")
 def test_what_still_hops_at_the_stiffest_is_said_as_such(hoop):
     _, out, _ = hoop("study", "hop", SCENE, "--over", "ring.bending_stiffness=20,30", "--workers", 1, "--bisections", 0)
-    first = " ".join(out.split()).partition(";")[0]
-    assert "leaves the floor anywhere still at 30, the stiffest that was rolled" in first
+    first = " ".join(out.split()).partition(".")[0]
+    assert "leaves the floor: anywhere on its way still at 30, the stiffest that was rolled" in first
     assert "more than" not in first
 
 
@@ -176,6 +177,10 @@ def test_json_is_the_contract(hoop):
         for hop in case["hops"]:
             assert {"t", "phi", "duration", "height", "energy"} <= set(hop)
     assert {case["k"] for case in found["cases"]} == {0.1, 0.2}
+    assert found["rtol"] == pytest.approx(RTOL)
+    assert found["threshold"]["anywhere"][0]["phi"] is None
+    under = found["threshold"]["bottom"][0]["phi"]
+    assert under == pytest.approx([pi - np.arcsin(0.1 / 0.9), pi + np.arcsin(0.1 / 0.9)])
     for where, exact in LIFTS.items():
         assert [row["hoop.k"] for row in found["threshold"][where]] == [0.1, 0.2]
         for row in found["threshold"][where]:
@@ -245,8 +250,10 @@ def test_a_map_goes_on_where_it_was(leaping, tmp_path, monkeypatch):
 def test_the_screen_answers_first(hoop):
     status, out, _ = hoop("study", "hop", SCENE, "--over", "ring.bending_stiffness=1:1000:7", "--workers", 1)
     assert status == 0
-    assert out.splitlines()[0].startswith("Yes: released at rest, an elastic hoop leaves the floor anywhere below")
-    assert "k = 0.1, m_h/m = 0.1: yes" in out
+    assert out.splitlines()[0].startswith("Yes: released at rest, an elastic hoop whose bending stiffness")
+    told = " ".join(out.split())
+    assert "A third of the tolerance moves none of these thresholds." in told
+    assert "k = 0.1, m_h/m = 0.1: leaves the floor anywhere on its way below" in told
     assert "The rigid hoop never leaves the floor" in " ".join(out.split())
 
 
@@ -255,7 +262,25 @@ def test_what_was_not_rolled_far_enough_is_not_denied(hoop):
     """Below STOPS every roll stops before its pulse: only from there on is anything known."""
     _, out, _ = hoop("study", "hop", SCENE, "--over", "ring.bending_stiffness=0.1,0.2,30,200", "--workers", 1,
                      "--bisections", 0)  # fmt: skip
-    assert "hops within its first pulse nowhere from 30 on" in " ".join(out.split())
+    assert "within its first pulse at none from 30 on" in " ".join(out.split())
+
+
+def test_a_threshold_that_a_third_of_the_tolerance_moves_is_told_with_its_doubt():
+    """Of 5 that hops and 10 that does not the finer roll at 10 hops: the threshold is more than that."""
+    scene = load_scene(SCENE)
+
+    def case(stiffness, hops, rtol=3e-4):
+        flights = [{"swept": 4.5, "phi": 4.7, "height": 1e-3, "prominence": 2.0}] if hops else []
+        motion = {"flights": flights, "completed": True, "swept": 6.0, "scales": None, "t_end": 1.0}
+        return HopCase(stiffness, scene.replace(solve={"rtol": rtol}), Outcome("", "", {}, "", motion=motion))
+
+    mapped, finer = (case(5.0, True), case(10.0, False)), (case(5.0, True, 1e-4), case(10.0, True, 1e-4))
+    study = HopStudy(scene, None, (Line(None, scene, windows(scene), mapped, finer=finer),))
+    assert "A third of the tolerance moves 1 of the 1 thresholds out of their brackets." in answer(study)
+    (line,) = verdict(study)
+    assert "anywhere on its way below 7.07 ± 2.5 (more at a third of the tolerance)" in line
+    assert "within its first pulse at none from 5 on" in line
+    assert "The stiffest hoop that hops, 5, first does so at φ = 269°." in line
 
 
 def test_ranges_are_read():
