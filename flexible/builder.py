@@ -82,7 +82,7 @@ class Sampler:
             marches.append({
                 "attempts": marched.attempts, "ended": marched.ended, "turned": turned,
                 "course": {name: getattr(course, name) for name in COURSE},
-                "books": dataclasses.asdict(course.books),
+                "books": course.books._asdict(),
             })  # fmt: skip
         lists = {name: [dataclasses.asdict(item) for item in getattr(motion, name)] for name in ("phases", "turns")}
         pulses = [dataclasses.asdict(replace(pulse, sample=None)) for pulse in motion.pulses]

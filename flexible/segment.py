@@ -53,10 +53,8 @@ class Segment:
 
     def __init__(self, records: list[Record], hoop: Hoop) -> None:
         self.hoop = hoop
-        self.columns: dict[str, Array] = {
-            field.name: np.array([getattr(r, field.name) for r in records], dtype=float)
-            for field in dataclasses.fields(Record)
-        }
+        table = np.array(records, dtype=float).reshape(-1, len(Record._fields))
+        self.columns: dict[str, Array] = dict(zip(Record._fields, table.T.copy(), strict=True))
 
     @classmethod
     def of(cls, columns: dict[str, Array], hoop: Hoop) -> Segment:
@@ -74,8 +72,8 @@ class Segment:
     def records(self) -> list[Record]:
         """The records again."""
         rows = zip(*(column.tolist() for column in self.columns.values()), strict=True)
-        records = [Record(**dict(zip(self.columns, row, strict=True))) for row in rows]
-        return [dataclasses.replace(each, mode=int(each.mode)) for each in records]
+        records = [Record(*row) for row in rows]
+        return [each._replace(mode=int(each.mode)) for each in records]
 
     def __getitem__(self, name: str) -> Array:
         return self.columns[name]

@@ -13,6 +13,7 @@ from rigid.kernel.compile import loop
 from .points.data import Before, Bristles, Contact, Damper, Parameters, Resultants, Rim
 from .points.detection import least_gap
 
+MOST_CHANGE = 10.0  # of N_el from a stage to the next by which a patch is foreseen from the one before
 GUESSES = 4  # three that raise the patch, and one along the floor
 
 
@@ -24,8 +25,8 @@ def _too_low(pose: Any, u: Any, rim: Rim, law: Parameters, before: Before, dampe
     grows like delta^(3/2).
     """
     if res.elastic == 0:
-        least = least_gap(before.pose, before.u, rim)
-        return least - least_gap(pose, u, rim) if least < 0 else 0.0
+        least = least_gap(before.pose[1], before.pose[2], before.u, rim)
+        return least - least_gap(pose[1], pose[2], u, rim) if least < 0 else 0.0
     if damper.relaxation == 0 or damper.elastic_0 <= 0 or abs(res.eta - 1) < 0.1:
         return 0.0
     return 1.5 * res.elastic / (law.eps_n * res.length) * (1 - (damper.elastic_0 / res.elastic) ** (2 / 3))
@@ -47,6 +48,20 @@ def _shift(u: Any, phi: float, along: float, up: float) -> None:
     for i in range(u.shape[0]):
         u[i, 0] += along * s + up * c
         u[i, 1] += along * c - up * s
+
+
+@loop
+def as_deep(height: float, phi: float, u: Any, rim: Rim, start: Any) -> bool:
+    """Move the rim up or down so that its patch is as deep as an expected N_el wants, which grows like depth^(3/2).
+
+    ``start`` (:class:`flexible.models.stage.From`) says how deep a patch with another N_el was. Not done, and said so,
+    where there was none, or it changes too much.
+    """
+    deepest, elastic, expected = start.deepest, start.elastic, start.expected
+    if elastic <= 0 or deepest >= 0 or not elastic / MOST_CHANGE < expected < elastic * MOST_CHANGE:
+        return False
+    _shift(u, phi, 0.0, deepest * (expected / elastic) ** (2 / 3) - least_gap(height, phi, u, rim))
+    return True
 
 
 @loop

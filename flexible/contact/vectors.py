@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel.compile import jit, loop
+from rigid.kernel.compile import jit, loop, part
 
 
 @jit
@@ -65,6 +65,53 @@ def times(factor: float, values: Any) -> Any:
     for i in range(product.shape[0]):
         product[i] = factor * values[i]
     return product
+
+
+@loop
+def eliminate(rows: Any, order: Any) -> None:
+    """Factors of a matrix of some tens of unknowns in its place, by elimination with row pivots, for :func:`solved_by`.
+
+    ``order`` is filled in with where its rows came from. Not finite where the matrix is singular.
+    """
+    n = order.shape[0]
+    for k in range(n):
+        order[k] = k
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if abs(rows[i, k]) > abs(rows[best, k]):
+                best = i
+        if best != k:
+            for j in range(n):
+                rows[best, j], rows[k, j] = rows[k, j], rows[best, j]
+            order[best], order[k] = order[k], order[best]
+        for i in range(k + 1, n):
+            factor = rows[i, k] / rows[k, k]
+            rows[i, k] = factor
+            if factor != 0:
+                for j in range(k + 1, n):
+                    rows[i, j] -= factor * rows[k, j]
+
+
+@loop
+def _substitute(rows: Any, order: Any, right: Any, x: Any) -> None:
+    n = order.shape[0]
+    for k in range(n):
+        x[k] = right[order[k]]
+        for j in range(k):
+            x[k] -= rows[k, j] * x[j]
+    for k in range(n - 1, -1, -1):
+        for j in range(k + 1, n):
+            x[k] -= rows[k, j] * x[j]
+        x[k] /= rows[k, k]
+
+
+@part
+def solved_by(factors: Any, right: Any) -> Any:
+    """Solution for a right-hand side with the factors and the order of :func:`eliminate`."""
+    x = np.empty(right.shape[0])
+    _substitute(factors[0], factors[1], right, x)
+    return x
 
 
 @jit

@@ -19,7 +19,7 @@ from ..chain.stage import Arrays, solved
 from ..chain.touch import turned
 from ..chain.whole import floor_forces, held, momentum_error, moved
 from ..contact.points.data import Damper
-from ..ring.fem import ring_of
+from ..ring.fem import AROUND, ring_of
 from .reduced import start_of
 from .rim_contact import RimContact
 from .stage import Predictor, Stage
@@ -58,8 +58,8 @@ class ChainHoop(RimContact):
         tolerance: float = 1e-9,
         through: int = THROUGH,
     ) -> None:
-        parts = scene.solve.elements // PER_PART if parts is None else parts
-        self.ring = ChainRing(scene, ring_of(scene, through), parts)
+        parts = (scene.solve.elements or AROUND) // PER_PART if parts is None else parts
+        self.ring = ChainRing(scene, ring_of(scene, through, AROUND), parts)
         super().__init__(scene, self.ring.vertex, points, tolerance)
         rod = self.ring.chain.rod
         mass = np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1].ravel()

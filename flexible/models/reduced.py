@@ -13,13 +13,14 @@ from rigid.kernel.compile import jit, loop, part, written_out
 
 from ..contact.points.data import Before, Bristles, Damper, Parameters, Resultants
 from ..contact.points.data import Rim as NearFloor
+from ..contact.points.detection import least_gap
 from ..contact.points.rim import below_floor, window_around
 from ..contact.vectors import largest, plus
 from ..ring.frame import Frame, energies, inertia
 from ..ring.reduction import ReducedRing, Rim, is_known, reduce, residual, window_dofs
 from .equilibrium import RestingModes
 from .rim_contact import RimContact
-from .stage import Predictor, Stage, Window, filtered_error, solve_stage
+from .stage import From, Near, Predictor, Stage, Window, filtered_error, solve_stage
 from .state import Energies, State
 
 Array = NDArray[np.float64]
@@ -51,13 +52,15 @@ class Start(NamedTuple):
     bristles: Bristles
     slip_velocity: float
     elastic_rate: float
+    jerk: Any
+    elastic_bend: float
 
 
 def start_of(state: State) -> Start:
     """The same of a state."""
     return Start(
         state.pos, state.vel, state.acc, state.mode, state.window, state.u, state.nodal, state.res, state.bristles,
-        state.slip_velocity, state.elastic_rate,
+        state.slip_velocity, state.elastic_rate, state.jerk, state.elastic_bend,
     )  # fmt: skip
 
 
@@ -113,7 +116,7 @@ def _bend(moved: Any, shapes: Any, pos: Any) -> None:
 
 
 def _solved(
-    arrays: Arrays, old: Start, mode: int, damper: Damper, predictor: Predictor, near: Any, first: bool
+    arrays: Arrays, old: Start, mode: int, damper: Damper, predictor: Predictor, near: Near, first: bool
 ) -> Stage:
     """See :class:`flexible.models.state.Model`; not ok as well where the window's compliance is not known."""
     expected = plus(predictor.pos, 1.0, predictor.guess)
@@ -123,14 +126,17 @@ def _solved(
         _bend(moved, arrays.rim.shapes, expected)
         low, high = below_floor(arrays.theta, expected[2], expected[1], moved)
     margin = 0.3 * (high - low) + 0.1 * arrays.element
-    found = Stage(False, expected, expected, np.empty((0, 0)), old.window, old.u, old.nodal, old.res, old.bristles)
+    deepest = least_gap(near.pos[1], near.pos[2], near.u, NearFloor(near.window[0], arrays.vertex))
+    unknown = np.empty((0, 0)), np.empty(0, np.int64)
+    found = Stage(False, expected, expected, unknown, old.window, old.u, old.nodal, old.res, old.bristles)
     for _ in range(4):
         window = window_around(arrays.vertex, expected[2], low, high, margin)
         if not is_known(arrays.rim, window_dofs(arrays.vertex.shape[0], window)):
             return Stage(False, expected, expected, found.matrix, window, old.u, old.nodal, old.res, old.bristles)
         u_old = _moved(arrays, old, window)
         before = Before(old.pos[:3], u_old, old.bristles)
-        start = (near[1] if near[0] == window else u_old, arrays.tolerance)
+        u = near.u if near.window == window else u_old
+        start = From(u, deepest, near.elastic, near.expected, arrays.tolerance)
         answer = solve_stage(
             arrays.frame, _near_floor(arrays, window), arrays.law, mode, before, damper, predictor, start
         )
@@ -225,7 +231,7 @@ class ReducedHoop(RimContact):
         mode: int,
         damper: Damper,
         predictor: Predictor,
-        near: tuple[tuple[int, int], Array],
+        near: Near,
         first: bool,
     ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
@@ -238,7 +244,7 @@ class ReducedHoop(RimContact):
         """Kinetic, gravity, ring strain (of the modes and of the static part)."""
         kinetic, gravity, strain = held or self.held(state.pos, state.vel)
         if state.res.normal > 0:
-            moved = self.ring.rim_shapes[self.ring.dofs(*state.window)] @ state.pos[3:]
+            moved = self._arrays(state.window)[0] @ state.pos[3:]
             strain += float(state.nodal.ravel() @ (state.u.ravel() - moved)) / 2
         return kinetic, gravity, strain
 

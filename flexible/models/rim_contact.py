@@ -28,7 +28,7 @@ def points_to_a_patch(law: type[Law], rtol: float) -> int:
     return ceil(max(LEAST, law.points * (COARSE / rtol) ** (1 / 3)))
 
 
-def contact_law(scene: Scene, points: int | None = None) -> Law:
+def contact_law(scene: Scene, elements: int, points: int | None = None) -> Law:
     """The scene's friction law, with ``points`` to the patch of a rigid hoop under the disk's weight."""
     contact, friction = scene.contact, scene.friction
     eps = float(contact.stiffness)
@@ -36,9 +36,7 @@ def contact_law(scene: Scene, points: int | None = None) -> Law:
     law = LAWS[contact.law]
     parameters = Parameters(
         law=law.code,
-        spacing=min(
-            2 * half_width / (points or points_to_a_patch(law, scene.solve.rtol)), 2 * pi / scene.solve.elements / 8
-        ),
+        spacing=min(2 * half_width / (points or points_to_a_patch(law, scene.solve.rtol)), 2 * pi / elements / 8),
         eps_n=eps,
         eps_t=eps * contact.tangential_ratio,
         mu_s=float(friction.mu_s),
@@ -91,9 +89,9 @@ class RimContact:
         self.vertex = vertex
         middle = (vertex + np.append(vertex[1:], vertex[0] + 2 * pi)) / 2
         self._rim_theta = np.column_stack([vertex, middle]).ravel()
-        self.law = contact_law(scene, points)
+        self.law = contact_law(scene, len(vertex), points)
         self.tolerance = tolerance
-        self.element = 2 * pi / scene.solve.elements
+        self.element = 2 * pi / len(vertex)
         self.relaxation = relaxation_time(scene)
 
     @property

@@ -13,10 +13,10 @@ import numpy as np
 from rigid.kernel.compile import loop, written_out
 
 from ..contact.forces import contact_forces
-from ..contact.guess import GUESSES, guess_again
-from ..contact.newton import breaks_loose, left_by_newton, move, reached, round_off, share_before_bend
+from ..contact.guess import GUESSES, as_deep, guess_again
+from ..contact.newton import breaks_loose, left_by_kept, left_by_newton, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
-from ..contact.vectors import largest, plus, solve_dense
+from ..contact.vectors import eliminate, largest, plus, solved_by
 from ..ring.frame import Frame, inertia
 
 MOST_POINTS = 5000  # to a patch, forty times as wide as under the weight or more: 1e5 weights are no solution
@@ -29,6 +29,26 @@ class Predictor(NamedTuple):
     vel: Any
     beta: float
     guess: Any  # of d
+
+
+class Near(NamedTuple):
+    """The last stage that was solved, where Newton on the next one begins, and what is expected of that."""
+
+    window: Any  # first rim element and number of elements
+    u: Any  # displacement of its nodes
+    pos: Any
+    elastic: float  # N_el there
+    expected: float  # N_el here
+
+
+class From(NamedTuple):
+    """The same in the window of the stage to solve."""
+
+    u: Any  # displacement of the window's nodes
+    deepest: float  # the least gap in the last stage
+    elastic: float  # N_el there
+    expected: float  # N_el here
+    tolerance: float  # on forces over 1 + N
 
 
 class Stage(NamedTuple):
@@ -60,7 +80,7 @@ class Solved(NamedTuple):
     d: Any
     acc: Any
     u: Any  # (nodes, 2) displacement of the window's nodes
-    matrix: Any  # Newton's last, for the filter of the error estimate
+    matrix: Any  # factors of Newton's last, for the filter of the error estimate
     contact: Contact
 
 
@@ -115,28 +135,25 @@ def _assemble(matrix: Any, own: Any, contact: Any, window: Window, scale: float)
 @written_out
 def solve_stage(
     frame: Frame, window: Window, law: Parameters, mode: int, before: Before, damper: Damper, predictor: Predictor,
-    start: Any,
+    start: From,
 ) -> Solved:  # fmt: skip
-    """Solve one stage.
-
-    ``predictor.guess`` and ``start[0]`` start Newton for d and for the displacement of the window's nodes;
-    ``start[1]`` is the tolerance on forces.
-    """
-    u_guess, tolerance = start
-    nodes = u_guess.shape[0]
+    """Solve one stage; ``predictor.guess`` and ``start.u`` are where Newton begins."""
+    tolerance, nodes = start.tolerance, start.u.shape[0]
     m = 3 + frame.modal.shape[0]
     size = m + 2 * nodes
-    d, u = predictor.guess.copy(), u_guess.copy()
-    matrix = np.empty((size, size))
+    d, u = predictor.guess.copy(), start.u.copy()
+    height, phi = predictor.pos[1] + d[1], predictor.pos[2] + d[2]
+    foreseen = as_deep(height, phi, u, window.rim, start)
+    matrix, order = np.empty((size, size)), np.empty(size, np.int64)
     residual = np.empty(size)
     update = np.zeros(size)
     iterations = -1
-    damping, last, before_last = 1.0, np.inf, np.inf
+    damping, last = 1.0, np.inf
     way, reach = 0.0, np.inf
     stuck, halved = 0.0, 0
     softest = largest(window.compliance)
     damper = pulling(damper, True)
-    iteration, guesses = -1, GUESSES
+    iteration, guesses = -1, 1 if foreseen else GUESSES
     asked = guesses > 0  # for a tangent; nowhere a plain True, for which contact_forces would be compiled once more
     while iteration < MOST_ITERATIONS:
         pos, vel, acc = reached(predictor, d)
@@ -166,43 +183,47 @@ def solve_stage(
         # a ring softer than the foundation moves by its compliance times what the forces may be off
         if worst <= small and astray <= small * (1 + scale * softest) and iteration > 0:
             if damper.pulls and res.eta < 0:
-                damper, last, before_last, asked = pulling(damper, False), np.inf, np.inf, iteration > 0
+                damper, last, asked = pulling(damper, False), np.inf, iteration > 0
                 continue
             iterations = iteration
             break
-        worst = max(worst, astray)
-        if not asked:  # the last one was not the last
+        load = 1 + abs(res.normal)
+        worst = max(worst, astray) / load
+        if asked:
+            _assemble(matrix, own_tangent, contact.tangent, window, scale)
+            eliminate(matrix, order)
+        elif left_by_kept(worst, last) > tolerance:  # the last one is not good enough for what it has left
             asked = not asked
             iteration -= 1
             continue
-        _assemble(matrix, own_tangent, contact.tangent, window, scale)
-        update = solve_dense(matrix, residual)
+        update = solved_by((matrix, order), residual)
         if not np.isfinite(largest(update)):
             break
         damping = 1.0
         if iteration > 3 and worst > last:
             damping = 0.5
-        last, before_last = worst, last
-        # a tangent is a good part of what forces cost, and nothing is asked of the last one
-        asked = left_by_newton(last, before_last) > tolerance
+        # a tangent is a good part of what forces cost, and its matrix dear: kept where it will do for what is left
+        left = left_by_newton(worst, last) if asked else left_by_kept(worst, last)
+        asked = left_by_kept(left, worst) > tolerance
+        last = worst
         move(d, u, -damping, update[:m], update[m:])
     if contact.outside:
         iterations = -2
-    return Solved(iterations, d, reached(predictor, d)[2], u, matrix, contact)
+    return Solved(iterations, d, reached(predictor, d)[2], u, (matrix, order), contact)
 
 
 @written_out
-def filtered_error(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, matrix: Any, error: Any) -> Any:
+def filtered_error(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, factors: Any, error: Any) -> Any:
     """The error of the velocities as the step itself passes it on: (M + beta C + beta^2 K)^-1 M times it.
 
     What the step does not resolve, and damps, would otherwise hold the steps down to the vibrations' periods.
     """
     size = pos.shape[0]
-    load = np.zeros(matrix.shape[0])
+    load = np.zeros(factors[1].shape[0])
     with_error, without = (
         inertia(frame, pos, vel, plus(acc, 1.0, error), beta)[0],
         inertia(frame, pos, vel, acc, beta)[0],
     )
     for i in range(size):
         load[i] = (with_error[i] - without[i]) / beta**2
-    return solve_dense(matrix, load)[:size]
+    return solved_by(factors, load)[:size]

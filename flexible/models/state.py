@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any, Protocol
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,12 @@ class State:
     slip_velocity: float
     elastic_rate: float = 0.0  # of N_el
     feet_velocity: float = 0.0  # of the feet of a sliding patch's bristles, along the floor
+    jerk: Array = field(default_factory=lambda: np.zeros(0))  # rate of acc, of no size where it is not known
+    elastic_bend: float = 0.0  # rate of elastic_rate
+
+    def __post_init__(self) -> None:
+        if not self.jerk.size:
+            object.__setattr__(self, "jerk", np.zeros_like(self.pos))
 
     @property
     def normal_force(self) -> float:
@@ -66,12 +72,12 @@ class Model(Protocol):
         mode: int,
         damper: Damper,
         predictor: Predictor,
-        near: tuple[tuple[int, int], Array],
+        near: Any,
         first: bool,
     ) -> Stage:
         """Solve one stage, the ``first`` of a step or not.
 
-        The rim's nodes start from where they were near by, a window and its displacement, if that is the same window.
+        Newton may start from the last stage that was solved, ``near`` (:class:`flexible.models.stage.Near`).
         Whatever fails in it is a stage that is not ok, or a LinAlgError.
         """
 
@@ -91,8 +97,7 @@ class Model(Protocol):
         """
 
 
-@dataclass(frozen=True, slots=True)
-class Record:
+class Record(NamedTuple):
     """One accepted instant, and what was lost and transferred up to it (cumulative)."""
 
     t: float
@@ -120,8 +125,7 @@ class Record:
     mode: int
 
 
-@dataclass(slots=True)
-class Books:
+class Books(NamedTuple):
     """Running totals of a march."""
 
     normal_impulse: float = 0.0
@@ -137,27 +141,7 @@ def record(model: Model, state: State, books: Books, held: Energies | None = Non
     kinetic, gravity, strain = model.energies(state, held)
     res = state.res
     return Record(
-        t=state.t,
-        phi=float(state.pos[2]),
-        omega=float(state.vel[2]),
-        alpha=float(state.acc[2]),
-        x_C=state.x_C,
-        y_C=1 + float(state.pos[1]),
-        slip_velocity=state.slip_velocity,
-        approach_velocity=float(state.vel[1]),
-        normal_force=res.normal,
-        friction_force=res.friction,
-        patch_length=res.length,
-        stick_fraction=res.stuck,
-        kinetic=kinetic,
-        gravity=gravity,
-        ring_strain=strain,
-        contact_spring=res.normal_energy + res.bristle_energy,
-        normal_impulse=books.normal_impulse,
-        friction_impulse=books.friction_impulse,
-        friction_loss=books.friction_loss,
-        damping_loss=books.damping_loss,
-        numerical_loss=books.numerical_loss,
-        off_floor=books.off_floor,
-        mode=state.mode,
-    )
+        state.t, float(state.pos[2]), float(state.vel[2]), float(state.acc[2]), state.x_C, 1 + float(state.pos[1]),
+        state.slip_velocity, float(state.vel[1]), res.normal, res.friction, res.length, res.stuck,
+        kinetic, gravity, strain, res.normal_energy + res.bristle_energy, *books, state.mode,
+    )  # fmt: skip

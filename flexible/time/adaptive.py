@@ -88,12 +88,11 @@ def march(
     given the state behind every new record.
     """
     course = start if isinstance(start, Course) else Course.beginning(_free(model, start), limits.first)
-    state, h, pace, books, records = course.state, course.step, course.pace, course.totals(), course.behind()
+    state, h, pace, books, records = course.state, course.step, course.pace, course.books, course.behind()
     attempts, turns, stalls = course.attempts, course.turns, course.stalls
     cut = False  # whether a step was made shorter by the end
-
-    def stands() -> Course:
-        return Course(state, h, pace, attempts, turns, stalls, replace(books), records, len(records))
+    stood = course.state, h, pace, attempts, turns, stalls, books  # before the last step that no end made shorter
+    behind = course.length
 
     def note(state: State, held: Energies | None = None) -> None:
         records.append(record(model, state, books, held))
@@ -101,7 +100,7 @@ def march(
             keep(state)
 
     def over(ended: str = "") -> Marched:
-        return Marched(state, records, attempts, ended, course)
+        return Marched(state, records, attempts, ended, Course(*stood, records, behind))
 
     if not records:
         note(state)
@@ -112,7 +111,8 @@ def march(
         if h < SHORTEST:
             return over(_stuck(state, "no step however short could be solved"))
         cut = cut or h > ends.t - state.t
-        course = course if cut else stands()
+        if not cut:
+            stood, behind = (state, h, pace, attempts, turns, stalls, books), len(records)
         attempts += 1
         asked = min(h, ends.t - state.t)
         trial = attempt(model, state, asked, method)
@@ -128,7 +128,7 @@ def march(
             continue
         trial, event = step.trial, step.event
         attempts += step.attempts
-        _enter(books, state, trial)
+        books = _entered(books, state, trial)
         stalls = stalls + 1 if trial.state.t - state.t < SHORTEST else 0
         turns += event == TURN
         state = _free(model, trial.state)
@@ -141,42 +141,44 @@ def march(
             return over(_stuck(state, "stick and slip follow each other without end"))
         if event == MODE_ENDS:
             try:
-                state = _in_its_next_mode(model, state, records[-1], books)
+                state, released = _in_its_next_mode(model, state, records[-1])
             except MarchError as trouble:
                 return over(str(trouble))
+            books = books._replace(friction_loss=books.friction_loss + released)
             note(state)
             h, pace = max(min(asked, grown) / 8, SHORT), AFRESH
         else:
             h, pace = grown, now
-    course = course if cut else stands()
+    if not cut:
+        stood, behind = (state, h, pace, attempts, turns, stalls, books), len(records)
     why = f"after {limits.before + attempts} steps" if attempts >= limits.most else "as asked"
     return over(f"stopped at t = {state.t:.6g} {why}")
 
 
-def _in_its_next_mode(model: Model, state: State, before: Record, books: Books) -> State:
-    """The state behind the end of its mode.
+def _in_its_next_mode(model: Model, state: State, before: Record) -> tuple[State, float]:
+    """The state behind the end of its mode, and what ring and patch let go of in the jump of the friction force.
 
-    What the ring and the patch let go of in the jump of the friction force is lost to friction.
+    That is lost to friction.
     """
     mode = model.law.successor(state)
     if model.law.sticks(mode):  # to the last digit, which a step that was cut short may not have
         state = replace(state, slip_velocity=0.0)
     behind = restart(model, state, mode)
-    after = record(model, behind, books)
-    released = before.ring_strain + before.contact_spring - after.ring_strain - after.contact_spring
-    books.friction_loss += released
-    return behind
+    after = record(model, behind, Books())
+    return behind, before.ring_strain + before.contact_spring - after.ring_strain - after.contact_spring
 
 
-def _enter(books: Books, before: State, step: Step) -> None:
-    """Add a step to the totals."""
-    books.normal_impulse += step.impulses[0]
-    books.friction_impulse += step.impulses[1]
+def _entered(books: Books, before: State, step: Step) -> Books:
+    """The totals with a step."""
     stored = step.state.res.bristle_energy - before.res.bristle_energy
-    books.friction_loss -= step.friction_work + stored
-    books.damping_loss += step.damped
-    books.numerical_loss += step.numerical
-    books.off_floor += step.off_floor
+    return Books(
+        books.normal_impulse + step.impulses[0],
+        books.friction_impulse + step.impulses[1],
+        books.friction_loss - (step.friction_work + stored),
+        books.damping_loss + step.damped,
+        books.numerical_loss + step.numerical,
+        books.off_floor + step.off_floor,
+    )
 
 
 def _over(state: State, ends: Ends, turns: int) -> bool:

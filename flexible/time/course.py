@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from ..models.state import Books, Record, State
@@ -34,10 +34,6 @@ class Course:
     def behind(self) -> list[Record]:
         """The records up to here."""
         return self.records[: self.length]
-
-    def totals(self) -> Books:
-        """The books up to here, to go on with."""
-        return replace(self.books)
 
 
 class Marched(NamedTuple):

@@ -27,6 +27,7 @@ class Table(NamedTuple):
     error: Any  # (stages,)
     work: Any  # (stages, stages)
     end_rate: Any  # (stages,)
+    trend: Any  # (stages,)
     order: Any  # (stages,) of the stages in time
     nearest: Any  # (stages, 2) to each stage in time, among those before it
     share: Any  # (stages,) of the change between the two at which a line through them is at the stage
@@ -98,6 +99,13 @@ class Method:
         return self._through_stages(np.ones(1))[1][:, 0]
 
     @cached_property
+    def trend(self) -> Array:
+        """(stages,) The same of the parabola that comes nearest to what is known, for what is not smooth in a step."""
+        powers = np.column_stack([np.ones(len(self.c)), self.c, self.c**2])
+        found: Array = np.array([0.0, 1.0, 2.0]) @ np.linalg.pinv(powers)
+        return found
+
+    @cached_property
     def table(self) -> Table:
         """All of it as named arrays."""
         nearest, share = np.zeros((len(self.c), 2), np.int64), np.zeros(len(self.c))
@@ -106,7 +114,7 @@ class Method:
             nearest[i] = near, next_near
             share[i] = (self.c[i] - self.c[near]) / (self.c[near] - self.c[next_near])
         return Table(
-            self.a, self.b.copy(), self.c, self.gamma, self.error, self.work, self.end_rate,
+            self.a, self.b.copy(), self.c, self.gamma, self.error, self.work, self.end_rate, self.trend,
             np.argsort(self.c), nearest, share,
         )  # fmt: skip
 

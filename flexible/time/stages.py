@@ -17,7 +17,7 @@ from ..chain import whole
 from ..contact.points.data import Bristles, Damper, Resultants
 from ..contact.vectors import largest, plus, times
 from ..models import reduced
-from ..models.stage import Predictor
+from ..models.stage import Near, Predictor
 from .methods import Table
 from .rows import advanced, along, store
 
@@ -62,6 +62,8 @@ class Taken(NamedTuple):
     slip_velocity: float
     elastic_rate: float
     feet_velocity: float
+    jerk: Any  # rate of acc, 0 after no step
+    elastic_bend: float  # rate of elastic_rate
     error: float  # of the velocities
     normal_impulse: float
     friction_impulse: float
@@ -120,12 +122,26 @@ def _sum(h: float, weights: Any, values: Any, count: int) -> float:
 
 
 @part
-def _expected(table: Table, acc: Any, i: int) -> Any:
-    """Accelerations of stage ``i``, by those of the two known ones that are nearest in time."""
+def _expected(table: Table, acc: Any, i: int, jerk: Any, h: float) -> Any:
+    """Accelerations of stage ``i``, by those of the two known ones that are nearest in time, at first by their rate."""
     if i == 1:
-        return acc[0].copy()
+        return plus(acc[0], table.c[1] * h, jerk)
     near, next_near, share = table.nearest[i, 0], table.nearest[i, 1], table.share[i]
     return plus(times(1 + share, acc[near]), -share, acc[next_near])
+
+
+@loop
+def _carries(table: Table, known: _Known, i: int, old: Any, h: float, damper: Damper) -> float:
+    """N_el expected at stage ``i``, by its rates as :func:`_expected` has the accelerations."""
+    rates = known.elastic_rate
+    if h <= 0:
+        return float(old.res.elastic)
+    if i == 1:
+        rate = rates[0] + table.c[1] * h * old.elastic_bend
+    else:
+        near, next_near, share = table.nearest[i, 0], table.nearest[i, 1], table.share[i]
+        rate = (1 + share) * rates[near] - share * rates[next_near]
+    return float(damper.elastic_0 + table.gamma * h * rate)
 
 
 @loop
@@ -185,7 +201,7 @@ def _posed(old: Any, h: float, table: Table, known: _Known, i: int, damping: Any
     damper = Damper(
         damping[0] / beta, elastic, 1.0, drag, way, table.c[i] / table.gamma, 1 / beta, 0.0, turning, False, 0.0
     )  # fmt: skip
-    return Predictor(pos, vel, beta, times(beta**2, _expected(table, known.acc, i))), damper
+    return Predictor(pos, vel, beta, times(beta**2, _expected(table, known.acc, i, old.jerk, h))), damper
 
 
 @part
@@ -216,6 +232,7 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
     known.elastic_rate[0], known.slip_velocity[0] = old.elastic_rate, old.slip_velocity
     window, u, nodal, res, bristles = old.window, old.u, old.nodal, old.res, old.bristles
     ok, error = True, 0.0
+    pose, carried = old.pos, old.res.elastic
     for i in range(1, end + 1):
         predictor, damper = _posed(old, h, table, known, i, damping) if h > 0 else _at_once(old, known)
         pos, vel = predictor.pos, predictor.vel
@@ -224,19 +241,23 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
         if not np.isfinite(begins + damper.turning_0 + damper.drag + damper.eta_0 + damper.velocity_0):
             ok = False
             break
-        found = solved(model, old, old.mode, damper, predictor, (window, u), i == 1)
+        near = Near(window, u, pose, carried, _carries(table, known, i, old, h, damper))
+        found = solved(model, old, old.mode, damper, predictor, near, i == 1)
         window = found.window
         if not found.ok:
             ok = False
             break
         u, nodal, res, bristles = found.u, found.nodal, found.res, found.bristles
         _write_down(known, i, plus(pos, 1.0, found.d), plus(vel, 1 / beta, found.d), found.acc, res)
+        pose, carried = known.pos[i], res.elastic
         known.elastic_rate[i] = (res.elastic - damper.elastic_0) / beta
         known.way[i], known.slip_velocity[i] = res.way, (res.way - damper.way_0) / beta
         known.feet[i] = res.feet
         if i == stages - 1 and h > 0:
             off = advanced(np.zeros(pos.shape[0]), h, table.error, known.acc, stages)
             error = momentum_error(model, known.pos[i], known.vel[i], known.acc[i], beta, found.matrix, off)
+    jerk = advanced(np.zeros(old.pos.shape[0]), 1 / h, table.trend, known.acc, stages) if h > 0 else times(0.0, old.pos)
+    bend = _sum(1 / h, table.trend, known.elastic_rate, stages) if h > 0 else 0.0
     feet = _sum(1 / h, table.end_rate, known.feet, stages) if h > 0 else 0.0
     off_floor = 0.0
     for i in range(stages):
@@ -253,7 +274,7 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
                 numerical += table.work[i, j] * along(force, known.pos[j], known.pos[0])
     return Taken(
         ok, known.pos[end].copy(), known.vel[end].copy(), known.acc[end].copy(), window, u, nodal, res, bristles,
-        known.slip_velocity[end], known.elastic_rate[end], feet, error,
+        known.slip_velocity[end], known.elastic_rate[end], feet, jerk, bend, error,
         _sum(h, table.b, known.normal, stages), _sum(h, table.b, known.friction, stages),
         res.beyond + _work(table, known.friction, known.way) - drag_work, _damped(table, known) - drag_work,
         numerical, off_floor, after,

@@ -45,6 +45,7 @@ def attempt(model: Model, old: State, h: float, method: Method = ESDIRK3) -> Ste
     state = State(
         old.t + h, float(x_C), pos, taken.vel, taken.acc, old.mode, taken.window, taken.u, taken.nodal, taken.res,
         taken.bristles, float(taken.slip_velocity), float(taken.elastic_rate), float(taken.feet_velocity),
+        taken.jerk, float(taken.elastic_bend),
     )  # fmt: skip
     return Step(
         state, taken.error, (float(taken.normal_impulse), float(taken.friction_impulse)), float(taken.friction_work),
@@ -78,7 +79,7 @@ def restart(model: Model, state: State, mode: int) -> State:
     pos[3:] = taken.pos[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
     return replace(
         state, pos=pos, acc=taken.acc, mode=mode, window=taken.window, u=taken.u, nodal=taken.nodal, res=taken.res,
-        bristles=taken.bristles, feet_velocity=0.0,
+        bristles=taken.bristles, feet_velocity=0.0, jerk=np.zeros_like(pos), elastic_bend=0.0,
     )  # fmt: skip
 
 

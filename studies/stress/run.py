@@ -197,7 +197,7 @@ def run_chunk(task: Task) -> list[Finding]:
         found = flexible.flexible_margins(scene, number % TWICE == 0, work)
         if task.all_nodes and number % ALL_NODES == 0 and found.completed:
             coarse = scene.replace(
-                solve={"rtol": max(scene.solve.rtol, 1e-3), "elements": min(scene.solve.elements, 72)}
+                solve={"rtol": max(scene.solve.rtol, 1e-3), "elements": min(scene.solve.elements or 72, 72)}
             )
             return found._replace(margins=found.margins | flexible.against_all_nodes(coarse, work))
         return found

@@ -33,6 +33,16 @@ class Carried(NamedTuple):
     pull: Any  # tangential force on the point when the step began
 
 
+class _Point(NamedTuple):
+    """A point that may have touched: numbers, since to hand over arrays costs more than all that is done with them."""
+
+    gap_old: float
+    gap: float
+    psi: float
+    sine: float
+    lifted: float
+
+
 class _Entry(NamedTuple):
     """When a point touched, and where."""
 
@@ -46,7 +56,7 @@ class _Entry(NamedTuple):
 
 
 @loop
-def _entry(points: Any, i: int, dphi: float, turn: float, ratio: float) -> _Entry:
+def _entry(point: _Point, dphi: float, turn: float, ratio: float) -> _Entry:
     """When a point that was off the floor when the step began touched.
 
     Its angle is the parabola in time that ends with ``turn`` a step: over a step in which the whole patch is renewed a
@@ -54,8 +64,7 @@ def _entry(points: Any, i: int, dphi: float, turn: float, ratio: float) -> _Entr
     not the circle's is linear in time.
     """
     never = _Entry(-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    g_old, g_new = max(points.gap_old[i], 0.0), points.gap[i]
-    psi, lifted = points.psi[i], points.lifted[i]
+    g_old, g_new, psi, lifted = max(point.gap_old, 0.0), point.gap, point.psi, point.lifted
     a = dphi * dphi / 2
     b = g_new - g_old - a
     disc = b * b - 4 * a * g_old
@@ -79,7 +88,7 @@ def _entry(points: Any, i: int, dphi: float, turn: float, ratio: float) -> _Entr
         step = (g_new + (2 * half * half - lifted) + own * s) / slope
         s = min(max(s - step, 0.0), 1.0)
     shift = 1 - ratio * s + (ratio - 1) * s * s
-    by_phi = -(2 * half * other * shift - (1 - s) * points.sine[i]) / slope
+    by_phi = -(2 * half * other * shift - (1 - s) * point.sine) / slope
     return _Entry(s, angle, 2 * half * half, -(1 - s) / slope, by_phi, speed, shift)
 
 
@@ -111,7 +120,8 @@ def carry(
             rate[i] = 1.0
             sliding[i] = flags[p]
             continue
-        entry = _entry(points, i, dphi, turn, ratio)
+        point = _Point(points.gap_old[i], points.gap[i], points.psi[i], points.sine[i], points.lifted[i])
+        entry = _entry(point, dphi, turn, ratio)
         rest, psi_in = entry.rest, entry.psi
         if rest >= 0:
             touched[i] = True

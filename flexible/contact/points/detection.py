@@ -71,9 +71,9 @@ def _touching(height: float, psi_start: float, width: float, y0: float, y1: floa
 
 
 @loop
-def least_gap(pose: Any, u: Any, rim: Rim) -> float:
+def least_gap(height: float, phi: float, u: Any, rim: Rim) -> float:
     """The least gap of a window of rim elements."""
-    s, c = sin(pose[2]), cos(pose[2])
+    s, c = sin(phi), cos(phi)
     least = np.inf
     for i in range((u.shape[0] - 1) // 2):
         start = vertex_angle(rim.vertex, rim.first + i)
@@ -84,7 +84,7 @@ def least_gap(pose: Any, u: Any, rim: Rim) -> float:
             upward(u[k + 1, 0], u[k + 1, 1], s, c),
             upward(u[k + 2, 0], u[k + 2, 1], s, c),
         )
-        least = min(least, _lowest(pose[1], pose[2] - pi + start, width, y0, y1, y2)[1])
+        least = min(least, _lowest(height, phi - pi + start, width, y0, y1, y2)[1])
     return least
 
 

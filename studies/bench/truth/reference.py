@@ -65,7 +65,7 @@ ALL_NODES = {
 STEP_ORDER = 1.0  # of these errors in rtol, by the step control
 
 
-def scene_b(rtol: float = 1e-3, elements: int = 240, level: str = "reduced") -> Scene:
+def scene_b(rtol: float = 1e-3, elements: int | None = None, level: str = "reduced") -> Scene:
     """Rolling into the floor with an undeformed ring."""
     return Scene(
         Hoop(k=0.1, r=R, mass_ratio=0.1),

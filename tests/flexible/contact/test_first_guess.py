@@ -1,0 +1,42 @@
+"""Where Newton on a stage begins: a rim moved to where its patch bears what is foreseen."""
+
+from math import sqrt
+
+import numpy as np
+import pytest
+from kinematic import VERTEX, parameters
+
+from flexible.contact.forces import contact_forces
+from flexible.contact.guess import as_deep
+from flexible.contact.points.data import UNDAMPED, Before, Rim, no_bristles
+from flexible.contact.points.rim import element_at
+from flexible.models.stage import From
+
+EPS, PHI = 1e6, 2.9
+
+
+def elastic_force(height, u, rim):
+    law = parameters("brush", 2e-6, EPS, EPS)
+    pose = np.array([0.0, height, PHI])
+    return contact_forces(pose, u, rim, law, 0, Before(pose, u, no_bristles()), UNDAMPED, False).res.elastic
+
+
+@pytest.mark.parametrize("times", [0.2, 0.9, 1.1, 5.0])
+def test_a_patch_is_as_deep_as_its_force_wants(times):
+    """N = (4/3) eps delta sqrt(2 delta) on a circle, to the 1e-3 of its points: from any other height of the frame."""
+    depth = 1e-6
+    rim = Rim(element_at(VERTEX, np.pi - PHI) - 2, VERTEX)
+    u = np.zeros((11, 2))
+    known = 4 / 3 * EPS * depth * sqrt(2 * depth)
+    assert elastic_force(-depth, u, rim) == pytest.approx(known, rel=1e-3)
+    assert as_deep(3e-6, PHI, u, rim, From(u, -depth, known, times * known, 1e-9))
+    assert elastic_force(3e-6, u, rim) == pytest.approx(times * known, rel=1e-3)
+
+
+@pytest.mark.parametrize(("deepest", "elastic", "expected"), [(1e-6, 0.0, 1.0), (-1e-6, 1.0, 0.0), (-1e-6, 1.0, 11.0)])
+def test_a_patch_that_is_another_one_is_no_guide(deepest, elastic, expected):
+    """Off the floor before, off it now, or ten times as strong: the rim stays where it is."""
+    u = np.zeros((11, 2))
+    rim = Rim(element_at(VERTEX, np.pi - PHI) - 2, VERTEX)
+    assert not as_deep(0.0, PHI, u, rim, From(u, deepest, elastic, expected, 1e-9))
+    assert not u.any()
