@@ -6,6 +6,8 @@ them, exactly for a linear ring, near its present shape for the exact one, which
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from math import isfinite
 from typing import Any, Protocol
 
@@ -15,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..contact.forces import contact_forces
 from ..contact.laws.listing import sharing
-from ..contact.points.data import NOTHING, UNDAMPED, Before, Rim, no_bristles
+from ..contact.points.data import NOTHING, UNDAMPED, Before, Parameters, Rim, no_bristles
 from ..contact.points.rim import gap_at, upward
 from ..contact.vectors import largest
 from ..ring.nodal import factored
@@ -23,6 +25,8 @@ from .state import State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
+
+LONG = 0.1  # half-width of a patch, in R, that no ring at rest carries along the rim by many times its length
 
 
 class RestingRing(Protocol):
@@ -132,6 +136,15 @@ class Patch:
         self.height, self.window = float(state.pos[1]), state.window
         self.u, self.nodal, self.res = state.u, state.nodal, state.res
 
+    def lie_on(self, law: Parameters, softness: float) -> None:
+        """Take the foundation of ``law``, so many times softer: a patch that is longer and deeper."""
+        self.law = law._replace(
+            eps_n=law.eps_n / softness, eps_t=law.eps_t / softness, spacing=law.spacing * softness ** (1 / 3)
+        )
+        before, self.half = self.half, (1.5 * self.normal / self.law.eps_n) ** (1 / 3)
+        self.height += (before**2 - self.half**2) / 2
+        self.low, self.high = min(self.low, -self.half), max(self.high, self.half)
+
     def solve(self, ring: RestingRing, share: float) -> bool:
         """Newton on height and rim for ``share`` of the forces; whether it converged."""
         s, c = np.sin(self.phi), np.cos(self.phi)
@@ -214,24 +227,63 @@ class Patch:
 
 
 def settle(ring: RestingRing, patch: Patch) -> float:
-    """Bring ring and patch to rest together, in steps of all loads if one is too much; the share that was reached."""
+    """Bring ring and patch to rest together; the share of all loads that was reached.
+
+    A soft ring turns under the load where the floor touches it. If that carries a short patch along the rim by many
+    times its length, Newton loses it whatever the load: then it is found on a soft foundation, where it is long, and
+    followed to its own.
+    """
+    begins, known = ring.coordinates, dict(patch.__dict__)
+    reached = _in_shares(ring, patch)
+    if reached == 1 or patch.half >= LONG:
+        return reached
+    ring.coordinates, patch.__dict__ = begins, known
+    return 1.0 if _from_soft(ring, patch) else reached
+
+
+def _in_shares(ring: RestingRing, patch: Patch) -> float:
+    """In steps of all loads if one is too much."""
     share, step = 0.0, 1.0
     while share < 1:
-        start, known = ring.coordinates, dict(patch.__dict__)
-        try:
-            settled = _settled(ring, patch, share + step)
-        except np.linalg.LinAlgError:
-            settled = False
-        if settled:
+        if _try(ring, patch, share + step):
             share += step
             step = min(2 * step, 1 - share)
         else:
-            ring.coordinates = start
-            patch.__dict__ = known
             step /= 2
             if step < 1 / 256:
                 return share
     return 1.0
+
+
+def _from_soft(ring: RestingRing, patch: Patch) -> bool:
+    """Find the patch on a soft foundation and follow it to its own; whether that was reached."""
+    law = patch.law
+    softness, step = (LONG / patch.half) ** 3, 10.0
+    patch.lie_on(law, softness)
+    if _in_shares(ring, patch) < 1:
+        return False
+    while softness > 1:
+        less = max(softness / step, 1.0)
+        if _try(ring, patch, 1.0, partial(patch.lie_on, law, less)):
+            softness = less
+        else:
+            step **= 0.5
+            if step < 1.02:
+                return False
+    return True
+
+
+def _try(ring: RestingRing, patch: Patch, share: float, change: Callable[[], None] = lambda: None) -> bool:
+    """Whether ring and patch come to rest under a share of the loads; if not they stay what they were."""
+    start, known = ring.coordinates, dict(patch.__dict__)
+    try:
+        change()
+        if _settled(ring, patch, share):
+            return True
+    except np.linalg.LinAlgError:
+        pass
+    ring.coordinates, patch.__dict__ = start, known
+    return False
 
 
 def _settled(ring: RestingRing, patch: Patch, share: float) -> bool:

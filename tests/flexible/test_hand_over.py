@@ -7,7 +7,8 @@ import pytest
 
 import flexible
 import rigid
-from flexible.handover import hand_over, pose_at
+from flexible.handover import equilibrium, hand_over, pose_at
+from flexible.models.chain import ChainHoop
 from flexible.models.reduced import ReducedHoop
 from rigid import Friction, Hoop, Kind, Release, Run, Scene
 
@@ -52,6 +53,25 @@ def test_rate_of_the_patch(k, place):
     n = motion.at(t + h * np.arange(3)).normal_force
     rate = (-3 * n[0] + 4 * n[1] - n[2]) / (2 * h)
     assert state.vel[1] == pytest.approx(2 / 3 * state.pos[1] * rate / n[0], rel=1e-2)
+
+
+def test_a_soft_ring_rests_on_a_foundation_however_stiff():
+    """The ring, a massless one at E I = 1.13, bends to that of a rigid floor as the patch's length squared goes to 0.
+
+    Its load turns the rim at the floor by 0.1, hundreds of lengths of the patch, which is no loss of equilibrium. Per
+    ten times the foundation the change falls by 10^(2/3); the next power of the length leaves a tenth of that.
+    """
+    scene = Scene(Hoop(0.25, 1.18), Friction(0.26, 0.25), Release(radians(8)), Run(until="pulse"))
+    scene = scene.replace(ring={"bending_stiffness": 1.13})
+    motion = rigid.simulate(scene)
+    pose = pose_at(motion, 0.45 * motion.t_end)
+    bent = []
+    for stiffness in (1e10, 1e11, 1e12):
+        state = equilibrium(ChainHoop(scene.replace(contact={"stiffness": stiffness})), pose)
+        assert state.normal_force == pytest.approx(pose.normal_force, rel=1e-6)
+        bent.append(state.pos[3:])
+    changes = np.abs(np.diff(bent, axis=0)).max(axis=1)
+    assert changes[0] / changes[1] == pytest.approx(10 ** (2 / 3), rel=0.15)
 
 
 def test_acceleration_of_a_flexible_motion():
