@@ -12,8 +12,6 @@ import numpy as np
 
 from rigid.kernel.compile import jit, loop, part
 
-from ..chain import stage as chain
-from ..chain import whole
 from ..contact.points.data import Bristles, Damper, Resultants
 from ..contact.vectors import largest, plus, times
 from ..models import reduced
@@ -286,10 +284,3 @@ take_reduced = jit(
     take, solved=reduced.solved_in_step, held=reduced.held, floor_forces=reduced.floor_forces,
     momentum_error=reduced.momentum_error,
 )  # fmt: skip
-#: and of a chain
-take_chain = jit(
-    take, solved=chain.solved_in_step, held=whole.held_by, floor_forces=whole.floor_forces,
-    momentum_error=whole.momentum_error,
-)  # fmt: skip
-#: by what a model has
-COMPILED: dict[type, Any] = {reduced.Arrays: take_reduced, chain.Arrays: take_chain}

@@ -4,16 +4,23 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import isfinite
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..chain import stage as chain
+from ..models import reduced
 from ..models.reduced import start_of
 from ..models.state import Energies, Model, State
+from .chain_step import take_chain
 from .methods import ESDIRK3, Method
-from .stages import COMPILED, Taken, take
+from .stages import Taken, take, take_reduced
 
 Array = NDArray[np.float64]
+
+#: steps in compiled code, by the arrays that a model has for them
+COMPILED: dict[type, Any] = {reduced.Arrays: take_reduced, chain.Arrays: take_chain}
 
 
 class MarchError(RuntimeError):

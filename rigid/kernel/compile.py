@@ -10,6 +10,7 @@ Where the compiled code is kept is said in :mod:`rigid.kernel.store`, who is tol
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -103,16 +104,18 @@ def compiled() -> dict[str, Callable[..., Any]]:
     return twins
 
 
-def jit(function: F, **instead: Any) -> F:
+def jit(function: F, module: str = "", **instead: Any) -> F:
     """Mark a function for compilation at its first call, with a cache on disk.
 
     Compiled code takes what is given by name ``instead`` of the functions that have these names where it is written, so
-    that one text serves Python and compiled code; the file must import the modules of both.
+    that one text serves Python and compiled code. It is kept under the name of the ``module`` that asks, by default the
+    function's own, whose file must import the modules of both.
     """
     from .store import moved
 
     assert isinstance(function, FunctionType)
-    place = _home_of(function.__module__, function.__code__.co_filename)
+    module = module or function.__module__
+    place = _home_of(module, str(sys.modules[module].__file__))
     scope = {**function.__globals__, **instead} if instead else None
     return _compiler(moved(function, place, scope), keep=True)
 

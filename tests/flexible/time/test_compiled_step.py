@@ -10,8 +10,8 @@ from flexible.models.chain import ChainHoop
 from flexible.models.reduced import ReducedHoop, start_of
 from flexible.ring.fem import COLUMNS
 from flexible.time.methods import METHODS
-from flexible.time.stages import COMPILED, take
-from flexible.time.step import attempt
+from flexible.time.stages import take
+from flexible.time.step import COMPILED, attempt
 
 
 def rolling(scene, level=ReducedHoop):
