@@ -8,7 +8,7 @@ Plane stress; the weld (a short arc of the inner rim) is clamped to the disk's f
 from __future__ import annotations
 
 from functools import cached_property, lru_cache
-from math import ceil
+from math import ceil, sqrt
 from typing import Any
 
 import numpy as np
@@ -26,6 +26,7 @@ Array = NDArray[np.float64]
 COLUMNS = 64  # of the rim's compliance are solved for together
 AROUND = 240  # elements where no tolerance asks for more
 MESH_ERROR, MESH_ORDER = 1e-4, 2.2  # with so many, of the impulses over J_N; order with which it falls
+MESH_SOFT = 400.0  # bending stiffness from which on it is less, like its root
 MOST_AROUND = 4000
 LOT = 24  # of modes that are found together
 
@@ -204,12 +205,13 @@ def elements_through(wall: float) -> int:
     return max(1, ceil((1200 * wall**2) ** 0.25))
 
 
-def elements_around(rtol: float) -> int:
+def elements_around(rtol: float, bending_stiffness: float) -> int:
     """Elements around a ring whose mesh leaves no more than a third of ``rtol`` in the impulses of a pulse.
 
     Found where it leaves most, at an undamped brush under a ring of E I = 65 with mass (README.md, section 5).
     """
-    return min(max(AROUND, ceil(AROUND * (3 * MESH_ERROR / rtol) ** (1 / MESH_ORDER))), MOST_AROUND)
+    error = MESH_ERROR * min(1.0, sqrt(MESH_SOFT / bending_stiffness))
+    return min(max(AROUND, ceil(AROUND * (3 * error / rtol) ** (1 / MESH_ORDER))), MOST_AROUND)
 
 
 def ring_of(scene: Scene, through: int = 1, around: int | None = None) -> Ring:
@@ -218,7 +220,7 @@ def ring_of(scene: Scene, through: int = 1, around: int | None = None) -> Ring:
     ``through`` is the least number of elements through the wall, ``around`` the number around the ring, unless the
     scene says how many; by default its tolerance does.
     """
-    around = scene.solve.elements or around or elements_around(scene.solve.rtol)
+    around = scene.solve.elements or around or elements_around(scene.solve.rtol, scene.ring.bending_stiffness)
     if scene.solve.through is not None:
         through = scene.solve.through
     else:
