@@ -9,18 +9,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..chain import stage as chain
 from ..models import reduced
 from ..models.reduced import start_of
 from ..models.state import Energies, Model, State
-from .chain_step import take_chain
-from .methods import ESDIRK3, Method
+from .methods import ESDIRK3, Method, Table
 from .stages import Taken, take, take_reduced
 
 Array = NDArray[np.float64]
 
-#: steps in compiled code, by the arrays that a model has for them
-COMPILED: dict[type, Any] = {reduced.Arrays: take_reduced, chain.Arrays: take_chain}
+
+def take_compiled(arrays: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
+    """:func:`flexible.time.stages.take` in compiled code, of the arrays that a model has for it."""
+    if isinstance(arrays, reduced.Arrays):
+        taken: Taken = take_reduced(arrays, old, h, table, damping)
+    else:
+        from .chain_step import take_chain  # what only soft rings need
+
+        taken = take_chain(arrays, old, h, table, damping)
+    return taken
 
 
 class MarchError(RuntimeError):
@@ -68,7 +74,7 @@ def _taken(model: Model, old: State, h: float, method: Method) -> Taken | None:
             if model.arrays is None:
                 taken = take(model, old, h, method.table, damping)
             else:
-                taken = COMPILED[type(model.arrays)](model.arrays, start_of(old), h, method.table, damping)
+                taken = take_compiled(model.arrays, start_of(old), h, method.table, damping)
         except np.linalg.LinAlgError:
             return None
         if taken.ok:

@@ -11,7 +11,7 @@ from flexible.models.reduced import ReducedHoop, start_of
 from flexible.ring.fem import COLUMNS
 from flexible.time.methods import METHODS
 from flexible.time.stages import take
-from flexible.time.step import COMPILED, attempt
+from flexible.time.step import attempt, take_compiled
 
 
 def rolling(scene, level=ReducedHoop):
@@ -23,7 +23,7 @@ def rolling(scene, level=ReducedHoop):
 def both(hoop, state, h, method):
     damping = hoop.relaxation, hoop.patch_damping(state)
     by_python = take(hoop, state, h, METHODS[method].table, damping)
-    return by_python, COMPILED[type(hoop.arrays)](hoop.arrays, start_of(state), h, METHODS[method].table, damping)
+    return by_python, take_compiled(hoop.arrays, start_of(state), h, METHODS[method].table, damping)
 
 
 def agree(one, other, tolerance):
