@@ -27,7 +27,7 @@ COLUMNS = 64  # of the rim's compliance are solved for together
 AROUND = 240  # elements where no tolerance asks for more
 MESH_ERROR, MESH_ORDER = 1e-4, 2.2  # with so many, of the impulses over J_N; order with which it falls
 MESH_SOFT = 400.0  # bending stiffness from which on it is less, like its root
-MOST_AROUND = 4000
+MOST_AROUND = 1200  # the compliance of their rim is 180 MB
 LOT = 24  # of modes that are found together
 
 
