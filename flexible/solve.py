@@ -12,7 +12,6 @@ The rigid solver asks the same of itself.
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable
 from dataclasses import replace
 from math import ceil, floor, inf, nan, pi
@@ -21,6 +20,7 @@ import numpy as np
 
 import rigid
 from rigid import Kind, Motion, Pulse, Release, Run, Scene, SceneLike
+from rigid.kernel.interrupts import between_calls
 from rigid.phases.choice import LEAST_LOSS, SLIPS
 
 from .builder import Builder
@@ -57,6 +57,7 @@ class _Progress:
         return tell
 
 
+@between_calls()
 def simulate(
     scene: SceneLike,
     *,
@@ -117,7 +118,7 @@ def simulate(
 
 def _resumable(earlier: FlexibleMotion, scene: Scene, history: bool) -> FlexibleMotion:
     """A motion that a run of a scene can go on from."""
-    if dataclasses.replace(earlier.scene, run=scene.run) != scene:
+    if replace(earlier.scene, run=scene.run) != scene:
         raise ValueError("The motion to resume is of another scene: all but how far to run must be the same.")
     if history and earlier.marches and not earlier.kept:
         raise ValueError("The motion to resume did not keep its states: simulate(scene, history=True) does.")
@@ -212,7 +213,7 @@ def _rest_of(run: Run, builder: Builder) -> Run | None:
 def _from_here(scene: Scene, hoop: FlexibleHoop, state: State, run: Run) -> Scene:
     """The scene whose rigid hoop takes over from a flexible one."""
     release = Release(float(state.pos[2]), float(state.vel[2]), float(hoop.law.handed_back(state)))
-    return dataclasses.replace(scene, release=release, run=run)
+    return replace(scene, release=release, run=run)
 
 
 def _slips_no_more(motion: Motion) -> bool:

@@ -11,6 +11,8 @@ from dataclasses import replace
 from math import inf
 from typing import NamedTuple
 
+from rigid.kernel.interrupts import answer
+
 from ..models.state import Books, Energies, Model, Record, State, record
 from .control import AFRESH, Pace, longer, shorter
 from .course import Course, Marched
@@ -108,6 +110,7 @@ def march(
         return over()
     power = 1 / method.estimates
     while attempts < limits.most and not limits.stop():
+        answer()
         if h < SHORTEST:
             return over(_stuck(state, "no step however short could be solved"))
         cut = cut or h > ends.t - state.t

@@ -63,6 +63,11 @@ def _end() -> None:
         _thread.seconds = compile_seconds() + time.perf_counter() - _thread.start
 
 
+def compiling() -> bool:
+    """Whether this thread compiles kernels now."""
+    return getattr(_thread, "depth", 0) > 0
+
+
 def compile_seconds() -> float:
     """Seconds that this thread has spent compiling kernels so far."""
     return getattr(_thread, "seconds", 0.0)
