@@ -64,8 +64,13 @@ class Ladder:
         return "bending stiffness EI/(mgR²)" if self.along == "bending" else "contact foundation εR²/(mg)"
 
     def rungs(self, scene: Scene) -> list[Scene]:
-        """The scene at every rung, softest first; what else the friction law ties to the foundation goes with it."""
+        """The scene at every rung, softest first; what else the friction law ties to the foundation goes with it.
+
+        All rungs have one mesh around the ring: what it leaves then falls with what the ring gives way by, as the
+        distance from the rigid hoop does, and is no step along the ladder.
+        """
         from flexible.contact.laws.listing import LAWS
+        from flexible.ring.fem import AROUND
 
         law = LAWS[scene.contact.law]
         ratio = scene.ring.bending_stiffness / scene.contact.stiffness
@@ -75,6 +80,10 @@ class Ladder:
             foundation = scene.contact.stiffness if self.along == "bending" else s
             tied = law.stiffened(scene.contact, foundation / scene.contact.stiffness)
             rungs.append(
-                scene.replace(ring={"bending_stiffness": ring}, contact={"stiffness": foundation, **tied})
-            )  # fmt: skip
+                scene.replace(
+                    ring={"bending_stiffness": ring},
+                    contact={"stiffness": foundation, **tied},
+                    solve={"elements": scene.solve.elements or AROUND},
+                )
+            )
         return rungs
