@@ -219,8 +219,8 @@ class Builder:
             Why it stopped early, if it did.
         """
 
-        def watch(now: State) -> None:
-            self.range(now)
+        def watch(now: State, rows: Array) -> None:
+            self.range(rows[:, 0], rows[:, -1], rows[:, 1])
             if progress is not None:
                 progress(now)
 

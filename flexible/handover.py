@@ -7,7 +7,7 @@ brought to rest in the disk's frame, and their rates are those of the equilibria
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from math import cos, inf, pi, sin, sqrt
 from typing import get_args
 
@@ -22,8 +22,8 @@ from .contact.points.data import NOTHING, no_bristles
 from .contact.points.rim import lift, sideways, upward
 from .models.equilibrium import Patch, settle
 from .models.select import Hoop
-from .models.state import State
-from .time.step import MarchError, restart
+from .models.state import State, in_motion
+from .time.adaptive import MarchError, restart
 
 Array = NDArray[np.float64]
 
@@ -135,7 +135,7 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
         height = -min(0.0, float(upward(u[:, 0], u[:, 1], s, c).min()))
         pos = np.concatenate([[0.0, height, pose.phi], ring.coordinates])
         nothing = (np.zeros_like(u), NOTHING, no_bristles())
-        return State(t, x_C, pos, zero, zero, mode, window, u, *nothing, pose.slip_velocity)
+        return in_motion(t, x_C, (pos, zero, zero), mode, (window, u, *nothing), pose.slip_velocity)
     patch = Patch(hoop, pose.phi, pose.normal_force, pose.friction_force)
     if near is not None and near.res.normal > 0:
         patch.start_from(near)
@@ -144,10 +144,8 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
         share = reached * pose.normal_force / (1 + hoop.scene.hoop.mass_ratio)
         raise MarchError(f"{lost}: from no load on, it is lost at N = {share:.3g} of the weight of disk and hoop")
     pos = np.concatenate([[0.0, patch.height, pose.phi], ring.coordinates])
-    return State(
-        t, x_C, pos, zero, zero, mode, patch.window, patch.u, patch.nodal, patch.res, patch.bristles,
-        pose.slip_velocity,
-    )  # fmt: skip
+    rim = patch.window, patch.u, patch.nodal, patch.res, patch.bristles
+    return in_motion(t, x_C, (pos, zero, zero), mode, rim, pose.slip_velocity)
 
 
 def undeformed(hoop: Hoop, pose: Pose) -> State:
@@ -161,10 +159,8 @@ def undeformed(hoop: Hoop, pose: Pose) -> State:
     # whether it will roll is for the friction to say: no phase is known yet
     kind = Kind.FLIGHT if pose.slip_velocity == 0 else Kind.SKID if pose.slip_velocity > 0 else Kind.SPIN
     mode = hoop.law.start(kind)
-    state = State(
-        0.0, 0.0, pos, vel, np.zeros(3 + n), mode, window, u, np.zeros_like(u), NOTHING, no_bristles(),
-        pose.slip_velocity,
-    )  # fmt: skip
+    rim = window, u, np.zeros_like(u), NOTHING, no_bristles()
+    state = in_motion(0.0, 0.0, (pos, vel, np.zeros(3 + n)), mode, rim, pose.slip_velocity)
     return restart(hoop, state, mode)
 
 
@@ -194,8 +190,8 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, there: States | None = None)
     elif len(bristles.number):
         bristles = law.slid_in(bristles, res)
     vel[0] = pose.slip_velocity + creep - u_rate - pose.omega * _lift(hoop, state)
-    state = replace(
-        state, vel=vel, acc=np.zeros_like(vel), bristles=bristles, slip_velocity=pose.slip_velocity + creep
+    state = state._replace(
+        vel=vel, acc=np.zeros_like(vel), bristles=bristles, slip_velocity=pose.slip_velocity + creep
     )  # fmt: skip
     sticks = law.sticks(state.mode) and len(bristles.number) > 0
     return _balanced(hoop, state, pose) if sticks else restart(hoop, state, state.mode)
@@ -219,7 +215,7 @@ def _balanced(hoop: Hoop, state: State, pose: Pose) -> State:
         raised[1] += change[0]
         bristles = state.bristles._replace(stretch=state.bristles.stretch * (1 + change[1]))
         try:
-            found = restart(hoop, replace(state, pos=raised, bristles=bristles), state.mode)
+            found = restart(hoop, state._replace(pos=raised, bristles=bristles), state.mode)
         except MarchError:
             break
         before, off = off, np.array([found.res.normal, found.res.friction]) - wanted

@@ -31,9 +31,9 @@ from .models.select import Range, hoop_of
 from .models.state import State
 from .motion import FlexibleMotion, FlexiblePulse
 from .segment import Segment
-from .time.adaptive import SHORTEST
+from .time.adaptive import MarchError
+from .time.advance import SHORTEST
 from .time.events import Ends
-from .time.step import MarchError
 
 Progress = Callable[[float], object]
 
@@ -83,7 +83,7 @@ def simulate(
         An earlier motion of the same scene, however it ended, from which to go on, as far as ``scene.run`` says: it
         becomes what it would have been without a stop, to the last bit.
     stop : callable, optional
-        Asked before every step; where it says so the motion ends, incomplete.
+        Asked every few steps; where it says so the motion ends, incomplete.
 
     Returns
     -------
@@ -145,7 +145,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         except MarchError as error:
             builder.completed = False
             return str(error) + _too_soft(scene)
-        state = replace(state, t=builder.t, x_C=builder.x_C)
+        state = state._replace(t=builder.t, x_C=builder.x_C)
         sign = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
         # a pulse that the end of the run cuts ends at that time, any other at the rigid one's angle
         cut = pulse.cut and scene.run.t_end is not None and pulse.t_end == motion.t_end

@@ -150,6 +150,23 @@ def moved(arrays: Any, old: Any, window: tuple[int, int]) -> tuple[Any, Any]:
 
 
 @part
+def energies_of(arrays: Any, state: Any, held: Any) -> tuple[float, float, float]:
+    """Kinetic, gravity and strain energy of a state whose coordinates hold so much of them."""
+    strain = held[2]
+    if state.res.normal > 0:
+        beyond = moved(arrays, state, state.window)[1]
+        for i in range(beyond.shape[0]):
+            strain += (state.nodal[i, 0] * beyond[i, 0] + state.nodal[i, 1] * beyond[i, 1]) / 2
+    return held[0], held[1], strain
+
+
+@part
+def lacks(arrays: Any, window: Any) -> bool:
+    """Whether a step may have failed for want of a part of the rim: the chain knows all of it."""
+    return False
+
+
+@part
 def reach(arrays: Any, pos: Any) -> tuple[float, float]:
     """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is."""
     return lowest(arrays.chain.rod, sections(pos), arrays.nodes, arrays.theta, pos[2], pos[1])

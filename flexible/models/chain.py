@@ -20,7 +20,6 @@ from ..chain.touch import turned
 from ..chain.whole import floor_forces, held, momentum_error, moved
 from ..contact.points.data import Damper
 from ..ring.fem import AROUND, ring_of
-from .reduced import start_of
 from .rim_contact import RimContact
 from .stage import Predictor, Stage
 from .state import Energies, State
@@ -76,9 +75,9 @@ class ChainHoop(RimContact):
     @cached_property
     def arrays(self) -> Arrays:
         """What the compiled step takes."""
-        ring, every = self.ring, np.arange(len(self._rim_theta))
+        ring, every = self.ring, np.arange(len(self.theta))
         return Arrays(
-            ring.chain, ring.nodes, ring.missing(every, every), self._slow, self.vertex, self._rim_theta, self.element,
+            ring.chain, ring.nodes, ring.missing(every, every), self._slow, self.vertex, self.theta, self.element,
             self.law.parameters, self.tolerance, np.zeros(2),
         )  # fmt: skip
 
@@ -88,7 +87,7 @@ class ChainHoop(RimContact):
 
     def _moved(self, state: State, window: Window) -> tuple[Array, Array]:
         """Displacement of the rim nodes of a window, and what of it the sections do not account for."""
-        u, beyond = moved(self.arrays, start_of(state), window)
+        u, beyond = moved(self.arrays, state, window)
         return u, beyond
 
     def stage(
@@ -101,7 +100,7 @@ class ChainHoop(RimContact):
         first: bool,
     ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
-        return Stage(*solved(self.arrays, start_of(old), mode, damper, predictor, near, first))
+        return Stage(*solved(self.arrays, old, mode, damper, predictor, near, first))
 
     def energies(self, state: State, held: Energies | None = None) -> Energies:
         """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rigid import Scene
 from rigid.kernel.compile import jit, loop, part, written_out
 
-from ..contact.points.data import Before, Bristles, Damper, Parameters, Resultants
+from ..contact.points.data import Before, Damper, Parameters
 from ..contact.points.data import Rim as NearFloor
 from ..contact.points.detection import least_gap
 from ..contact.points.rim import below_floor, window_around
@@ -38,34 +38,8 @@ class Arrays(NamedTuple):
     tolerance: float  # of Newton
 
 
-class Start(NamedTuple):
-    """What a step needs to know of the :class:`flexible.models.state.State` in which it begins."""
-
-    pos: Any
-    vel: Any
-    acc: Any
-    mode: int
-    window: tuple[int, int]
-    u: Any
-    nodal: Any
-    res: Resultants
-    bristles: Bristles
-    slip_velocity: float
-    elastic_rate: float
-    jerk: Any
-    elastic_bend: float
-
-
-def start_of(state: State) -> Start:
-    """The same of a state."""
-    return Start(
-        state.pos, state.vel, state.acc, state.mode, state.window, state.u, state.nodal, state.res, state.bristles,
-        state.slip_velocity, state.elastic_rate, state.jerk, state.elastic_bend,
-    )  # fmt: skip
-
-
 @jit
-def _moved(arrays: Arrays, old: Start, window: tuple[int, int]) -> Any:
+def _moved(arrays: Arrays, old: State, window: tuple[int, int]) -> Any:
     """Displacement of the nodes of another window at a known state."""
     if window == old.window:
         return old.u
@@ -116,7 +90,7 @@ def _bend(moved: Any, shapes: Any, pos: Any) -> None:
 
 
 def _solved(
-    arrays: Arrays, old: Start, mode: int, damper: Damper, predictor: Predictor, near: Near, first: bool
+    arrays: Arrays, old: State, mode: int, damper: Damper, predictor: Predictor, near: Near, first: bool
 ) -> Stage:
     """See :class:`flexible.models.state.Model`; not ok as well where the window's compliance is not known."""
     expected = plus(predictor.pos, 1.0, predictor.guess)
@@ -174,6 +148,25 @@ def momentum_error(arrays: Arrays, pos: Any, vel: Any, acc: Any, beta: float, ma
     return max(largest(rate[1:3]), abs(rate[0] + rate[2]), ringing)
 
 
+@part
+def lacks(arrays: Arrays, window: Any) -> bool:
+    """Whether the compliance of a window's nodes is not known."""
+    return not is_known(arrays.rim, window_dofs(arrays.vertex.shape[0], window))
+
+
+@loop
+def energies_of(arrays: Arrays, state: State, held: Energies) -> Energies:
+    """Kinetic, gravity and strain energy of a state whose coordinates hold so much of them."""
+    strain, shapes = held[2], arrays.rim.shapes
+    if state.res.normal > 0:
+        for i in range(2 * state.u.shape[0]):
+            static, dof = state.u[i // 2, i % 2], (4 * state.window[0] + i) % shapes.shape[0]
+            for k in range(shapes.shape[1]):
+                static -= shapes[dof, k] * state.pos[3 + k]
+            strain += state.nodal[i // 2, i % 2] * static / 2
+    return held[0], held[1], strain
+
+
 class ReducedHoop(RimContact):
     """Frame, modes and residual static compliance of a scene's hoop."""
 
@@ -188,7 +181,7 @@ class ReducedHoop(RimContact):
     def arrays(self) -> Arrays:
         """What the compiled step takes."""
         return Arrays(
-            self.ring.frame, self.ring.rim, self.vertex, self._rim_theta, self.element, self.law.parameters,
+            self.ring.frame, self.ring.rim, self.vertex, self.theta, self.element, self.law.parameters,
             self.tolerance,
         )  # fmt: skip
 
@@ -216,7 +209,7 @@ class ReducedHoop(RimContact):
         if window == state.window:
             return state.u
         self.learns(window)
-        return np.asarray(_moved(self.arrays, start_of(state), window))
+        return np.asarray(_moved(self.arrays, state, window))
 
     def learns(self, window: tuple[int, int] | None) -> bool:
         """See :class:`flexible.models.state.Model`."""
@@ -235,7 +228,7 @@ class ReducedHoop(RimContact):
         first: bool,
     ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
-        found = solved(self.arrays, start_of(old), mode, damper, predictor, near, first)
+        found = solved(self.arrays, old, mode, damper, predictor, near, first)
         if not found.ok and self.learns(found.window):
             return self.stage(old, mode, damper, predictor, near, first)
         return found

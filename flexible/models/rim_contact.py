@@ -88,7 +88,7 @@ class RimContact:
         self.scene = scene
         self.vertex = vertex
         middle = (vertex + np.append(vertex[1:], vertex[0] + 2 * pi)) / 2
-        self._rim_theta = np.column_stack([vertex, middle]).ravel()
+        self.theta = np.column_stack([vertex, middle]).ravel()
         self.law = contact_law(scene, len(vertex), points)
         self.tolerance = tolerance
         self.element = 2 * pi / len(vertex)
@@ -117,9 +117,9 @@ class RimContact:
 
         ``moved`` is the displacement of all rim nodes, (2 n_rim,), node by node.
         """
-        low, high = below_floor(self._rim_theta, phi, height, moved)
+        low, high = below_floor(self.theta, phi, height, moved)
         return float(low), float(high)
 
     def rim_angle(self, nodes: NDArray[np.int64]) -> Array:
         """Angles of rim nodes, counted round and round from the first element's first."""
-        return self._rim_theta[nodes % len(self._rim_theta)] + 2 * pi * (nodes // len(self._rim_theta))
+        return self.theta[nodes % len(self.theta)] + 2 * pi * (nodes // len(self.theta))

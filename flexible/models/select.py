@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from rigid import Scene, SceneError
 
 from .reduced import ReducedHoop
-from .state import State
 
 if TYPE_CHECKING:
     from .chain import ChainHoop
@@ -30,7 +29,6 @@ Hoop: TypeAlias = "ReducedHoop | FullHoop | ChainHoop"
 SOFT = 40.0
 #: rotation of the rim at the floor up to which the linear ring's normal impulse is good to about 1 %, there
 FAR = 0.0075
-_STIFF = 1e-4  # displacement over R that no such rotation can have
 
 
 def level_of(scene: Scene) -> str:
@@ -70,7 +68,6 @@ class Range:
     """Follows the rotation of the rim at the floor through a motion."""
 
     def __init__(self, hoop: Hoop) -> None:
-        self.hoop = hoop
         self.linear = hoop.linear
         #: time, rotation and angle phi of every instant at which it had turned further than before
         self.records: list[tuple[float, float, float]] = []
@@ -80,17 +77,13 @@ class Range:
         """The largest rotation."""
         return self.records[-1][1] if self.records else 0.0
 
-    def __call__(self, state: State) -> None:
-        if not self.linear or np.abs(state.u).max(initial=0.0) < _STIFF:
+    def __call__(self, t: Array, turned: Array, phi: Array) -> None:
+        """Of the next instants: times, rotations (:func:`flexible.contact.points.rim.turned`) and angles."""
+        if not self.linear or not turned.max(initial=0.0) > self.furthest:
             return
-        first, count = state.window
-        theta = self.hoop.rim_angle(np.arange(2 * first, 2 * (first + count) + 1))
-        c, s = np.cos(theta), np.sin(theta)
-        outward = state.u[:, 0] * c + state.u[:, 1] * s
-        along = state.u[:, 1] * c - state.u[:, 0] * s
-        turned = abs(float(along.mean() - (outward[-1] - outward[0]) / (theta[-1] - theta[0])))
-        if turned > self.furthest:
-            self.records.append((state.t, turned, float(state.pos[2])))
+        for now in zip(t.tolist(), turned.tolist(), phi.tolist(), strict=True):
+            if now[1] > self.furthest:
+                self.records.append(now)
 
     def complaint(self) -> str:
         """A sentence if the linear ring went too far, otherwise empty."""

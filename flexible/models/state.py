@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
@@ -16,30 +15,25 @@ Array = NDArray[np.float64]
 Energies = tuple[float, float, float]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class State:
+class State(NamedTuple):
     """An instant of the flexible hoop; ``pos`` is (V, h, phi, q), with V counted anew in every step."""
 
     t: float
     x_C: float
-    pos: Array
-    vel: Array
-    acc: Array
+    pos: Any
+    vel: Any
+    acc: Any
     mode: int
     window: tuple[int, int]  # first rim element and number of elements
-    u: Array
-    nodal: Array
+    u: Any
+    nodal: Any
     res: Resultants
     bristles: Bristles
     slip_velocity: float
-    elastic_rate: float = 0.0  # of N_el
-    feet_velocity: float = 0.0  # of the feet of a sliding patch's bristles, along the floor
-    jerk: Array = field(default_factory=lambda: np.zeros(0))  # rate of acc, of no size where it is not known
-    elastic_bend: float = 0.0  # rate of elastic_rate
-
-    def __post_init__(self) -> None:
-        if not self.jerk.size:
-            object.__setattr__(self, "jerk", np.zeros_like(self.pos))
+    elastic_rate: float  # of N_el
+    feet_velocity: float  # of the feet of a sliding patch's bristles, along the floor
+    jerk: Any  # rate of acc, 0 where it is not known
+    elastic_bend: float  # rate of elastic_rate
 
     @property
     def normal_force(self) -> float:
@@ -48,6 +42,22 @@ class State:
     @property
     def friction_force(self) -> float:
         return self.res.friction
+
+
+def in_motion(t: float, x_C: float, rows: tuple[Array, Array, Array], mode: int, rim: Any, slip: float) -> State:
+    """A state before any step, whose rates of forces are not known.
+
+    Parameters
+    ----------
+    rows : (pos, vel, acc)
+    rim : (window, u, nodal, res, bristles)
+    slip : float
+        Velocity of the patch along the floor.
+    """
+    pos, vel, acc = rows
+    return State(
+        float(t), float(x_C), pos, vel, acc, mode, *rim, float(slip), 0.0, 0.0, np.zeros_like(pos), 0.0
+    )  # fmt: skip
 
 
 class Model(Protocol):
@@ -134,14 +144,3 @@ class Books(NamedTuple):
     damping_loss: float = 0.0
     numerical_loss: float = 0.0
     off_floor: float = 0.0
-
-
-def record(model: Model, state: State, books: Books, held: Energies | None = None) -> Record:
-    """What is kept of an instant; ``held`` as in :meth:`Model.energies`."""
-    kinetic, gravity, strain = model.energies(state, held)
-    res = state.res
-    return Record(
-        state.t, float(state.pos[2]), float(state.vel[2]), float(state.acc[2]), state.x_C, 1 + float(state.pos[1]),
-        state.slip_velocity, float(state.vel[1]), res.normal, res.friction, res.length, res.stuck,
-        kinetic, gravity, strain, res.normal_energy + res.bristle_energy, *books, state.mode,
-    )  # fmt: skip

@@ -7,7 +7,6 @@ that a rigid motion adds. That is exact, and the same for every level of the hoo
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import pi
 from typing import NamedTuple
 
@@ -45,7 +44,7 @@ def whole(hoop: Hoop, state: State) -> Whole:
     turn[0] = -1.0  # C stands: V = x_C - phi
 
     def energy(rates: Array) -> float:
-        return float(hoop.energies(replace(state, vel=rates))[0])
+        return float(hoop.energies(state._replace(vel=rates))[0])
 
     def between(one: Array, two: Array) -> float:
         return (energy(one + two) - energy(one - two)) / 2

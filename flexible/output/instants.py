@@ -13,7 +13,7 @@ from rigid.output.units import without_units
 
 from ..models.state import State
 from ..motion import FlexibleMotion, Kept
-from ..time.step import advanced
+from ..time.adaptive import attempt
 
 Array = NDArray[np.float64]
 
@@ -81,7 +81,7 @@ def _instant(motion: FlexibleMotion, clocks: list[Array], t: float, told: float)
         before, after = kept.states[i], kept.states[i + 1]
         state: State | None = before
         if t > before.t:
-            state = after if t >= after.t else advanced(kept.hoop, before, t)
+            state = after if t >= after.t else attempt(kept.hoop, before, t - before.t)
         if state is None:
             state = min(before, after, key=lambda s: abs(s.t - t))
         place = Placement(float(state.pos[2]), state.x_C, 1 + float(state.pos[1]))

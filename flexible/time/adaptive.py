@@ -1,64 +1,48 @@
 """The march in time: adaptive steps, stick and slip of the patch as located events, and the books on energy.
 
 Nothing here knows how a stage is solved: a *model* does (``stage``, ``displacement``, ``energies``), and there is one
-for each level of fidelity.
+for each level of fidelity. Many steps at a time are taken by compiled code where the model has arrays for it
+(:mod:`flexible.time.advance`); between them signals are answered, and what is made in Python is made.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
-from math import inf
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from rigid.kernel.interrupts import answer
 
-from ..models.state import Books, Energies, Model, Record, State, record
-from .control import AFRESH, Pace, longer, shorter
-from .course import Course, Marched
-from .events import MODE_ENDS, TURN, Ends, locate, passed, watches
-from .methods import ESDIRK3, Method
-from .step import MarchError, Step, attempt, restart
+from ..contact.laws.listing import free
+from ..models import reduced
+from ..models.state import Model, Record, State
+from .advance import COLUMNS, SPAN, Aims, advance, advance_reduced, write
+from .course import (
+    CAPPED,
+    LACKS,
+    NO_FORCES,
+    PAUSED,
+    REACHED,
+    RESTART,
+    STALLED,
+    STEP,
+    TRY,
+    Advanced,
+    Course,
+    Marched,
+    Standing,
+    beginning,
+)
+from .events import Ends
+from .methods import ESDIRK3, Method, Table
 
-SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
-SHORT = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
-MOST_STALLS = 50  # events within a shortest step of each other
+Array = NDArray[np.float64]
 
 
-def _free(model: Model, state: State) -> State:
-    """The state in the mode in which a patch that is off the floor comes down."""
-    mode = model.law.free(state)
-    return state if mode == state.mode else replace(state, mode=mode)
-
-
-class Accepted(NamedTuple):
-    """An accepted step, and the event at which it ends."""
-
-    trial: Step
-    event: int | None
-    attempts: int
-
-
-def _until_event(model: Model, state: State, trial: Step, ends: Ends, method: Method) -> Accepted | None:
-    """A step that passes no event: ``trial``, or a shorter one up to its first event; None where none can be solved."""
-    event, attempts = None, 0
-    for watch in watches(model.law, state, ends):
-
-        def past(step: Step, watch: int = watch) -> float:
-            return passed(watch, model.law, ends, state, step.state)
-
-        if past(trial) < 0:
-            continue
-        before = passed(watch, model.law, ends, state, state)
-        located = locate(lambda h: attempt(model, state, h, method), past, trial, before, trial.state.t - state.t)
-        attempts += located.attempts
-        if located.trial is None:
-            return None
-        trial, event = located.trial, watch if located.at_event else None
-    if event == MODE_ENDS and trial.state.t - state.t < SHORTEST:
-        # rates in so short a step are round-off, and so are a damper's forces: the mode ends where it began
-        trial = Step(state, 0.0, (0.0, 0.0), 0.0, 0.0, 0.0, 0.0)
-    return Accepted(trial, event, attempts)
+class MarchError(RuntimeError):
+    """A step that could not be mended; the sentence says where and why."""
 
 
 class Limits(NamedTuple):
@@ -68,10 +52,55 @@ class Limits(NamedTuple):
     longest: float = 0.05
     most: int = 50_000  # steps, those tried in vain too
     before: int = 0  # steps tried in marches before this one
-    stop: Callable[[], bool] = lambda: False  # asked before every step
+    stop: Callable[[], bool] = lambda: False  # asked every few steps
 
 
 LIMITS = Limits()
+
+
+def machine(model: Model) -> tuple[Callable[..., Advanced], Any]:
+    """What takes the steps of a model, and of what: compiled code of its arrays, or Python."""
+    if model.arrays is None:
+        return advance, model
+    if isinstance(model.arrays, reduced.Arrays):
+        return advance_reduced, model.arrays
+    from .chain_step import advance_chain  # what only soft rings need
+
+    return advance_chain, model.arrays
+
+
+def _advanced(
+    model: Model, table: Table, now: Standing, ends: Ends, aims: Aims, rows: Array
+) -> tuple[Standing, int, int]:
+    """What :func:`flexible.time.advance.advance` comes to; a model that lacked a part of its rim has it then."""
+    run, of = machine(model)
+    reached = run(of, model.law.parameters, table, now, ends, aims, rows)
+    if reached.why == LACKS:
+        model.learns(reached.window)
+    return reached.now, reached.written, reached.why
+
+
+def _alone(model: Model, state: State, h: float, due: int, method: Method) -> tuple[State, bool]:
+    """The state after one step, or the same instant once more; and whether it could be solved."""
+    now, why, row = beginning(state, h, due), LACKS, np.empty((1, COLUMNS))
+    aims = Aims(np.inf, 1.0, np.inf, 1, model.relaxation)
+    while why == LACKS:
+        now, _, why = _advanced(model, method.table, now, Ends(), aims, row)
+    return now.state, why == REACHED
+
+
+def attempt(model: Model, old: State, h: float, method: Method = ESDIRK3) -> State | None:
+    """The state after one step of length ``h``; None if Newton failed, whatever it failed by."""
+    state, solved = _alone(model, old, h, TRY, method)
+    return state if solved else None
+
+
+def restart(model: Model, state: State, mode: int) -> State:
+    """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
+    found, solved = _alone(model, state._replace(mode=mode), 0.0, RESTART, ESDIRK3)
+    if not solved:
+        raise MarchError(_sentence(NO_FORCES, beginning(state, 0.0, RESTART), LIMITS))
+    return found
 
 
 def march(
@@ -80,116 +109,63 @@ def march(
     ends: Ends,
     rtol: float,
     limits: Limits = LIMITS,
-    progress: Callable[[State], None] | None = None,
+    progress: Callable[[State, Array], None] | None = None,
     keep: Callable[[State], None] | None = None,
     method: Method = ESDIRK3,
 ) -> Marched:
     """March to the first of the ends, which is located.
 
-    ``start`` may be the course of an earlier march. ``progress`` is told every state that was reached; ``keep`` is
-    given the state behind every new record.
+    ``start`` may be the course of an earlier march. ``progress`` is told every few steps what state was reached, and
+    the rows of :func:`flexible.time.advance.write` on the way; ``keep`` is given the state behind every new record.
     """
-    course = start if isinstance(start, Course) else Course.beginning(_free(model, start), limits.first)
-    state, h, pace, books, records = course.state, course.step, course.pace, course.books, course.behind()
-    attempts, turns, stalls = course.attempts, course.turns, course.stalls
-    cut = False  # whether a step was made shorter by the end
-    stood = course.state, h, pace, attempts, turns, stalls, books  # before the last step that no end made shorter
-    behind = course.length
-
-    def note(state: State, held: Energies | None = None) -> None:
-        records.append(record(model, state, books, held))
-        if keep is not None:
-            keep(state)
-
-    def over(ended: str = "") -> Marched:
-        return Marched(state, records, attempts, ended, Course(*stood, records, behind))
-
+    if isinstance(start, Course):
+        now, records = start.standing(), start.behind()
+    else:
+        start = start._replace(mode=free(model.law.parameters, start))
+        now, records = beginning(start, float(limits.first), STEP), []
+    rows = np.empty((SPAN if keep is None else 1, COLUMNS))
     if not records:
-        note(state)
-    if _over(state, ends, turns):
-        return over()
-    power = 1 / method.estimates
-    while attempts < limits.most and not limits.stop():
+        write(rows[0], now.state, model.energies(now.state), now.books, 0.0)
+        records += _records(rows[:1])
+        if keep is not None:
+            keep(now.state)
+    aims = Aims(method.tolerance(rtol), 1 / method.estimates, float(limits.longest), limits.most, model.relaxation)
+    ends = Ends(float(ends.t), float(ends.low), float(ends.high), ends.turns)
+    why, stood, behind = PAUSED, now, len(records)
+    while why in (PAUSED, LACKS):
+        if not now.cut:
+            stood, behind = now, len(records)
+        stopped = limits.stop()
         answer()
-        if h < SHORTEST:
-            return over(_stuck(state, "no step however short could be solved"))
-        cut = cut or h > ends.t - state.t
-        if not cut:
-            stood, behind = (state, h, pace, attempts, turns, stalls, books), len(records)
-        attempts += 1
-        asked = min(h, ends.t - state.t)
-        trial = attempt(model, state, asked, method)
-        error = inf if trial is None else trial.error / method.tolerance(rtol)
-        if trial is None or error > model.law.care(state):
-            h = shorter(asked, error / model.law.care(state), power)
-            continue
-        now = Pace(asked, error / model.law.care(trial.state))
-        grown = min(longer(pace, now, power), limits.longest)
-        step = _until_event(model, state, trial, ends, method)
-        if step is None:
-            h, pace = asked / 4, AFRESH
-            continue
-        trial, event = step.trial, step.event
-        attempts += step.attempts
-        books = _entered(books, state, trial)
-        stalls = stalls + 1 if trial.state.t - state.t < SHORTEST else 0
-        turns += event == TURN
-        state = _free(model, trial.state)
-        note(state, trial.held)
+        if stopped:
+            break
+        now, written, why = _advanced(model, method.table, now, ends, aims, rows)
+        records += _records(rows[:written])
+        if keep is not None and written:
+            keep(now.state)
         if progress is not None:
-            progress(state)
-        if _over(state, ends, turns):
-            return over()
-        if stalls > MOST_STALLS:
-            return over(_stuck(state, "stick and slip follow each other without end"))
-        if event == MODE_ENDS:
-            try:
-                state, released = _in_its_next_mode(model, state, records[-1])
-            except MarchError as trouble:
-                return over(str(trouble))
-            books = books._replace(friction_loss=books.friction_loss + released)
-            note(state)
-            h, pace = max(min(asked, grown) / 8, SHORT), AFRESH
-        else:
-            h, pace = grown, now
-    if not cut:
-        stood, behind = (state, h, pace, attempts, turns, stalls, books), len(records)
-    why = f"after {limits.before + attempts} steps" if attempts >= limits.most else "as asked"
-    return over(f"stopped at t = {state.t:.6g} {why}")
+            progress(now.state, rows[:written])
+    if why in (PAUSED, CAPPED) and not now.cut:
+        stood, behind = now, len(records)
+    ended = "" if why == REACHED else _sentence(why, now, limits)
+    return Marched(now.state, records, now.attempts, ended, Course.at(stood, records, behind))
 
 
-def _in_its_next_mode(model: Model, state: State, before: Record) -> tuple[State, float]:
-    """The state behind the end of its mode, and what ring and patch let go of in the jump of the friction force.
-
-    That is lost to friction.
-    """
-    mode = model.law.successor(state)
-    if model.law.sticks(mode):  # to the last digit, which a step that was cut short may not have
-        state = replace(state, slip_velocity=0.0)
-    behind = restart(model, state, mode)
-    after = record(model, behind, Books())
-    return behind, before.ring_strain + before.contact_spring - after.ring_strain - after.contact_spring
+def _records(rows: Array) -> list[Record]:
+    return [Record(*row[:-2], int(row[-2])) for row in rows.tolist()]
 
 
-def _entered(books: Books, before: State, step: Step) -> Books:
-    """The totals with a step."""
-    stored = step.state.res.bristle_energy - before.res.bristle_energy
-    return Books(
-        books.normal_impulse + step.impulses[0],
-        books.friction_impulse + step.impulses[1],
-        books.friction_loss - (step.friction_work + stored),
-        books.damping_loss + step.damped,
-        books.numerical_loss + step.numerical,
-        books.off_floor + step.off_floor,
-    )
-
-
-def _over(state: State, ends: Ends, turns: int) -> bool:
-    """Whether one of the ends is reached."""
-    phi = state.pos[2]
-    turned = turns >= ends.turns > 0
-    return bool(turned or phi <= ends.low or phi >= ends.high or ends.t - state.t < SHORTEST)
-
-
-def _stuck(state: State, why: str) -> str:
-    return f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g} (N = {state.normal_force:.4g}): {why}"
+def _sentence(why: int, now: Standing, limits: Limits) -> str:
+    """Why a march stopped early."""
+    state = now.state
+    if why == NO_FORCES:
+        return f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved"
+    stopped = f"stopped at t = {state.t:.6g}"
+    if why == CAPPED:
+        return f"{stopped} after {limits.before + now.attempts} steps"
+    if why == PAUSED:
+        return f"{stopped} as asked"
+    trouble = "no step however short could be solved"
+    if why == STALLED:
+        trouble = "stick and slip follow each other without end"
+    return f"{stopped}, phi = {state.pos[2]:.6g} (N = {state.normal_force:.4g}): {trouble}"

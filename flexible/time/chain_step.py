@@ -1,4 +1,4 @@
-"""The step of :mod:`flexible.time.stages` compiled for the arrays of a chain.
+"""The march of :mod:`flexible.time.advance` compiled for the arrays of a chain.
 
 In a module of its own, so that its compiled code has a home of its own: whether a machine has that of a reduced hoop
 says nothing of this one.
@@ -6,12 +6,16 @@ says nothing of this one.
 
 from __future__ import annotations
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, written_out
 
 from ..chain import stage, whole
+from .advance import advance
 from .stages import take
 
-take_chain = jit(
+take_chain = written_out(
     take, module=__name__, solved=stage.solved_in_step, held=whole.held_by, floor_forces=whole.floor_forces,
     momentum_error=whole.momentum_error,
+)  # fmt: skip
+advance_chain = jit(
+    advance, module=__name__, tried=take_chain, held=whole.held_by, energies_of=whole.energies_of, lacks=whole.lacks
 )  # fmt: skip

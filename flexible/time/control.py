@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from rigid.kernel.compile import loop
+
 SAFETY = 0.9  # of a step whose error is foreseen
 LEAST, MOST = 0.2, 3.0  # change of length from one step to the next
 SMALL = 1e-2  # error over its tolerance below which its size foretells nothing
@@ -19,11 +21,13 @@ class Pace(NamedTuple):
 AFRESH = Pace()
 
 
+@loop
 def shorter(length: float, error: float, power: float) -> float:
     """Length in place of one that erred so many times the tolerance; errors grow like its power 1/``power``."""
     return length * max(LEAST, SAFETY / error**power)
 
 
+@loop
 def longer(before: Pace, now: Pace, power: float) -> float:
     """Length of the step after ``now``.
 

@@ -3,15 +3,48 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..models.state import Books, Record, State
 from .control import AFRESH, Pace
 
+#: what a march is to do next: take steps, go on in the next mode of friction; or, asked for alone, the same instant
+#: once more, one step of a given length
+STEP, SWITCH, RESTART, TRY = range(4)
+
+
+class Standing(NamedTuple):
+    """A march before its next step, for compiled code."""
+
+    state: State
+    step: float  # length of the next step
+    pace: Pace  # of the last one
+    books: Books
+    attempts: int  # steps tried until now
+    turns: int
+    stalls: int  # events within a shortest step of each other, by now
+    due: int
+    cut: bool  # whether a step was made shorter by the end
+    stored: float  # energy of ring and contact at the last record
+
+
+#: why compiled code comes back: for room or a pause; at an end; at the last step allowed; because no step can be
+#: solved, modes follow each other without end or the next one has no forces; for the rim near the floor
+PAUSED, REACHED, CAPPED, UNSOLVED, STALLED, NO_FORCES, LACKS = range(1, 8)
+
+
+class Advanced(NamedTuple):
+    """What compiled code came to."""
+
+    now: Standing
+    written: int  # rows
+    why: int
+    window: Any  # of rim that is not known, if that is why
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Course:
-    """A march before its next step.
+    """A march before one of its next steps.
 
     A march that goes on from here takes the steps that it would have taken if nobody had stopped it, to the last bit.
     """
@@ -27,13 +60,24 @@ class Course:
     length: int
 
     @classmethod
-    def beginning(cls, state: State, step: float) -> Course:
-        """That of a march from ``state``."""
-        return cls(state, step, AFRESH, 0, 0, 0, Books(), [], 0)
+    def at(cls, now: Standing, records: list[Record], length: int) -> Course:
+        """That of a march that stands there."""
+        return cls(now.state, now.step, now.pace, now.attempts, now.turns, now.stalls, now.books, records, length)
+
+    def standing(self) -> Standing:
+        """Where it stands, for compiled code."""
+        return Standing(
+            self.state, self.step, self.pace, self.books, self.attempts, self.turns, self.stalls, STEP, False, 0.0
+        )  # fmt: skip
 
     def behind(self) -> list[Record]:
         """The records up to here."""
         return self.records[: self.length]
+
+
+def beginning(state: State, step: float, due: int) -> Standing:
+    """Before anything was done from ``state``."""
+    return Standing(state, step, AFRESH, Books(), 0, 0, 0, due, False, 0.0)
 
 
 class Marched(NamedTuple):
@@ -43,4 +87,4 @@ class Marched(NamedTuple):
     records: list[Record]  # one for every accepted step, and for the other side of every event
     attempts: int  # steps tried
     ended: str  # empty when one of the ends was reached, otherwise why the march stopped early
-    course: Course  # the last instant before the steps that the march's own ends made shorter
+    course: Course  # an instant before the steps that the march's own ends made shorter

@@ -1,20 +1,24 @@
 """What can end a step early: slip that starts or ends, a turn, the angle at which the march is to end.
 
 An event is a function of the state that passes zero; here it is counted in what its quantity can be told apart by,
-so that one number, 1, bounds them all.
+so that one number, 1, bounds them all. Where in a step that is, is found by inverse quadratic interpolation, and by
+bisection where that has not halved the bracket three times in a row. A length that cannot be solved is replaced by
+others in the bracket; if none of them can be, the step goes to the last instant before the event that could.
+
+A search says which length to try next and is told what came of it, so that it can wait for a step of any hoop.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from math import inf, prod
-from typing import NamedTuple
+from math import inf, isnan, nan
+from typing import Any, NamedTuple
 
-from ..contact.laws.law import Law
-from ..models.state import State
-from .step import Step
+from rigid.kernel.compile import loop
 
-MODE_ENDS, TURN, LOW_END, HIGH_END = range(4)
+from ..contact.laws.listing import excess, may_end
+from ..contact.points.data import Resultants
+
+NO_EVENT, MODE_ENDS, TURN, LOW_END, HIGH_END = range(-1, 4)
 
 
 class Ends(NamedTuple):
@@ -26,109 +30,162 @@ class Ends(NamedTuple):
     turns: int = 0  # instants with phidot = 0; 0 for any number
 
 
-class Tolerances(NamedTuple):
-    """How far past its zero an event may be taken (R = m = g = 1), and how short a bracket of it in time.
+# How far past its zero an event may be taken (R = m = g = 1), and how short a bracket of it in time. A step that is cut
+# short has the noise of its slip, some 1e-15 of R by its length: events whose step comes out very short are told by the
+# bracket alone, and so are those at which a function jumps.
+FORCE = 1e-9  # of 1 + N: Newton's own, by which the forces are known
+VELOCITY = 1e-9  # of sqrt(gR): the slip of a step of 1e-6, whose ends are known to 1e-15
+ANGLE = 1e-9  # of the end of a pulse, where N is about M g: 1e-9 of its impulse
+RATE = 1e-9  # of phidot at a turn, whose energy is then below 1e-18 m g R
+TIME = 1e-15  # sqrt(R/g): what t itself can tell apart
+SHARE = 1e-10  # of the step: the bracket of an event may also be this part of its step
 
-    A step that is cut short has the noise of its slip, some 1e-15 of R by its length: events whose step comes out very
-    short are told by the bracket alone, and so are those at which a function jumps.
+
+class Sight(NamedTuple):
+    """What of an instant tells of events."""
+
+    mode: int
+    phi: float
+    omega: float
+    res: Resultants
+    slip_velocity: float
+    feet_velocity: float
+
+
+@loop
+def passed(event: int, law: Any, ends: Ends, before: Sight, now: Sight) -> float:
+    """How far ``now``, in the step that begins at ``before``, is past an event: positive past it, within 1 at it.
+
+    -inf for an event that this step does not have.
     """
-
-    force: float = 1e-9  # of 1 + N: Newton's own, by which the forces are known
-    velocity: float = 1e-9  # of sqrt(gR): the slip of a step of 1e-6, whose ends are known to 1e-15
-    angle: float = 1e-9  # of the end of a pulse, where N is about M g: 1e-9 of its impulse
-    rate: float = 1e-9  # of phidot at a turn, whose energy is then below 1e-18 m g R
-    time: float = 1e-15  # sqrt(R/g): what t itself can tell apart
-    share: float = 1e-10  # of the step: the bracket of an event may also be this part of its step
-
-
-TOLERANCES = Tolerances()
-
-
-def watches(law: Law, state: State, ends: Ends) -> list[int]:
-    """The events that a step from ``state`` may meet."""
-    found = [MODE_ENDS] if law.may_end(state.mode) else []
-    if state.vel[2] != 0:
-        found.append(TURN)
-    if ends.low > -inf:
-        found.append(LOW_END)
-    if ends.high < inf:
-        found.append(HIGH_END)
-    return found
+    if event == MODE_ENDS and may_end(law):
+        return float(excess(law, now, FORCE, VELOCITY))
+    if event == TURN and before.omega != 0:
+        return (-now.omega if before.omega > 0 else now.omega) / RATE
+    if event == LOW_END and ends.low > -inf:
+        return (ends.low - now.phi) / ANGLE
+    if event == HIGH_END and ends.high < inf:
+        return (now.phi - ends.high) / ANGLE
+    return -inf
 
 
-def passed(watch: int, law: Law, ends: Ends, old: State, now: State, tolerances: Tolerances = TOLERANCES) -> float:
-    """How far ``now``, a step from ``old``, is past an event: positive past it, within 1 of it at it."""
-    if watch == MODE_ENDS:
-        return law.excess(now, tolerances.force, tolerances.velocity)
-    if watch == TURN:
-        return float(-now.vel[2] if old.vel[2] > 0 else now.vel[2]) / tolerances.rate
-    phi = float(now.pos[2])
-    return (ends.low - phi if watch == LOW_END else phi - ends.high) / tolerances.angle
+class Search(NamedTuple):
+    """A bracket in the length of a step, not past an event at its low and past it at its high end."""
+
+    event: int
+    low: float
+    high: float
+    past: float  # how far, at the high end
+    narrow: float  # enough
+    length: float  # to try next
+    guessed: bool  # by interpolation
+    slow: int  # how often in a row that has not halved the bracket
+    failed: int  # lengths of the bracket that could not be solved
+    solved: bool  # whether one before the event could
+    lengths: tuple[float, float, float]  # known last
+    values: tuple[float, float, float]  # how far they are past the event, infinite where none is known yet
+    tries: int
 
 
-class Located(NamedTuple):
-    """A step cut short."""
-
-    trial: Step | None  # None where no step could be solved
-    at_event: bool  # otherwise it ends before the event
-    attempts: int
+NOWHERE = Search(NO_EVENT, 0.0, 0.0, -inf, 0.0, 0.0, False, 0, 0, False, (0.0, 0.0, 0.0), (inf, inf, inf), 0)
+OTHERS = (0.5, 0.25, 0.75, 0.125, 0.875)  # shares of the bracket tried where its first length cannot be solved
 
 
-def _just_past(known: list[tuple[float, float]]) -> float | None:
+@loop
+def is_open(search: Search) -> bool:
+    """Whether there is a length to try."""
+    found = search.past <= 1 or search.high - search.low <= search.narrow
+    return not found and search.failed <= len(OTHERS)
+
+
+@loop
+def is_lost(search: Search) -> bool:
+    """Whether no length of the bracket could be solved."""
+    return bool(search.failed > len(OTHERS))
+
+
+@loop
+def _just_past(lengths: Any, values: Any) -> float:
     """Where a function known at two or three places is 1/2, within 1 past its zero: its inverse is a parabola, or a
-    line; None where it has none.
+    line; nan where it has none.
     """
-    known = [(x, f - 0.5) for x, f in known if abs(f) < inf]
-    if len({f for _, f in known}) < max(len(known), 2):
-        return None
-    return sum(x * prod(g / (g - f) for _, g in known if g != f) for x, f in known)
+    found, known = 0.0, 0
+    for i in range(len(values)):
+        value, share = values[i] - 0.5, 1.0
+        if abs(value) == inf:
+            continue
+        for j in range(len(values)):
+            other = values[j] - 0.5
+            if j != i and abs(other) < inf:
+                if other == value:
+                    return nan
+                share *= other / (other - value)
+        found += lengths[i] * share
+        known += 1
+    return found if known > 1 else nan
 
 
-def locate(
-    attempt: Callable[[float], Step | None],
-    past: Callable[[Step], float],
-    trial: Step,
-    before: float,
-    length: float,
-    tolerances: Tolerances = TOLERANCES,
-) -> Located:
-    """The step that ends at an event, between no step and one of ``length``, ``trial``, that is past it.
+@loop
+def search_of(event: int, length: float, before: float, past: float, tries: int = 0) -> Search:
+    """The search for an event that a step of this length is so far ``past``; where it begins, ``before``.
 
-    Inverse quadratic interpolation, and bisection where that has not halved the bracket three times in a row. A
-    length that cannot be solved is replaced by others in the bracket; if none of them can be, the step goes to the last
-    instant before the event that could.
-
-    Parameters
-    ----------
-    attempt : callable
-        The step of a length, or None.
-    past : callable
-        How far a step is past the event, see :func:`passed`.
-    before : float
-        That of the instant at which the step begins.
+    After ``tries`` for others in the same step.
     """
-    low, f_low, safe = 0.0, min(before, 0.0), None
-    high, f_high = length, past(trial)
-    narrow = max(tolerances.share * length, tolerances.time)
-    slow, attempts = 0, 0
-    known = [(low, f_low), (high, f_high)]
-    while f_high > 1 and high - low > narrow:
-        width = high - low
-        guess = _just_past(known[-3:]) if slow < 3 else None
-        first = guess if guess is not None and low < guess < high else (low + high) / 2
-        first = min(max(first, low + 0.001 * width), high - 0.001 * width)
-        for h in (first, *(low + share * width for share in (0.5, 0.25, 0.75, 0.125, 0.875))):
-            attempts += 1
-            middle = attempt(h)
-            if middle is not None:
-                break
-        else:
-            return Located(safe, False, attempts)
-        value = past(middle)
-        known.append((h, value))
-        if value >= 0:
-            high, f_high, trial = h, value, middle
-        else:
-            low, safe = h, middle
-        slow = slow + 1 if guess is not None and high - low > width / 2 else 0
-    return Located(trial, True, attempts)
+    lengths, values = (0.0, 0.0, length), (inf, min(before, 0.0), past)
+    narrow = max(SHARE * length, TIME)
+    return _aimed(Search(event, 0.0, length, past, narrow, length, False, 0, 0, False, lengths, values, tries))
+
+
+@loop
+def _aimed(search: Search) -> Search:
+    """With the length to try next in a new bracket."""
+    low, high = search.low, search.high
+    width, guess = high - low, nan
+    if search.slow < 3:
+        guess = _just_past(search.lengths, search.values)
+    length = guess if low < guess < high else (low + high) / 2
+    length = min(max(length, low + 0.001 * width), high - 0.001 * width)
+    return Search(
+        search.event, low, high, search.past, search.narrow, length, not isnan(guess), search.slow, 0, search.solved,
+        search.lengths, search.values, search.tries,
+    )  # fmt: skip
+
+
+@loop
+def unsolved(search: Search) -> Search:
+    """After a length that could not be solved."""
+    failed, length = search.failed + 1, search.length
+    if failed <= len(OTHERS):
+        length = search.low + OTHERS[failed - 1] * (search.high - search.low)
+    return Search(
+        search.event, search.low, search.high, search.past, search.narrow, length, search.guessed, search.slow, failed,
+        search.solved, search.lengths, search.values, search.tries + 1,
+    )  # fmt: skip
+
+
+@loop
+def told(search: Search, value: float) -> Search:
+    """After a step of the length asked for that is so far past the event."""
+    low, high, past, solved = search.low, search.high, search.past, search.solved
+    if value >= 0:
+        high, past = search.length, value
+    else:
+        low, solved = search.length, True
+    slow = search.slow + 1 if search.guessed and high - low > (search.high - search.low) / 2 else 0
+    lengths = search.lengths[1], search.lengths[2], search.length
+    values = search.values[1], search.values[2], value
+    return _aimed(
+        Search(
+            search.event, low, high, past, search.narrow, 0.0, False, slow, 0, solved, lengths, values,
+            search.tries + 1,
+        )
+    )  # fmt: skip
+
+
+@loop
+def next_event(search: Search, law: Any, ends: Ends, before: Sight, now: Sight, length: float) -> Search:
+    """The search for the event after this one, of a step of that length from ``before`` to ``now``; closed where the
+    step does not pass it."""
+    event = search.event + 1
+    past = passed(event, law, ends, before, now)
+    return search_of(event, length, passed(event, law, ends, before, before), past, search.tries)

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit, loop, part
+from rigid.kernel.compile import loop, part, written_out
 
 from ..contact.points.data import Bristles, Damper, Resultants
 from ..contact.vectors import largest, plus, times
@@ -216,7 +216,7 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
     Parameters
     ----------
     model : flexible.models.state.Model or flexible.models.reduced.Arrays
-    old : flexible.models.state.State or flexible.models.reduced.Start
+    old : State
     h : float
     table : Table
     damping : (float, float)
@@ -279,8 +279,8 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
     )  # fmt: skip
 
 
-#: the same of the arrays of a reduced hoop
-take_reduced = jit(
+#: the same of the arrays of a reduced hoop, a part of its march
+take_reduced = written_out(
     take, solved=reduced.solved_in_step, held=reduced.held, floor_forces=reduced.floor_forces,
     momentum_error=reduced.momentum_error,
 )  # fmt: skip

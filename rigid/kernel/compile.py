@@ -111,13 +111,7 @@ def jit(function: F, module: str = "", **instead: Any) -> F:
     that one text serves Python and compiled code. It is kept under the name of the ``module`` that asks, by default the
     function's own, whose file must import the modules of both.
     """
-    from .store import moved
-
-    assert isinstance(function, FunctionType)
-    module = module or function.__module__
-    place = _home_of(module, str(sys.modules[module].__file__))
-    scope = {**function.__globals__, **instead} if instead else None
-    return _compiler(moved(function, place, scope), keep=True)
+    return _compiler(_at_home(function, module, instead), keep=True)
 
 
 def part(function: F) -> F:
@@ -159,19 +153,26 @@ def in_loops(text: Callable[..., Any], **options: bool) -> Callable[[F], F]:
     return mark
 
 
-def written_out(function: F) -> F:
+def written_out(function: F, module: str = "", **instead: Any) -> F:
     """Mark a function that is written out in the compiled functions that call it.
 
     For one that is little but a call of a large function: on its own it would have all of that compiled once more.
+    ``module`` and ``instead`` are those of :func:`jit`.
     """
     import numba
 
+    marked: Any = numba.njit(inline="always", **_OPTIONS)(_at_home(function, module, instead))
+    return marked
+
+
+def _at_home(function: Callable[..., Any], module: str, instead: dict[str, Any]) -> FunctionType:
+    """The function with what it takes instead, as if its file stood where its compiled code is kept."""
     from .store import moved
 
     assert isinstance(function, FunctionType)
-    place = _home_of(function.__module__, function.__code__.co_filename)
-    marked: Any = numba.njit(inline="always", **_OPTIONS)(moved(function, place))
-    return marked
+    module = module or function.__module__
+    place = _home_of(module, str(sys.modules[module].__file__))
+    return moved(function, place, {**function.__globals__, **instead} if instead else None)
 
 
 @cache

@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 
 from flexible.contact.points.data import NOTHING, no_bristles
-from flexible.models.state import State
+from flexible.models.state import in_motion
 from flexible.time.adaptive import Limits, march
 from flexible.time.events import Ends
 from flexible.time.methods import ESDIRK3
@@ -28,16 +28,16 @@ def flying(hoop, pos, vel):
     window = hoop.window(pos[2], 0.0, 0.0, 0.1 * hoop.element)
     u = np.zeros((2 * window[1] + 1, 2))
     nothing = (u, np.zeros_like(u), NOTHING, no_bristles())
-    return State(0.0, 0.0, pos, vel, np.zeros_like(pos), 0, window, *nothing, 0.0)
+    return in_motion(0.0, 0.0, (pos, vel, np.zeros_like(pos)), 0, (window, *nothing), 0.0)
 
 
 def steps_of(hoop, state, t_end, step, method=ESDIRK3):
     """March in equal steps; the last state, the records and the states."""
-    states = [state]
+    states = []
     count = round((t_end - state.t) / step)
     length = (t_end - state.t) / count * (1 + 1e-12)
     last, records, _, ended, _ = march(
-        hoop, state, Ends(t=t_end), 0.5, Limits(length, length), states.append, method=method
+        hoop, state, Ends(t=t_end), 0.5, Limits(length, length), keep=states.append, method=method
     )
     assert not ended, ended
     return last, records, states

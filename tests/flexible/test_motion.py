@@ -11,10 +11,9 @@ import rigid
 from flexible.contact.laws.patch import SLIDE_LEFT, SLIDE_RIGHT, STICK
 from flexible.handover import Pose, equilibrium, hand_over, pose_at
 from flexible.models.reduced import ReducedHoop
-from flexible.time.adaptive import march
+from flexible.time.adaptive import march, restart
 from flexible.time.events import Ends
 from flexible.time.methods import ESDIRK3, METHODS, TR_BDF2
-from flexible.time.step import restart
 from rigid.elastic import LAWS
 
 #: just before its pulse, fast

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import inf
 from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
@@ -70,29 +69,6 @@ class Law:
     def start(self, kind: Kind) -> int:
         """The mode in which the patch begins out of a rigid phase."""
         return 0
-
-    def may_end(self, mode: int) -> bool:
-        """Whether a mode can end otherwise than off the floor."""
-        return False
-
-    def excess(self, state: PatchState, force: float, velocity: float) -> float:
-        """How far the patch is past the end of its mode: positive past it, within 1 at it, -inf where it is none.
-
-        Counted in ``force``, a tolerance relative to 1 + N, or in ``velocity``, one on slip velocities.
-        """
-        return -inf
-
-    def successor(self, state: PatchState) -> int:
-        """The mode that follows the one that has ended."""
-        return state.mode
-
-    def care(self, state: PatchState) -> float:
-        """What share of its tolerance a step may take here, where the end of a mode magnifies errors."""
-        return 1.0
-
-    def free(self, state: PatchState) -> int:
-        """The mode in which a patch that is off the floor comes down."""
-        return state.mode
 
     def sticks(self, mode: int) -> bool:
         """Whether the patch as a whole holds on to the floor in this mode, to the last digit."""

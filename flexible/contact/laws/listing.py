@@ -1,7 +1,11 @@
-"""The laws by name, and the one place where compiled code tells them apart."""
+"""The laws by name, and the one place where compiled code tells them apart.
+
+A law but the paper's has one mode, without a stick that could break.
+"""
 
 from __future__ import annotations
 
+from math import inf
 from typing import Any
 
 from rigid import Scene
@@ -28,10 +32,52 @@ def tractions(
     return regularised.tractions(forces, points, foundation, carried, mode, load, slip, law)
 
 
+@loop
+def may_end(law: Any) -> bool:
+    """Whether a mode of the law can end otherwise than off the floor."""
+    return bool(law.law == patch.CODE)
+
+
+@loop
+def excess(law: Any, state: Any, force: float, velocity: float) -> float:
+    """How far the patch is past the end of its mode: positive past it, within 1 at it, -inf where it is none.
+
+    Counted in ``force``, a tolerance relative to 1 + N, or in ``velocity``, one on slip velocities. Of the ``state``
+    here and below only what :class:`flexible.contact.laws.law.PatchState` has is looked at.
+    """
+    return patch.excess(law, state, force, velocity) if law.law == patch.CODE else -inf
+
+
+@loop
+def successor(law: Any, state: Any) -> int:
+    """The mode that follows the one that has ended."""
+    return patch.successor(state) if law.law == patch.CODE else state.mode
+
+
+@loop
+def care(law: Any, state: Any) -> float:
+    """What share of its tolerance a step may take here, where the end of a mode magnifies errors."""
+    return patch.care(law, state) if law.law == patch.CODE else 1.0
+
+
+@loop
+def free(law: Any, state: Any) -> int:
+    """The mode in which a patch that is off the floor comes down."""
+    return patch.free(state) if law.law == patch.CODE else state.mode
+
+
+@loop
+def sticks(law: Any, mode: int) -> bool:
+    """Whether the patch as a whole holds on to the floor in this mode, to the last digit."""
+    return bool(law.law == patch.CODE and mode == patch.STICK)
+
+
 def rigid_limit(scene: Scene) -> Scene:
     """The scene whose rigid motion is the limit of this one's flexible motion; where mu_s > mu that may be another."""
     mu_s = LAWS[scene.contact.law].static_coefficient(scene.friction)
     return scene if mu_s == scene.friction.mu_s else scene.replace(friction={"mu_s": mu_s})
 
 
-__all__ = ["LAWS", "rigid_limit", "sharing", "tractions"]
+__all__ = [
+    "LAWS", "care", "excess", "free", "may_end", "rigid_limit", "sharing", "sticks", "successor", "tractions",
+]  # fmt: skip

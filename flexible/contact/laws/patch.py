@@ -87,6 +87,52 @@ def tractions(
     return _slide(forces, points, foundation, carried, mode, load, law)
 
 
+@loop
+def excess(law: Parameters, state: Any, force: float, velocity: float) -> float:
+    """How far |F| is beyond mu_s N, or the slip beyond zero: see :func:`flexible.contact.laws.listing.excess`.
+
+    A patch sticks up to ``|F| = mu_s N``. It slides as long as it moves against its friction, and beyond that while
+    the feet of its bristles do: where N falls faster than the bristles let go, a patch that stuck would break in
+    the same instant. A damper that adds to N leaves no such doubt.
+    """
+    res = state.res
+    if state.mode == STICK:  # a damper may take all of N while the bristles still pull
+        beyond = (abs(res.friction) - law.mu_s * res.normal) / (force * (1 + res.normal))
+        return beyond if res.elastic > 0 else -inf
+    if res.normal == 0 or law.mu_s == 0:
+        return -inf
+    against = state.mode * state.slip_velocity
+    feet = state.mode * state.feet_velocity if res.eta <= 1 else inf
+    return float(min(against, feet) / velocity)
+
+
+@loop
+def successor(state: Any) -> int:
+    """From stick to sliding under the friction that broke it, and back."""
+    if state.mode != STICK:
+        return STICK
+    return SLIDE_RIGHT if state.res.friction > 0 else SLIDE_LEFT
+
+
+@loop
+def care(law: Parameters, state: Any) -> float:
+    """A tenth before a stick breaks.
+
+    When it does follows from the momentary F, to which the creep of the patch, a thousandth of the velocities,
+    adds its acceleration: what a step may do to velocities moves that time by more than it may do to impulses.
+    """
+    near = state.mode == STICK and abs(state.res.friction) > law.mu_s * state.res.normal / 2
+    return 0.1 if near else 1.0
+
+
+@loop
+def free(state: Any) -> int:
+    """A patch off the floor comes down sliding, the way it moves: one that stuck would break as it touches."""
+    if state.res.elastic > 0 or state.slip_velocity == 0:
+        return int(state.mode)
+    return SLIDE_LEFT if state.slip_velocity > 0 else SLIDE_RIGHT
+
+
 def sharing(parameters: Parameters, ratio: float) -> tuple[Parameters, int]:
     """Parameters and mode of a patch that shares the friction ``ratio`` N over its points like the pressure."""
     return parameters._replace(law=CODE, mu=ratio), SLIDE_RIGHT
@@ -102,48 +148,6 @@ class Patch(Law):
         """Friction pushes a skidding hoop to the left; a smooth floor never holds."""
         slides = {Kind.SKID: SLIDE_LEFT, Kind.SPIN: SLIDE_RIGHT}.get(kind, STICK)
         return SLIDE_RIGHT if slides == STICK and kind != Kind.ROLL and self.parameters.mu_s == 0 else slides
-
-    def may_end(self, mode: int) -> bool:
-        """See :class:`~flexible.contact.laws.law.Law`."""
-        return True
-
-    def excess(self, state: PatchState, force: float, velocity: float) -> float:
-        """How far |F| is beyond mu_s N, or the slip beyond zero.
-
-        A patch sticks up to ``|F| = mu_s N``. It slides as long as it moves against its friction, and beyond that while
-        the feet of its bristles do: where N falls faster than the bristles let go, a patch that stuck would break in
-        the same instant. A damper that adds to N leaves no such doubt.
-        """
-        res, mu_s = state.res, self.parameters.mu_s
-        if state.mode == STICK:  # a damper may take all of N while the bristles still pull
-            return (abs(res.friction) - mu_s * res.normal) / (force * (1 + res.normal)) if res.elastic > 0 else -inf
-        if res.normal == 0 or mu_s == 0:
-            return -inf
-        against = state.mode * state.slip_velocity
-        feet = state.mode * state.feet_velocity if res.eta <= 1 else inf
-        return min(against, feet) / velocity
-
-    def successor(self, state: PatchState) -> int:
-        """From stick to sliding under the friction that broke it, and back."""
-        if state.mode != STICK:
-            return STICK
-        return SLIDE_RIGHT if state.res.friction > 0 else SLIDE_LEFT
-
-    def care(self, state: PatchState) -> float:
-        """A tenth before a stick breaks.
-
-        When it does follows from the momentary F, to which the creep of the patch, a thousandth of the velocities,
-        adds its acceleration: what a step may do to velocities moves that time by more than it may do to impulses.
-        """
-        res = state.res
-        near = state.mode == STICK and abs(res.friction) > self.parameters.mu_s * res.normal / 2
-        return 0.1 if near else 1.0
-
-    def free(self, state: PatchState) -> int:
-        """A patch off the floor comes down sliding, the way it moves: one that stuck would break as it touches."""
-        if state.res.elastic > 0 or state.slip_velocity == 0:
-            return state.mode
-        return SLIDE_LEFT if state.slip_velocity > 0 else SLIDE_RIGHT
 
     def sticks(self, mode: int) -> bool:
         """See :class:`~flexible.contact.laws.law.Law`."""

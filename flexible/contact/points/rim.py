@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numba.extending import register_jitable
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, loop
 
 
 @register_jitable
@@ -50,6 +50,31 @@ def vertex_angle(vertex: Any, element: Any) -> Any:
     n = vertex.shape[0]
     turn = element // n
     return vertex[element - turn * n] + 2 * pi * turn
+
+
+STIFF = 1e-4  # displacement over R below which no turn of the rim is worth its arithmetic
+
+
+@loop
+def turned(theta: Any, window: tuple[int, int], u: Any) -> float:
+    """Rotation of the rim, the mean over a window, by the displacement of its nodes.
+
+    ``theta`` are the angles of all nodes of the rim; 0 where it can only be small.
+    """
+    most, along, outward = 0.0, 0.0, 0.0
+    count, angle = u.shape[0], 0.0
+    start = vertex_angle(theta, 2 * window[0])
+    for i in range(count):
+        angle = vertex_angle(theta, 2 * window[0] + i)
+        s, c = np.sin(angle), np.cos(angle)
+        along += (u[i, 1] * c - u[i, 0] * s) / count
+        most = max(most, abs(u[i, 0]), abs(u[i, 1]))
+        radial = u[i, 0] * c + u[i, 1] * s
+        if i == 0:
+            outward -= radial
+        if i == count - 1:
+            outward += radial
+    return float(abs(along - outward / (angle - start))) if most >= STIFF else 0.0
 
 
 @jit

@@ -12,7 +12,7 @@ from flexible.handover import Pose, equilibrium
 from flexible.models.chain import ChainHoop
 from flexible.models.exact import ExactHoop
 from flexible.models.select import hoop_of
-from flexible.time.step import restart
+from flexible.time.adaptive import restart
 from rigid import Kind
 
 COARSE = HOOP.replace(solve={"elements": 48})

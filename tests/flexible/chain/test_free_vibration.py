@@ -9,7 +9,7 @@ from scipy.interpolate import CubicSpline
 
 from flexible.chain.whole import sections
 from flexible.models.chain import ChainHoop
-from flexible.time.step import restart
+from flexible.time.adaptive import restart
 
 HEAVY = 1e3
 """Mass of the ring over the disk's, which is held by it and hardly slows it down."""

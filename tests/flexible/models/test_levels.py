@@ -16,9 +16,8 @@ from flexible.models.reduced import ReducedHoop
 from flexible.models.select import FAR, Range, hoop_of
 from flexible.ring.fem import ring_of
 from flexible.ring.nodal import inertia
-from flexible.time.adaptive import march
+from flexible.time.adaptive import MarchError, march
 from flexible.time.events import Ends
-from flexible.time.step import MarchError
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
 
 WALL = 1 - 1 / 1.02

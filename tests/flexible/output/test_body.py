@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -11,7 +9,7 @@ from flexible.contact.points.data import NOTHING, no_bristles
 from flexible.models.chain import ChainHoop
 from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
-from flexible.models.state import State
+from flexible.models.state import in_motion
 from flexible.output.body import lowest, outline, whole
 from rigid import Friction, Hoop, Release, Scene
 
@@ -28,11 +26,8 @@ def state_of(hoop, phi=2.1, height=0.25, rates=(0.3, -0.7, 1.9)):
     pos, vel = np.zeros((2, 3 + hoop.coordinates))
     pos[1], pos[2] = height, phi
     vel[:3] = rates[0] - rates[2], rates[1], rates[2]
-    return State(
-        t=0.0, x_C=0.0, pos=pos, vel=vel, acc=np.zeros_like(pos), mode=0,
-        window=(0, 0), u=np.zeros((1, 2)), nodal=np.zeros((1, 2)), res=NOTHING, bristles=no_bristles(),
-        slip_velocity=0.0,
-    )  # fmt: skip
+    rim = (0, 0), np.zeros((1, 2)), np.zeros((1, 2)), NOTHING, no_bristles()
+    return in_motion(0.0, 0.0, (pos, vel, np.zeros_like(pos)), 0, rim, 0.0)
 
 
 @pytest.mark.parametrize("level", LEVELS)
@@ -69,7 +64,7 @@ def test_what_is_neither_is_never_less_than_nothing(level):
     assert found.vibration > 0
     nearer = state.vel.copy()
     nearer[:3] += 1e-3, 2e-3, -1e-3
-    more = whole(hoop, replace(state, vel=nearer))
+    more = whole(hoop, state._replace(vel=nearer))
     assert more.vibration == pytest.approx(found.vibration, rel=1e-9), "a rigid motion more is no vibration"
 
 

@@ -8,7 +8,7 @@ from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
 from flexible.ring.frame import energies, inertia
 from flexible.ring.nodal import inertia as nodal_inertia
-from flexible.time.step import restart
+from flexible.time.adaptive import restart
 
 COARSE = HOOP.replace(solve={"elements": 48})
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from flexible.time.step import attempt, take_compiled
 from scenes import HOOP, flying
 
 import rigid
@@ -11,7 +12,6 @@ from flexible.models.reduced import ReducedHoop, start_of
 from flexible.ring.fem import COLUMNS
 from flexible.time.methods import METHODS
 from flexible.time.stages import take
-from flexible.time.step import attempt, take_compiled
 
 
 def rolling(scene, level=ReducedHoop):

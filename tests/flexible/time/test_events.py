@@ -5,6 +5,7 @@ from math import pi
 
 import numpy as np
 import pytest
+from flexible.time.step import MarchError, attempt, restart
 from scenes import HOOP, flying
 
 import flexible
@@ -17,7 +18,6 @@ from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
 from flexible.time.adaptive import Limits, march
 from flexible.time.events import Ends, locate
-from flexible.time.step import MarchError, attempt, restart
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
 
 #: slips out of rolling a moment after its release

@@ -15,7 +15,7 @@ from scipy.optimize import brentq
 from flexible.handover import Pose, equilibrium
 from flexible.models.reduced import ReducedHoop
 from flexible.models.rim_contact import relaxation_time
-from flexible.time.step import restart
+from flexible.time.adaptive import restart
 from rigid import Kind
 
 EPS = 1e6
