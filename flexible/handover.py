@@ -22,7 +22,7 @@ from .contact.points.data import NOTHING, no_bristles
 from .contact.points.rim import lift, sideways, upward
 from .models.equilibrium import Patch, settle
 from .models.select import Hoop
-from .models.state import State, in_motion
+from .models.state import State, Touching, in_motion
 from .time.adaptive import MarchError, restart
 
 Array = NDArray[np.float64]
@@ -135,7 +135,7 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
         height = -min(0.0, float(upward(u[:, 0], u[:, 1], s, c).min()))
         pos = np.concatenate([[0.0, height, pose.phi], ring.coordinates])
         nothing = (np.zeros_like(u), NOTHING, no_bristles())
-        return in_motion(t, x_C, (pos, zero, zero), mode, (window, u, *nothing), pose.slip_velocity)
+        return in_motion(t, x_C, (pos, zero, zero), mode, Touching(window, u, *nothing), pose.slip_velocity)
     patch = Patch(hoop, pose.phi, pose.normal_force, pose.friction_force)
     if near is not None and near.res.normal > 0:
         patch.start_from(near)
@@ -144,7 +144,7 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
         share = reached * pose.normal_force / (1 + hoop.scene.hoop.mass_ratio)
         raise MarchError(f"{lost}: from no load on, it is lost at N = {share:.3g} of the weight of disk and hoop")
     pos = np.concatenate([[0.0, patch.height, pose.phi], ring.coordinates])
-    rim = patch.window, patch.u, patch.nodal, patch.res, patch.bristles
+    rim = Touching(patch.window, patch.u, patch.nodal, patch.res, patch.bristles)
     return in_motion(t, x_C, (pos, zero, zero), mode, rim, pose.slip_velocity)
 
 
@@ -159,7 +159,7 @@ def undeformed(hoop: Hoop, pose: Pose) -> State:
     # whether it will roll is for the friction to say: no phase is known yet
     kind = Kind.FLIGHT if pose.slip_velocity == 0 else Kind.SKID if pose.slip_velocity > 0 else Kind.SPIN
     mode = hoop.law.start(kind)
-    rim = window, u, np.zeros_like(u), NOTHING, no_bristles()
+    rim = Touching(window, u, np.zeros_like(u), NOTHING, no_bristles())
     state = in_motion(0.0, 0.0, (pos, vel, np.zeros(3 + n)), mode, rim, pose.slip_velocity)
     return restart(hoop, state, mode)
 

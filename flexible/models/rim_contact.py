@@ -14,7 +14,6 @@ from ..contact.laws.law import Law
 from ..contact.laws.listing import LAWS
 from ..contact.points.data import Parameters
 from ..contact.points.rim import below_floor, window_around
-from .state import State
 
 Array = NDArray[np.float64]
 
@@ -102,10 +101,6 @@ class RimContact:
     def learns(self, window: tuple[int, int] | None) -> bool:
         """See :class:`flexible.models.state.Model`."""
         return False
-
-    def patch_damping(self, state: State) -> float:
-        """See :class:`flexible.models.state.Model`."""
-        return self.relaxation * self.law.parameters.eps_t * state.res.length
 
     def window(self, phi: float, low: float, high: float, margin: float) -> tuple[int, int]:
         """See :func:`window_around`."""

@@ -44,19 +44,32 @@ class State(NamedTuple):
         return self.res.friction
 
 
-def in_motion(t: float, x_C: float, rows: tuple[Array, Array, Array], mode: int, rim: Any, slip: float) -> State:
+class Touching(NamedTuple):
+    """What of a :class:`State` is at the floor."""
+
+    window: tuple[int, int]
+    u: Any
+    nodal: Any
+    res: Resultants
+    bristles: Bristles
+
+
+def in_motion(t: float, x_C: float, rows: tuple[Array, Array, Array], mode: int, rim: Touching, slip: float) -> State:
     """A state before any step, whose rates of forces are not known.
 
     Parameters
     ----------
+    t, x_C : float
     rows : (pos, vel, acc)
-    rim : (window, u, nodal, res, bristles)
+    mode : int
+    rim : Touching
     slip : float
         Velocity of the patch along the floor.
     """
     pos, vel, acc = rows
     return State(
-        float(t), float(x_C), pos, vel, acc, mode, *rim, float(slip), 0.0, 0.0, np.zeros_like(pos), 0.0
+        float(t), float(x_C), pos, vel, acc, mode, rim.window, rim.u, rim.nodal, rim.res, rim.bristles, float(slip),
+        elastic_rate=0.0, feet_velocity=0.0, jerk=np.zeros_like(pos), elastic_bend=0.0,
     )  # fmt: skip
 
 
@@ -68,13 +81,14 @@ class Model(Protocol):
 
     @property
     def arrays(self) -> Any:
-        """What the compiled step takes of a model whose stages are compiled code, otherwise None."""
+        """What compiled code takes of a model whose stages are compiled, otherwise None."""
+
+    @property
+    def theta(self) -> Array:
+        """(n_rim,) Angles of the rim's nodes."""
 
     def learns(self, window: tuple[int, int] | None) -> bool:
         """Whether a stage may have failed because ``arrays`` lacked a part of the rim, which they now have."""
-
-    def patch_damping(self, state: State) -> float:
-        """Damping coefficient of the sticking patch against slip."""
 
     def stage(
         self,

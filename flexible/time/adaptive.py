@@ -15,20 +15,17 @@ from numpy.typing import NDArray
 
 from rigid.kernel.interrupts import answer
 
-from ..contact.laws.listing import free
+from ..contact.laws.listing import free, sticks, successor
 from ..models import reduced
-from ..models.state import Model, Record, State
+from ..models.state import Energies, Model, Record, State
 from .advance import COLUMNS, SPAN, Aims, advance, advance_reduced, write
 from .course import (
     CAPPED,
     LACKS,
-    NO_FORCES,
+    MODE_ENDED,
     PAUSED,
     REACHED,
-    RESTART,
     STALLED,
-    STEP,
-    TRY,
     Advanced,
     Course,
     Marched,
@@ -80,27 +77,47 @@ def _advanced(
     return reached.now, reached.written, reached.why
 
 
-def _alone(model: Model, state: State, h: float, due: int, method: Method) -> tuple[State, bool]:
-    """The state after one step, or the same instant once more; and whether it could be solved."""
-    now, why, row = beginning(state, h, due), LACKS, np.empty((1, COLUMNS))
-    aims = Aims(np.inf, 1.0, np.inf, 1, model.relaxation)
+def _alone(model: Model, state: State, h: float, method: Method) -> State | None:
+    """The state after one step of length ``h``, in the same mode; None if it could not be solved."""
+    now, why, row = beginning(state, h), LACKS, np.empty((1, COLUMNS))
+    aims = Aims(np.inf, 1.0, np.inf, 1, model.relaxation, alone=True)
     while why == LACKS:
         now, _, why = _advanced(model, method.table, now, Ends(), aims, row)
-    return now.state, why == REACHED
+    return now.state if why == REACHED else None
 
 
 def attempt(model: Model, old: State, h: float, method: Method = ESDIRK3) -> State | None:
     """The state after one step of length ``h``; None if Newton failed, whatever it failed by."""
-    state, solved = _alone(model, old, h, TRY, method)
-    return state if solved else None
+    return _alone(model, old, float(h), method)
 
 
 def restart(model: Model, state: State, mode: int) -> State:
     """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
-    found, solved = _alone(model, state._replace(mode=mode), 0.0, RESTART, ESDIRK3)
-    if not solved:
-        raise MarchError(_sentence(NO_FORCES, beginning(state, 0.0, RESTART), LIMITS))
-    return found
+    state = state._replace(mode=mode)
+    found = _alone(model, state, 0.0, ESDIRK3)
+    if found is None:
+        raise MarchError(
+            f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved"
+        )  # fmt: skip
+    pos = state.pos.copy()
+    pos[3:] = found.pos[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
+    return found._replace(
+        x_C=state.x_C, pos=pos, vel=state.vel, slip_velocity=state.slip_velocity, elastic_rate=state.elastic_rate,
+        feet_velocity=0.0, jerk=np.zeros_like(pos), elastic_bend=0.0,
+    )  # fmt: skip
+
+
+def _in_its_next_mode(model: Model, state: State, before: Record) -> tuple[State, Energies, float]:
+    """The state behind the end of its mode, its energies, and what ring and patch let go of in the jump of the friction
+    force: that is lost to friction.
+    """
+    law = model.law.parameters
+    mode = successor(law, state)
+    if sticks(law, mode):  # to the last digit, which a step that was cut short may not have
+        state = state._replace(slip_velocity=0.0)
+    behind = restart(model, state, mode)
+    energies, spring = model.energies(behind), behind.res.normal_energy + behind.res.bristle_energy
+    return behind, energies, before.ring_strain + before.contact_spring - energies[2] - spring
 
 
 def march(
@@ -122,7 +139,7 @@ def march(
         now, records = start.standing(), start.behind()
     else:
         start = start._replace(mode=free(model.law.parameters, start))
-        now, records = beginning(start, float(limits.first), STEP), []
+        now, records = beginning(start, float(limits.first)), []
     rows = np.empty((SPAN if keep is None else 1, COLUMNS))
     if not records:
         write(rows[0], now.state, model.energies(now.state), now.books, 0.0)
@@ -131,8 +148,8 @@ def march(
             keep(now.state)
     aims = Aims(method.tolerance(rtol), 1 / method.estimates, float(limits.longest), limits.most, model.relaxation)
     ends = Ends(float(ends.t), float(ends.low), float(ends.high), ends.turns)
-    why, stood, behind = PAUSED, now, len(records)
-    while why in (PAUSED, LACKS):
+    why, stood, behind, ended = PAUSED, now, len(records), ""
+    while why in (PAUSED, LACKS, MODE_ENDED):
         if not now.cut:
             stood, behind = now, len(records)
         stopped = limits.stop()
@@ -145,21 +162,32 @@ def march(
             keep(now.state)
         if progress is not None:
             progress(now.state, rows[:written])
+        if why == MODE_ENDED:
+            try:
+                state, energies, released = _in_its_next_mode(model, now.state, records[-1])
+            except MarchError as trouble:
+                ended = str(trouble)
+                break
+            books = now.books._replace(friction_loss=now.books.friction_loss + released)
+            now = now._replace(state=state, books=books)
+            write(rows[0], state, energies, books, 0.0)
+            records += _records(rows[:1])
+            if keep is not None:
+                keep(state)
     if why in (PAUSED, CAPPED) and not now.cut:
         stood, behind = now, len(records)
-    ended = "" if why == REACHED else _sentence(why, now, limits)
+    if why != REACHED:
+        ended = ended or _sentence(why, now, limits)
     return Marched(now.state, records, now.attempts, ended, Course.at(stood, records, behind))
 
 
 def _records(rows: Array) -> list[Record]:
-    return [Record(*row[:-2], int(row[-2])) for row in rows.tolist()]
+    return [Record._make([*row[:-2], int(row[-2])]) for row in rows.tolist()]
 
 
 def _sentence(why: int, now: Standing, limits: Limits) -> str:
     """Why a march stopped early."""
     state = now.state
-    if why == NO_FORCES:
-        return f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved"
     stopped = f"stopped at t = {state.t:.6g}"
     if why == CAPPED:
         return f"{stopped} after {limits.before + now.attempts} steps"

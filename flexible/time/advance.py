@@ -13,13 +13,24 @@ import numpy as np
 
 from rigid.kernel.compile import jit, loop, part
 
-from ..contact.laws.listing import care, free, sticks, successor
+from ..contact.laws.listing import care, free
 from ..contact.points.data import Parameters
 from ..contact.points.rim import turned
 from ..models import reduced
 from ..models.state import Books, Energies, Record, State
 from .control import AFRESH, Pace, longer, shorter
-from .course import CAPPED, LACKS, NO_FORCES, PAUSED, REACHED, STALLED, STEP, SWITCH, TRY, UNSOLVED, Advanced, Standing
+from .course import (
+    CAPPED,
+    LACKS,
+    MODE_ENDED,
+    NO_FORCES,
+    PAUSED,
+    REACHED,
+    STALLED,
+    UNSOLVED,
+    Advanced,
+    Standing,
+)
 from .events import (
     HIGH_END,
     MODE_ENDS,
@@ -28,6 +39,7 @@ from .events import (
     TURN,
     Ends,
     Sight,
+    chosen,
     is_lost,
     is_open,
     next_event,
@@ -53,6 +65,7 @@ class Aims(NamedTuple):
     longest: float
     most: int  # steps, those tried in vain too
     relaxation: float  # of the normal damper, sqrt(R/g)
+    alone: bool = False  # a single step, whatever its error and its events
 
 
 def tried(model: Any, old: State, h: float, table: Table, damping: Any) -> Taken:
@@ -60,8 +73,8 @@ def tried(model: Any, old: State, h: float, table: Table, damping: Any) -> Taken
     try:
         return take(model, old, h, table, damping)
     except np.linalg.LinAlgError:
-        nothing = dict.fromkeys(Taken._fields, 0.0)
-        return Taken(**{**nothing, **{name: getattr(old, name, 0.0) for name in nothing}, "ok": False})
+        nothing: dict[str, Any] = {name: getattr(old, name, 0.0) for name in Taken._fields}
+        return Taken(**{**nothing, "ok": False})
 
 
 def lacks(model: Any, window: Any) -> bool:
@@ -76,46 +89,15 @@ def energies_of(model: Any, state: State, of: Energies) -> Energies:
 
 
 @part
-def _in_next_mode(law: Parameters, state: State) -> State:
-    """The state in the mode that follows the one that has ended."""
-    mode = successor(law, _seen(state, state.mode))
-    slip_velocity = state.slip_velocity
-    if sticks(law, mode):  # to the last digit, which a step that was cut short may not have
-        slip_velocity = 0.0
-    return State(
-        state.t, state.x_C, state.pos, state.vel, state.acc, mode, state.window, state.u, state.nodal, state.res,
-        state.bristles, slip_velocity, state.elastic_rate, state.feet_velocity, state.jerk, state.elastic_bend,
-    )  # fmt: skip
-
-
-@part
-def _reached(law: Parameters, old: State, h: float, taken: Any) -> State:
-    """The state at the end of a step, in the mode in which a patch that is off the floor comes down."""
-    pos, sight = taken.pos, _seen(taken, old.mode)
+def _reached(old: State, h: float, taken: Any, mode: int) -> State:
+    """The state at the end of a step."""
+    pos = taken.pos
     x_C = old.x_C + pos[0] + (pos[2] - old.pos[2])
     pos[0] = 0.0
     return State(
-        old.t + h, x_C, pos, taken.vel, taken.acc, free(law, sight), taken.window, taken.u, taken.nodal, taken.res,
+        old.t + h, x_C, pos, taken.vel, taken.acc, mode, taken.window, taken.u, taken.nodal, taken.res,
         taken.bristles, taken.slip_velocity, taken.elastic_rate, taken.feet_velocity, taken.jerk, taken.elastic_bend,
     )  # fmt: skip
-
-
-@part
-def _restarted(old: State, taken: Any) -> State:
-    """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
-    pos = old.pos.copy()
-    for i in range(3, pos.shape[0]):  # a ring without mass jumps; one with mass stays, but for beta^2 acc
-        pos[i] = taken.pos[i]
-    return State(
-        old.t, old.x_C, pos, old.vel, taken.acc, old.mode, taken.window, taken.u, taken.nodal, taken.res,
-        taken.bristles, old.slip_velocity, old.elastic_rate, 0.0, np.zeros(pos.shape[0]), 0.0,
-    )  # fmt: skip
-
-
-@loop
-def _seen(of: Any, mode: int) -> Sight:
-    """What of a state or of the end of a step tells of events."""
-    return Sight(mode, of.pos[2], of.vel[2], of.res, of.slip_velocity, of.feet_velocity)
 
 
 @loop
@@ -146,31 +128,19 @@ def write(row: Any, state: State, held: Any, books: Books, rotation: float) -> N
 
 
 @loop
-def _released(books: Books, energy: float) -> Books:
-    """The totals with what ring and patch let go of in a jump of the friction force: that is lost to friction."""
-    return Books(
-        books.normal_impulse, books.friction_impulse, books.friction_loss + energy, books.damping_loss,
-        books.numerical_loss, books.off_floor,
-    )  # fmt: skip
-
-
-@loop
-def _pause(due: int, room: bool, more: bool, h: float) -> int:
-    """Why nothing more is tried, 0 if it is."""
+def _pause(room: bool, more: bool, h: float) -> int:
+    """Why no step is tried, 0 if one is."""
     if not room:
         return PAUSED
-    if due == STEP and not more:
+    if not more:
         return CAPPED
-    return UNSOLVED if due == STEP and h < SHORTEST else 0
+    return UNSOLVED if h < SHORTEST else 0
 
 
 @loop
-def _ended(event: int, state: State, ends: Ends, turns: int, stalls: int) -> int:
-    """Why the march is over behind a step, 0 if it is not."""
-    phi = state.pos[2]
-    if turns >= ends.turns > 0 or phi <= ends.low or phi >= ends.high or ends.t - state.t < SHORTEST:
-        return REACHED
-    return STALLED if stalls > MOST_STALLS else 0
+def _ended(t: float, phi: float, turns: int, ends: Ends) -> bool:
+    """Whether one of the ends is reached."""
+    return bool(turns >= ends.turns > 0 or phi <= ends.low or phi >= ends.high or ends.t - t < SHORTEST)
 
 
 def advance(
@@ -180,87 +150,68 @@ def advance(
 
     ``rows``, (n, COLUMNS), are filled in with what is recorded, as far as there is room.
     """
-    state, h, pace, books, due, cut = now.state, now.step, now.pace, now.books, now.due, now.cut
-    attempts, turns, stalls, stored, window = now.attempts, now.turns, now.stalls, now.stored, now.state.window
-    written, span, search, event, rotation = 0, now.attempts + SPAN, NOWHERE, NO_EVENT, 0.0
-    asked, length, before_it, grown, this = 0.0, 0.0, 0.0, 0.0, AFRESH
-    why = _ended(event, state, ends, turns, stalls) if due == STEP else 0
+    state, h, pace, books, attempts, turns, stalls, cut = now
+    written, span, window, search, event, why = 0, attempts + SPAN, state.window, NOWHERE, NO_EVENT, 0
+    asked, tries, grown, this = h, h, h, pace
+    if _ended(state.t, state.pos[2], turns, ends):
+        why = REACHED
     while why == 0:
-        tries = search.length if due == STEP else h if due == TRY else 0.0
         if search.event == NO_EVENT:
-            why = _pause(due, written < rows.shape[0] and attempts < span, attempts < aims.most, h)
+            if not aims.alone:
+                why = _pause(written < rows.shape[0] and attempts < span, attempts < aims.most, h)
             if why != 0:
                 break
-            if due == STEP:
-                cut = cut or h > ends.t - state.t
-                asked = tries = min(h, ends.t - state.t)
-                attempts += 1
-        old = _in_next_mode(law, state) if due == SWITCH else state
-        taken = tried(model, old, tries, table, (aims.relaxation, aims.relaxation * law.eps_t * old.res.length))
-        solved = taken.ok and isfinite(taken.error)
-        before, seen = _seen(old, old.mode), _seen(taken, old.mode)
-        if not taken.ok and lacks(model, taken.window):
-            why, window, attempts = LACKS, taken.window, attempts - (1 if due == STEP else 0)
+            cut = cut or h > ends.t - state.t
+            asked = tries = min(h, ends.t - state.t)
+            attempts += 1
+        taken = tried(model, state, tries, table, (aims.relaxation, aims.relaxation * law.eps_t * state.res.length))
+        solved, lacking = taken.ok and isfinite(taken.error), not taken.ok and lacks(model, taken.window)
+        if lacking or (aims.alone and not solved):
+            why, window, attempts = LACKS if lacking else NO_FORCES, taken.window, attempts - 1
             break
-        if due != STEP:
-            if not solved:
-                why = NO_FORCES
-                break
-            rotation = 0.0
-            state = _reached(law, old, tries, taken) if due == TRY else _restarted(old, taken)
-            books = _entered(books, old.res.bristle_energy, taken) if due == TRY else books
-        else:
-            if search.event == NO_EVENT:
-                error, wanted = taken.error / aims.tolerance if solved else inf, care(law, before)
-                if error > wanted:
-                    h = shorter(asked, error / wanted, aims.power)
-                    continue
-                this = Pace(asked, error / care(law, seen))
-                grown = min(longer(pace, this, aims.power), aims.longest)
-                trial, length, event = taken, asked, NO_EVENT
-            elif not solved:
-                search = unsolved(search)
-            else:
-                search = told(search, passed(search.event, law, ends, before, seen))
-                if search.high == tries:
-                    trial, length = taken, tries
-                else:
-                    safe, before_it = taken, tries
-            if is_lost(search):
-                if not search.solved:
-                    h, pace, search = asked / 4, AFRESH, NOWHERE
-                    continue
-                trial, length, event = safe, before_it, NO_EVENT
-            elif search.past >= 0 and not is_open(search):
-                event = search.event
-            while not is_open(search) and search.event < HIGH_END:
-                search = next_event(search, law, ends, before, _seen(trial, old.mode), (old.t + length) - old.t)
-                if search.past >= 0 and not is_open(search):
-                    event = search.event
-            if is_open(search):
+        before = Sight(state.mode, state.pos[2], state.vel[2], state.res, state.slip_velocity, state.feet_velocity)
+        seen = Sight(state.mode, taken.pos[2], taken.vel[2], taken.res, taken.slip_velocity, taken.feet_velocity)
+        length = (state.t + tries) - state.t
+        if search.event == NO_EVENT:
+            error, wanted = taken.error / aims.tolerance if solved else inf, care(law, before)
+            if error > wanted:
+                h = shorter(asked, error / wanted, aims.power)
                 continue
-            # rates in so short a step are round-off, and so are a damper's forces: the mode ends where it began
-            if event != MODE_ENDS or (old.t + length) - old.t >= SHORTEST:
-                state = _reached(law, old, length, trial)
-                books = _entered(books, old.res.bristle_energy, trial)
-            attempts, turns = attempts + search.tries, turns + (1 if event == TURN else 0)
-            stalls, h, pace = stalls + 1 if state.t - old.t < SHORTEST else 0, grown, this
-            rotation = turned(model.theta, state.window, state.u)
-        of, spring = held(model, state.pos, state.vel), state.res.normal_energy + state.res.bristle_energy
-        of = energies_of(model, state, of)
-        if due == SWITCH:
-            books = _released(books, stored - of[2] - spring)
-        write(rows[written], state, of, books, rotation)
-        stored, written = of[2] + spring, written + 1
-        if due == STEP:
-            why = _ended(event, state, ends, turns, stalls)
-            if event == MODE_ENDS:
-                due, h, pace = SWITCH, max(min(asked, grown) / 8, SHORT), AFRESH
-            search, event = NOWHERE, NO_EVENT
-        else:
-            why, due = 0 if due == SWITCH else REACHED, STEP
-    there = Standing(state, h, pace, books, attempts, turns, stalls, due, cut, stored)
-    return Advanced(there, written, why, window)
+            this = Pace(asked, error / care(law, seen))
+            grown = min(longer(pace, this, aims.power), aims.longest)
+        elif is_open(search):
+            search = told(search, passed(search.event, law, ends, before, seen)) if solved else unsolved(search)
+        if search.event != NO_EVENT and not is_open(search):
+            if chosen(search) != tries and chosen(search) > 0:  # not the last one that was tried
+                tries = chosen(search)
+                continue
+            if not solved:
+                h, pace, search = asked / 4, AFRESH, NOWHERE
+                continue
+            event = NO_EVENT if is_lost(search) else search.event
+        while not (is_open(search) or aims.alone) and search.event < HIGH_END:
+            search = next_event(search, law, ends, before, seen, length)
+            if search.past >= 0 and not is_open(search):
+                event = search.event
+        if is_open(search):
+            tries = search.length
+            continue
+        # rates in so short a step are round-off, and so are a damper's forces: the mode ends where it began
+        if event != MODE_ENDS or length >= SHORTEST:
+            books = _entered(books, state.res.bristle_energy, taken)
+            state = _reached(state, tries, taken, state.mode if aims.alone else free(law, seen))
+        energies = energies_of(model, state, held(model, state.pos, state.vel))
+        write(rows[written], state, energies, books, turned(model.theta, state.window, state.u))
+        attempts, turns, written = attempts + search.tries, turns + (1 if event == TURN else 0), written + 1
+        stalls, h, pace = stalls + 1 if length < SHORTEST else 0, grown, this
+        if aims.alone or _ended(state.t, state.pos[2], turns, ends):
+            why = REACHED
+        elif stalls > MOST_STALLS:
+            why = STALLED
+        elif event == MODE_ENDS:
+            why, h, pace = MODE_ENDED, max(min(asked, grown) / 8, SHORT), AFRESH
+        search, event = NOWHERE, NO_EVENT
+    return Advanced(Standing(state, h, pace, books, attempts, turns, stalls, cut), written, why, window)
 
 
 #: the same of the arrays of a reduced hoop

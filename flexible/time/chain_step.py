@@ -6,13 +6,13 @@ says nothing of this one.
 
 from __future__ import annotations
 
-from rigid.kernel.compile import jit, written_out
+from rigid.kernel.compile import jit, part
 
 from ..chain import stage, whole
 from .advance import advance
 from .stages import take
 
-take_chain = written_out(
+take_chain = part(
     take, module=__name__, solved=stage.solved_in_step, held=whole.held_by, floor_forces=whole.floor_forces,
     momentum_error=whole.momentum_error,
 )  # fmt: skip

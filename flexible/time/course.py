@@ -8,10 +8,6 @@ from typing import Any, NamedTuple
 from ..models.state import Books, Record, State
 from .control import AFRESH, Pace
 
-#: what a march is to do next: take steps, go on in the next mode of friction; or, asked for alone, the same instant
-#: once more, one step of a given length
-STEP, SWITCH, RESTART, TRY = range(4)
-
 
 class Standing(NamedTuple):
     """A march before its next step, for compiled code."""
@@ -23,14 +19,13 @@ class Standing(NamedTuple):
     attempts: int  # steps tried until now
     turns: int
     stalls: int  # events within a shortest step of each other, by now
-    due: int
     cut: bool  # whether a step was made shorter by the end
-    stored: float  # energy of ring and contact at the last record
 
 
-#: why compiled code comes back: for room or a pause; at an end; at the last step allowed; because no step can be
-#: solved, modes follow each other without end or the next one has no forces; for the rim near the floor
-PAUSED, REACHED, CAPPED, UNSOLVED, STALLED, NO_FORCES, LACKS = range(1, 8)
+#: why compiled code comes back: for a pause; at an end; at the end of a mode of friction; at the last step allowed;
+#: because no step can be solved, or modes follow each other without end; for the rim near the floor; and, of a single
+#: step, because it could not be solved
+PAUSED, REACHED, MODE_ENDED, CAPPED, UNSOLVED, STALLED, LACKS, NO_FORCES = range(1, 9)
 
 
 class Advanced(NamedTuple):
@@ -67,7 +62,7 @@ class Course:
     def standing(self) -> Standing:
         """Where it stands, for compiled code."""
         return Standing(
-            self.state, self.step, self.pace, self.books, self.attempts, self.turns, self.stalls, STEP, False, 0.0
+            self.state, self.step, self.pace, self.books, self.attempts, self.turns, self.stalls, False
         )  # fmt: skip
 
     def behind(self) -> list[Record]:
@@ -75,9 +70,9 @@ class Course:
         return self.records[: self.length]
 
 
-def beginning(state: State, step: float, due: int) -> Standing:
-    """Before anything was done from ``state``."""
-    return Standing(state, step, AFRESH, Books(), 0, 0, 0, due, False, 0.0)
+def beginning(state: State, step: float) -> Standing:
+    """Before the first step from ``state``."""
+    return Standing(state, step, AFRESH, Books(), 0, 0, 0, False)
 
 
 class Marched(NamedTuple):

@@ -81,13 +81,12 @@ class Search(NamedTuple):
     guessed: bool  # by interpolation
     slow: int  # how often in a row that has not halved the bracket
     failed: int  # lengths of the bracket that could not be solved
-    solved: bool  # whether one before the event could
     lengths: tuple[float, float, float]  # known last
     values: tuple[float, float, float]  # how far they are past the event, infinite where none is known yet
     tries: int
 
 
-NOWHERE = Search(NO_EVENT, 0.0, 0.0, -inf, 0.0, 0.0, False, 0, 0, False, (0.0, 0.0, 0.0), (inf, inf, inf), 0)
+NOWHERE = Search(NO_EVENT, 0.0, 0.0, -inf, 0.0, 0.0, False, 0, 0, (0.0, 0.0, 0.0), (inf, inf, inf), 0)
 OTHERS = (0.5, 0.25, 0.75, 0.125, 0.875)  # shares of the bracket tried where its first length cannot be solved
 
 
@@ -102,6 +101,12 @@ def is_open(search: Search) -> bool:
 def is_lost(search: Search) -> bool:
     """Whether no length of the bracket could be solved."""
     return bool(search.failed > len(OTHERS))
+
+
+@loop
+def chosen(search: Search) -> float:
+    """Length of the step at the end of a search: at the event, or the last one before it; 0 if there is none."""
+    return search.low if is_lost(search) else search.high
 
 
 @loop
@@ -133,7 +138,7 @@ def search_of(event: int, length: float, before: float, past: float, tries: int 
     """
     lengths, values = (0.0, 0.0, length), (inf, min(before, 0.0), past)
     narrow = max(SHARE * length, TIME)
-    return _aimed(Search(event, 0.0, length, past, narrow, length, False, 0, 0, False, lengths, values, tries))
+    return _aimed(Search(event, 0.0, length, past, narrow, length, False, 0, 0, lengths, values, tries))
 
 
 @loop
@@ -146,7 +151,7 @@ def _aimed(search: Search) -> Search:
     length = guess if low < guess < high else (low + high) / 2
     length = min(max(length, low + 0.001 * width), high - 0.001 * width)
     return Search(
-        search.event, low, high, search.past, search.narrow, length, not isnan(guess), search.slow, 0, search.solved,
+        search.event, low, high, search.past, search.narrow, length, not isnan(guess), search.slow, 0,
         search.lengths, search.values, search.tries,
     )  # fmt: skip
 
@@ -159,24 +164,24 @@ def unsolved(search: Search) -> Search:
         length = search.low + OTHERS[failed - 1] * (search.high - search.low)
     return Search(
         search.event, search.low, search.high, search.past, search.narrow, length, search.guessed, search.slow, failed,
-        search.solved, search.lengths, search.values, search.tries + 1,
+        search.lengths, search.values, search.tries + 1,
     )  # fmt: skip
 
 
 @loop
 def told(search: Search, value: float) -> Search:
     """After a step of the length asked for that is so far past the event."""
-    low, high, past, solved = search.low, search.high, search.past, search.solved
+    low, high, past = search.low, search.high, search.past
     if value >= 0:
         high, past = search.length, value
     else:
-        low, solved = search.length, True
+        low = search.length
     slow = search.slow + 1 if search.guessed and high - low > (search.high - search.low) / 2 else 0
     lengths = search.lengths[1], search.lengths[2], search.length
     values = search.values[1], search.values[2], value
     return _aimed(
         Search(
-            search.event, low, high, past, search.narrow, 0.0, False, slow, 0, solved, lengths, values,
+            search.event, low, high, past, search.narrow, 0.0, False, slow, 0, lengths, values,
             search.tries + 1,
         )
     )  # fmt: skip

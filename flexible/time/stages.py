@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import loop, part, written_out
+from rigid.kernel.compile import loop, part
 
 from ..contact.points.data import Bristles, Damper, Resultants
 from ..contact.vectors import largest, plus, times
@@ -280,7 +280,7 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
 
 
 #: the same of the arrays of a reduced hoop, a part of its march
-take_reduced = written_out(
+take_reduced = part(
     take, solved=reduced.solved_in_step, held=reduced.held, floor_forces=reduced.floor_forces,
     momentum_error=reduced.momentum_error,
 )  # fmt: skip

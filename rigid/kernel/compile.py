@@ -114,15 +114,17 @@ def jit(function: F, module: str = "", **instead: Any) -> F:
     return _compiler(_at_home(function, module, instead), keep=True)
 
 
-def part(function: F) -> F:
+def part(function: F, module: str = "", **instead: Any) -> F:
     """Mark a function that compiled code alone calls.
 
     It gets no entry from Python, whose unpacking of named tuples takes long to compile, and no cache; it is compiled
     once for arguments that are known beforehand and for others. Called from Python it runs as it stands.
+    ``module`` and ``instead`` are those of :func:`jit`.
     """
     from numba.extending import register_jitable
 
-    marked: F = register_jitable(**_OPTIONS, no_cpython_wrapper=True)(function)
+    text: Any = _at_home(function, module, instead) if instead else function
+    marked: F = register_jitable(**_OPTIONS, no_cpython_wrapper=True)(text)
     return marked
 
 
@@ -153,15 +155,14 @@ def in_loops(text: Callable[..., Any], **options: bool) -> Callable[[F], F]:
     return mark
 
 
-def written_out(function: F, module: str = "", **instead: Any) -> F:
+def written_out(function: F) -> F:
     """Mark a function that is written out in the compiled functions that call it.
 
     For one that is little but a call of a large function: on its own it would have all of that compiled once more.
-    ``module`` and ``instead`` are those of :func:`jit`.
     """
     import numba
 
-    marked: Any = numba.njit(inline="always", **_OPTIONS)(_at_home(function, module, instead))
+    marked: Any = numba.njit(inline="always", **_OPTIONS)(_at_home(function, "", {}))
     return marked
 
 

@@ -5,7 +5,7 @@ from math import pi
 import numpy as np
 
 from flexible.contact.points.data import NOTHING, no_bristles
-from flexible.models.state import in_motion
+from flexible.models.state import Touching, in_motion
 from flexible.time.adaptive import Limits, march
 from flexible.time.events import Ends
 from flexible.time.methods import ESDIRK3
@@ -28,7 +28,7 @@ def flying(hoop, pos, vel):
     window = hoop.window(pos[2], 0.0, 0.0, 0.1 * hoop.element)
     u = np.zeros((2 * window[1] + 1, 2))
     nothing = (u, np.zeros_like(u), NOTHING, no_bristles())
-    return in_motion(0.0, 0.0, (pos, vel, np.zeros_like(pos)), 0, (window, *nothing), 0.0)
+    return in_motion(0.0, 0.0, (pos, vel, np.zeros_like(pos)), 0, Touching(window, *nothing), 0.0)
 
 
 def steps_of(hoop, state, t_end, step, method=ESDIRK3):

@@ -9,7 +9,7 @@ from flexible.contact.points.data import NOTHING, no_bristles
 from flexible.models.chain import ChainHoop
 from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
-from flexible.models.state import in_motion
+from flexible.models.state import Touching, in_motion
 from flexible.output.body import lowest, outline, whole
 from rigid import Friction, Hoop, Release, Scene
 
@@ -26,7 +26,7 @@ def state_of(hoop, phi=2.1, height=0.25, rates=(0.3, -0.7, 1.9)):
     pos, vel = np.zeros((2, 3 + hoop.coordinates))
     pos[1], pos[2] = height, phi
     vel[:3] = rates[0] - rates[2], rates[1], rates[2]
-    rim = (0, 0), np.zeros((1, 2)), np.zeros((1, 2)), NOTHING, no_bristles()
+    rim = Touching((0, 0), np.zeros((1, 2)), np.zeros((1, 2)), NOTHING, no_bristles())
     return in_motion(0.0, 0.0, (pos, vel, np.zeros_like(pos)), 0, rim, 0.0)
 
 

@@ -5,19 +5,18 @@ from math import pi
 
 import numpy as np
 import pytest
-from flexible.time.step import MarchError, attempt, restart
 from scenes import HOOP, flying
 
 import flexible
-import flexible.time.adaptive
+import flexible.time.advance
 import rigid
 from flexible.contact.laws.patch import SLIDE_RIGHT, STICK
 from flexible.contact.vectors import largest
 from flexible.handover import Pose, equilibrium, hand_over
 from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
-from flexible.time.adaptive import Limits, march
-from flexible.time.events import Ends, locate
+from flexible.time.adaptive import Limits, MarchError, attempt, march, restart
+from flexible.time.events import Ends, chosen, is_lost, is_open, search_of, told, unsolved
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
 
 #: slips out of rolling a moment after its release
@@ -39,31 +38,40 @@ def numbered(root, unsolved=(2.0, 3.0)):
     return step, (lambda h: (h - root) / 1e-9), tried
 
 
+def located(step, past):
+    """The end of the search in a step of length 1, None if there is none, and whether it is at the event."""
+    search = search_of(0, 1.0, past(0.0), past(1.0))
+    while is_open(search):
+        found = step(search.length)
+        search = unsolved(search) if found is None else told(search, past(found))
+    return chosen(search) or None, not is_lost(search)
+
+
 @pytest.mark.parametrize("root", [1e-7, 0.2, 0.5, 0.999])
 def test_an_event_is_located_around_lengths_that_cannot_be_solved(root):
     """A third of the bracket fails, the event outside it is found to its tolerance all the same."""
     step, past, tried = numbered(root, (0.21, 0.49))
-    found = locate(step, past, 1.0, past(0.0), 1.0)
-    assert found.at_event
-    assert 0 <= past(found.trial) <= 1
+    found, at_event = located(step, past)
+    assert at_event
+    assert 0 <= past(found) <= 1
     assert len(tried) < 60  # bisection alone takes 30 from 1 to 1e-9, and six lengths at most are tried for each
 
 
 def test_an_event_among_lengths_that_cannot_be_solved_is_not_taken_for_located():
     """The step then ends before it; where no length can be solved there is no step."""
     step, past, _ = numbered(0.3, (0.21, 0.49))
-    found = locate(step, past, 1.0, past(0.0), 1.0)
-    assert not found.at_event
-    assert found.trial <= 0.21
+    found, at_event = located(step, past)
+    assert not at_event
+    assert found <= 0.21
     step, past, _ = numbered(0.3, (0.0, 1.0))
-    assert locate(step, past, 1.0, past(0.0), 1.0).trial is None
+    assert located(step, past)[0] is None
 
 
 def test_a_jump_is_located_in_time():
     """A function without a zero, -1 before 0.3 and 1e12 after: the bracket tells, to its share 1e-10 of the step."""
-    found = locate(lambda h: h, lambda h: 1e12 if h > 0.3 else -1.0, 1.0, -1.0, 1.0)
-    assert found.at_event
-    assert 0.3 < found.trial < 0.3 + 1e-10
+    found, at_event = located(lambda h: h, lambda h: 1e12 if h > 0.3 else -1.0)
+    assert at_event
+    assert 0.3 < found < 0.3 + 1e-10
 
 
 @pytest.mark.parametrize("failing", [0.5, 1.0])
@@ -72,15 +80,17 @@ def test_no_step_passes_its_event_where_shorter_ones_fail(failing, monkeypatch):
     hoop, start = start_of(SLIPPING)
     mu_s = SLIPPING.friction.mu_s
 
-    def fails(model, old, h, method):
-        trial = attempt(model, old, h, method)
-        if trial is not None and abs(trial.state.friction_force) > mu_s * trial.state.normal_force:
+    def fails(model, old, h, *of):
+        trial = tried(model, old, h, *of)
+        if h > 0 and trial.ok and old.mode == STICK and abs(trial.res.friction) > mu_s * trial.res.normal:
             fails.longest = h, old.t
         known = fails.longest is not None and fails.longest[1] == old.t
-        return None if known and (1 - failing) * fails.longest[0] < h < fails.longest[0] else trial
+        fails_here = known and (1 - failing) * fails.longest[0] < h < fails.longest[0]
+        return trial._replace(ok=False) if fails_here else trial
 
-    fails.longest = None
-    monkeypatch.setattr(flexible.time.adaptive, "attempt", fails)
+    fails.longest, tried = None, flexible.time.advance.tried
+    monkeypatch.setattr(flexible.time.advance, "tried", fails)
+    monkeypatch.setattr(flexible.time.adaptive, "machine", lambda model: (flexible.time.advance.advance, model))
     _, records, _, ended, _ = march(hoop, start, Ends(t=0.5), 1e-3, Limits(most=400))
     assert fails.longest is not None  # it did come to an end
     assert records[-1].t <= 0.5 + 1e-12
@@ -108,11 +118,11 @@ def test_a_state_that_is_no_number_is_a_failed_step(model, place):
     for name in ("vel", "acc"):
         field = getattr(start, name).copy()
         field[place] = np.nan
-        broken = start.__class__(**{**{k: getattr(start, k) for k in start.__slots__}, name: field})
+        broken = start._replace(**{name: field})
         assert attempt(hoop, broken, 1e-5) is None
     pos = start.pos.copy()
     pos[place] = np.nan
-    broken = start.__class__(**{**{k: getattr(start, k) for k in start.__slots__}, "pos": pos})
+    broken = start._replace(pos=pos)
     with pytest.raises(MarchError):
         restart(hoop, broken, STICK)
 
