@@ -206,7 +206,7 @@ class Builder:
         return segment
 
     def march(
-        self, hoop: FlexibleHoop, state: State, ends: Ends, rtol: float, progress: Callable[[State], None] | None
+        self, hoop: FlexibleHoop, state: State, ends: Ends, rtol: float, progress: Callable[[float, float], None] | None
     ) -> tuple[State, Segment, str]:
         """March, or go over a march of the earlier motion that this one goes on from; its last one is taken up.
 
@@ -219,10 +219,12 @@ class Builder:
             Why it stopped early, if it did.
         """
 
-        def watch(now: State, rows: Array) -> None:
-            self.range(rows[:, 0], rows[:, -1], rows[:, 1])
+        def watch(rows: Array) -> None:
+            t, phi, turned = rows[:, 0], rows[:, 1], rows[:, -1]
+            self.range(t, turned, phi)
             if progress is not None:
-                progress(now)
+                for step in zip(t.tolist(), phi.tolist(), strict=True):
+                    progress(*step)
 
         number, states = len(self.marches), list[State]()
         earlier, last = self._earlier(number, state)

@@ -46,13 +46,16 @@ class _Progress:
     def __init__(self, report: Progress | None) -> None:
         self.report = report
 
-    def watch(self, low: float, high: float, fraction: Callable[[State], float]) -> Callable[[State], None] | None:
+    def watch(
+        self, low: float, high: float, fraction: Callable[[float, float], float]
+    ) -> Callable[[float, float], None] | None:
+        """What a march is to tell of the time and the angle of every step."""
         if self.report is None:
             return None
         report = self.report
 
-        def tell(state: State) -> None:
-            report(low + (high - low) * min(max(fraction(state), 0.0), 1.0))
+        def tell(t: float, phi: float) -> None:
+            report(low + (high - low) * min(max(fraction(t, phi), 0.0), 1.0))
 
         return tell
 
@@ -195,9 +198,9 @@ def _last_turn(number: int) -> str:
     return f"the last turn asked for is reached: number {number}"
 
 
-def _swept(span: tuple[float, float]) -> Callable[[State], float]:
+def _swept(span: tuple[float, float]) -> Callable[[float, float], float]:
     """Fraction of an angle swept."""
-    return lambda state: (state.pos[2] - span[0]) / (span[1] - span[0])
+    return lambda t, phi: (phi - span[0]) / (span[1] - span[0])
 
 
 def _rest_of(run: Run, builder: Builder) -> Run | None:
@@ -241,7 +244,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
         return str(error) + _too_soft(scene)
     run: Run | None = scene.run
     horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
-    watch = progress.watch(0.0, 1.0, lambda s: s.t / horizon)
+    watch = progress.watch(0.0, 1.0, lambda t, phi: t / horizon)
     while run is not None:
         here = _from_here(scene, hoop, state, Run(until="rest" if run.until == "rest" else "pulse"))
         swing = rigid.simulate(rigid_limit(here))

@@ -254,11 +254,11 @@ def test_one_worker_compiles_for_all_what_the_cases_need(monkeypatch):
 
 def test_each_level_is_known_to_be_compiled_by_its_own_step(monkeypatch):
     """A machine that has the steps of one level has still to compile those of the other, once for all its workers."""
-    from flexible.time.chain_step import take_chain
-    from flexible.time.stages import take_reduced
+    from flexible.time.advance import advance_reduced
+    from flexible.time.chain_step import advance_chain
     from studies.running.solvers import LEVELS, missing
 
-    step_of = {"reduced": take_reduced, "chain": take_chain}
+    step_of = {"reduced": advance_reduced, "chain": advance_chain}
     homes = {level: Path(step.py_func.__code__.co_filename).parent for level, step in step_of.items()}
     for level, other in (("reduced", "chain"), ("chain", "reduced")):
         monkeypatch.setattr(store, "is_compiled", lambda place, absent=homes[other]: place != absent)

@@ -126,14 +126,14 @@ def march(
     ends: Ends,
     rtol: float,
     limits: Limits = LIMITS,
-    progress: Callable[[State, Array], None] | None = None,
+    progress: Callable[[Array], None] | None = None,
     keep: Callable[[State], None] | None = None,
     method: Method = ESDIRK3,
 ) -> Marched:
     """March to the first of the ends, which is located.
 
-    ``start`` may be the course of an earlier march. ``progress`` is told every few steps what state was reached, and
-    the rows of :func:`flexible.time.advance.write` on the way; ``keep`` is given the state behind every new record.
+    ``start`` may be the course of an earlier march. ``progress`` is given, every few steps, the rows that they
+    wrote (:func:`flexible.time.advance.write`); ``keep`` is given the state behind every new record.
     """
     if isinstance(start, Course):
         now, records = start.standing(), start.behind()
@@ -161,7 +161,7 @@ def march(
         if keep is not None and written:
             keep(now.state)
         if progress is not None:
-            progress(now.state, rows[:written])
+            progress(rows[:written])
         if why == MODE_ENDED:
             try:
                 state, energies, released = _in_its_next_mode(model, now.state, records[-1])

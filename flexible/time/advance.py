@@ -48,7 +48,7 @@ from .events import (
     unsolved,
 )
 from .methods import Table
-from .stages import Taken, held, take, take_reduced
+from .stages import Taken, held, take
 
 SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
 SHORT = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
@@ -215,6 +215,10 @@ def advance(
 
 
 #: the same of the arrays of a reduced hoop
+take_reduced = part(
+    take, module=__name__, solved=reduced.solved_in_step, held=reduced.held, floor_forces=reduced.floor_forces,
+    momentum_error=reduced.momentum_error,
+)  # fmt: skip
 advance_reduced = jit(
     advance, tried=take_reduced, held=reduced.held, energies_of=reduced.energies_of, lacks=reduced.lacks
 )  # fmt: skip

@@ -1,7 +1,7 @@
 """One implicit step: its stages one after the other, its error, impulses and losses.
 
 One text for two machines: Python runs it on a hoop (:class:`flexible.models.state.Model`), compiled code on the arrays
-of a reduced one, whose stages are compiled too.
+of one whose stages are compiled too.
 """
 
 from __future__ import annotations
@@ -15,7 +15,6 @@ from rigid.kernel.compile import loop, part
 from ..contact.points.data import Bristles, Damper, Resultants
 from ..contact.stage import Near, Predictor
 from ..contact.vectors import largest, plus, times
-from ..models import reduced
 from .methods import Table
 from .rows import advanced, along, store
 
@@ -277,10 +276,3 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
         res.beyond + _work(table, known.friction, known.way) - drag_work, _damped(table, known) - drag_work,
         numerical, off_floor, after,
     )  # fmt: skip
-
-
-#: the same of the arrays of a reduced hoop, a part of its march
-take_reduced = part(
-    take, solved=reduced.solved_in_step, held=reduced.held, floor_forces=reduced.floor_forces,
-    momentum_error=reduced.momentum_error,
-)  # fmt: skip

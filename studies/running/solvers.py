@@ -46,7 +46,7 @@ def flexible(scene: Scene, *, history: bool = False, progress: Progress | None =
     return simulate(scene, history=history, progress=progress)
 
 
-LEVELS = {"reduced": "flexible.time.stages", "chain": "flexible.time.chain_step"}
+LEVELS = {"reduced": "flexible.time.advance", "chain": "flexible.time.chain_step"}
 """Levels of the flexible solver that have compiled code of their own, and the module whose code is compiled last."""
 
 
