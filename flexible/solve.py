@@ -65,6 +65,7 @@ def simulate(
     scene: SceneLike,
     *,
     history: bool = False,
+    states: bool = True,
     progress: Progress | None = None,
     most_steps: int | None = None,
     resume: FlexibleMotion | None = None,
@@ -78,6 +79,8 @@ def simulate(
         Or what says which: as :func:`rigid.simulate` takes it.
     history : bool
         Keep every step, as ``motion.history``, and the ring's states, of which fields are made.
+    states : bool
+        Keep these states with the history; without them it is as quick as none.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
     most_steps : int, optional
@@ -109,21 +112,21 @@ def simulate(
     hoop = hoop_of(inner)
     builder = Builder(inner)
     builder.range = Range(hoop)
-    builder.kept = [] if history else None
+    builder.kept = [] if history and states else None
     builder.most_steps = most_steps
     builder.stop = stop
-    builder.earlier = None if resume is None else _resumable(resume, scene, history)
+    builder.earlier = None if resume is None else _resumable(resume, scene, history and states)
     run = _through_pulses if scene.solve.resolve == "pulses" else _throughout
     ended = run(inner, hoop, builder, _Progress(progress))
     complaint = builder.range.complaint()
     return builder.motion(scene, f"{ended}; {complaint}" if complaint else ended, history)
 
 
-def _resumable(earlier: FlexibleMotion, scene: Scene, history: bool) -> FlexibleMotion:
+def _resumable(earlier: FlexibleMotion, scene: Scene, states: bool) -> FlexibleMotion:
     """A motion that a run of a scene can go on from."""
     if replace(earlier.scene, run=scene.run) != scene:
         raise ValueError("The motion to resume is of another scene: all but how far to run must be the same.")
-    if history and earlier.marches and not earlier.kept:
+    if states and earlier.marches and not earlier.kept:
         raise ValueError("The motion to resume did not keep its states: simulate(scene, history=True) does.")
     return earlier
 

@@ -103,7 +103,7 @@ def write_fields(
     unknown = [name for name in asked if name not in FIELDS]
     if unknown or not asked:
         raise SeriesError(f"fields = {', '.join(unknown) or 'none'} is not possible: they are {', '.join(FIELDS)}.")
-    if not motion.kept and motion.history is None:
+    if not motion.kept and (motion.history is None or motion.marches):
         raise SeriesError("the motion kept no states of the ring: simulate(scene, history=True) does.")
     when = times_of(motion, frames, times, pulse)
     scene = motion.scene

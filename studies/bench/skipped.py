@@ -42,8 +42,8 @@ def skipped(quick: bool) -> list[Row]:
     paper = load_scene("paper-3.3-light").replace(run={"turns": 2}, solve={"rtol": 1e-3, "level": "reduced"})
     pulse = reference.massless_pulse(1e-2)
     pairs: list[tuple[str, Callable[[], Any], Callable[[], Any] | None]] = [
-        ("history: kept", lambda: flexible.simulate(pulse, history=True), None),
-        ("history: not kept", lambda: flexible.simulate(pulse), None),
+        ("history and states: kept", lambda: flexible.simulate(pulse, history=True), None),
+        ("history and states: not kept", lambda: flexible.simulate(pulse), None),
         ("ring: assembled and reduced anew", lambda: flexible.simulate(pulse), _forget_rings),
         ("ring: from the cache", lambda: flexible.simulate(pulse), None),
         ("between pulses: flexible", lambda: flexible.simulate(paper.replace(solve={"resolve": "all"})), None),

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from scenes import HOOP
 
-from flexible import FlexibleMotion, load_motion, simulate
+from flexible import FlexibleMotion, load_motion, simulate, write_fields
+from meshes import SeriesError
 from rigid import Scene
 
 SCENES = {
@@ -82,6 +83,24 @@ def test_through_a_file(name: str, tmp_path: Any) -> None:
     assert isinstance(loaded, FlexibleMotion)
     assert_same(loaded, part)
     assert_same(simulate(SCENES[name], history=True, resume=loaded), whole(name))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_history_without_states_is_that_with_them(name: str) -> None:
+    """Many steps in one call of compiled code, and each in one of its own, whose state is kept; cut, and gone on."""
+    motion = simulate(SCENES[name], history=True, states=False)
+    assert repr(told(motion)) == repr(told(whole(name)))
+    assert motion.history is not None
+    assert whole(name).history is not None
+    for field in dataclasses.fields(motion.history):
+        np.testing.assert_array_equal(
+            getattr(motion.history, field.name), getattr(whole(name).history, field.name), field.name
+        )
+    assert not motion.kept
+    with pytest.raises(SeriesError, match="no states"):
+        write_fields(motion, "nowhere")
+    part = simulate(SCENES[name], most_steps=whole(name).steps // 3)
+    assert repr(told(simulate(SCENES[name], resume=part))) == repr(told(motion))
 
 
 def test_what_cannot_be_resumed_is_refused() -> None:

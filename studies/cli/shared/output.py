@@ -101,9 +101,9 @@ def write_fields(motion: Motion, out: Path, progress: Callable[[float], None], *
 
 def write_first_pulse(scene: Scene, out: Path, progress: Callable[[float], None]) -> None:
     """Run the scene's first pulse, at the scene's own stiffness, and write its fields."""
-    from ...running.solvers import solver
+    from flexible import simulate
 
-    motion = solver("flexible")(scene.replace(run=Run(until="pulse")), history=True)
+    motion = simulate(scene.replace(run=Run(until="pulse")), history=True)
     write_fields(motion, out, progress)
 
 
