@@ -220,11 +220,10 @@ class Builder:
         """
 
         def watch(rows: Array) -> None:
-            t, phi, turned = rows[:, 0], rows[:, 1], rows[:, -1]
-            self.range(t, turned, phi)
+            self.range(rows[:, 0], rows[:, -1], rows[:, 1])
             if progress is not None:
-                for step in zip(t.tolist(), phi.tolist(), strict=True):
-                    progress(*step)
+                for t, phi in rows[:, :2].tolist():
+                    progress(t, phi)
 
         number, states = len(self.marches), list[State]()
         earlier, last = self._earlier(number, state)
@@ -235,10 +234,8 @@ class Builder:
             self.range.records += earlier.turned
         else:
             most = LIMITS.most if self.most_steps is None else max(self.most_steps - self.steps, 1)
-            limits, method = (
-                Limits(most=most, before=self.steps, stop=self.stop or LIMITS.stop),
-                METHODS[self.scene.solve.integrator],
-            )
+            limits = Limits(most=most, before=self.steps, stop=self.stop or LIMITS.stop)
+            method = METHODS[self.scene.solve.integrator]
             start: State | Course = state
             if earlier is not None:
                 start = earlier.marched.course

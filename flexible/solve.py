@@ -36,6 +36,7 @@ from .time.advance import SHORTEST
 from .time.events import Ends
 
 Progress = Callable[[float], object]
+Fraction = Callable[[float, float], float]  # of time and angle of a step
 
 LEAD = 0.5  # a flexible segment begins this many pulse lengths before the pulse, to let its start settle
 
@@ -46,13 +47,9 @@ class _Progress:
     def __init__(self, report: Progress | None) -> None:
         self.report = report
 
-    def watch(
-        self, low: float, high: float, fraction: Callable[[float, float], float]
-    ) -> Callable[[float, float], None] | None:
-        """What a march is to tell of the time and the angle of every step."""
-        if self.report is None:
+    def watch(self, low: float, high: float, fraction: Fraction) -> Callable[[float, float], None] | None:
+        if (report := self.report) is None:
             return None
-        report = self.report
 
         def tell(t: float, phi: float) -> None:
             report(low + (high - low) * min(max(fraction(t, phi), 0.0), 1.0))
@@ -77,10 +74,8 @@ def simulate(
     ----------
     scene : Scene, str, path or dict
         Or what says which: as :func:`rigid.simulate` takes it.
-    history : bool
-        Keep every step, as ``motion.history``, and the ring's states, of which fields are made.
-    states : bool
-        Keep these states with the history; without them it is as quick as none.
+    history, states : bool
+        Keep every step, as ``motion.history``, and (or not: that is quicker) the ring's states, of which fields are made.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
     most_steps : int, optional
@@ -113,8 +108,7 @@ def simulate(
     builder = Builder(inner)
     builder.range = Range(hoop)
     builder.kept = [] if history and states else None
-    builder.most_steps = most_steps
-    builder.stop = stop
+    builder.most_steps, builder.stop = most_steps, stop
     builder.earlier = None if resume is None else _resumable(resume, scene, history and states)
     run = _through_pulses if scene.solve.resolve == "pulses" else _throughout
     ended = run(inner, hoop, builder, _Progress(progress))
@@ -201,7 +195,7 @@ def _last_turn(number: int) -> str:
     return f"the last turn asked for is reached: number {number}"
 
 
-def _swept(span: tuple[float, float]) -> Callable[[float, float], float]:
+def _swept(span: tuple[float, float]) -> Fraction:
     """Fraction of an angle swept."""
     return lambda t, phi: (phi - span[0]) / (span[1] - span[0])
 
