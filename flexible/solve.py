@@ -75,7 +75,7 @@ def simulate(
     scene : Scene, str, path or dict
         Or what says which: as :func:`rigid.simulate` takes it.
     history, states : bool
-        Keep every step, as ``motion.history``, and (or not: that is quicker) the ring's states, of which fields are made.
+        Keep every step, as ``motion.history``, and (or not, quicker) the ring's states, of which fields are made.
     progress : callable, optional
         Called with the fraction done, 0 to 1.
     most_steps : int, optional
