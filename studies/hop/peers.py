@@ -253,18 +253,17 @@ def peers_figure(found: Sequence[Rolled]) -> Figure:
     """Height of the rim's lowest point over the rotation of the disk, a panel for each case."""
     cases = list(dict.fromkeys(each.scene for each in found))
     with matplotlib.rc_context(STYLE):
-        figure = blank(4.4 * len(cases), 3.8)
+        figure = blank(4.4 * len(cases), 4.4)
         for axes, scene in zip(figure.subplots(1, len(cases), squeeze=False)[0], cases, strict=True):
-            mine = [each for each in found if each.scene == scene and each.track is not None]
-            for program, colour in ((OURS, "black"), (THEIRS, OKABE_ITO["friction_loss"])):
-                drawn = [each for each in mine if each.program == program]
-                for width, each in zip(np.linspace(0.5, 1.6, len(drawn)), drawn, strict=True):
-                    assert each.track is not None
-                    axes.plot(*each.track, color=colour, linewidth=width, label=f"{program}, {each.setting}")
+            mine = [each for each in found if each.scene == scene]
+            for program, colour, widest in ((THEIRS, OKABE_ITO["contact_spring"], 3.2), (OURS, "black", 1.2)):
+                drawn = [(each.setting, each.track) for each in mine if each.program == program and each.track]
+                for i, (setting, (phi, gap)) in enumerate(drawn, 1):
+                    axes.plot(phi, gap, color=colour, linewidth=widest * i / len(drawn), label=f"{program}, {setting}")
             starts = [hop.phi for each in mine for hop in each.hops[:SHOWN]]
             if starts:
                 axes.set_xlim(min(starts) - 0.15, max(starts) + 0.45)
             axes.set(xlabel="φ", title=title(scene))
-            axes.legend(fontsize=7, loc="upper left")
         figure.axes[0].set_ylabel("height of the rim's lowest point / R")
+        figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
         return figure

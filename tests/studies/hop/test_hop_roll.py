@@ -191,9 +191,9 @@ CABLES = {
     5e7: [(3.8152, 0.0227, 1.06e-3), (3.8832, 0.0482, 1.25e-3), (4.1823, 0.1480, 7.47e-3)],
 }
 """(phi, duration, height) of flights longer than 0.02 of the ring of :mod:`studies.bench.peers.exudyn_ring`, inner
-radius 1, by its E b R/(m g): Exudyn 1.13.6, 240 cables, steps of 2.5e-4, to t = 0.75; undeformed from phi = 2.9 with
-phidot = 4, mu_s = mu = 0.3. Steps of 5e-4 move durations by a tenth (a third where two flights are one with the finer
-step), angles by 0.006 and heights by a tenth."""
+radius 1, by its E b R/(m g): Exudyn 1.13.6, 240 cables pinned to the disk at -3, 0 and 3 degrees only, steps of
+2.5e-4, to t = 0.75; undeformed from phi = 2.9 with phidot = 4, mu_s = mu = 0.3. Steps of 5e-4 move durations by a
+tenth (a third where two flights are one with the finer step), angles by 0.006 and heights by a tenth."""
 
 
 @pytest.mark.slow
