@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from rigid.kernel.compile import jit, part
 
-from ..contact.vectors import solve_dense
+from ..contact.vectors import solved_by
 
 Array = NDArray[np.float64]
 FRAME = 3
@@ -59,7 +59,9 @@ class Factors(NamedTuple):
     far : int
         Place in ``kept`` of the one in the border.
     core : (3 + 3 k + r, 3 + 3 k + r) array
-        Frame, kept sections, and whatever else the caller adds.
+        Frame, kept sections, and whatever else the caller adds and eliminates.
+    pivots : (3 + 3 k + r,) int array
+        Where its rows came from.
     """
 
     order: Any
@@ -71,6 +73,7 @@ class Factors(NamedTuple):
     kept: Any
     far: int
     core: Array
+    pivots: Any
 
 
 @jit
@@ -87,7 +90,7 @@ def nothing_factored() -> Any:
     """Factors of a matrix of no sections."""
     return Factors(
         np.empty((0, 2), np.int64), np.empty((0, 3, 3)), np.empty((0, 3, 3)), np.empty((0, 3, 6)),
-        np.empty((0, 3, 3)), np.empty((0, 6, 3)), np.empty(0, np.int64), 0, np.empty((0, 0)),
+        np.empty((0, 3, 3)), np.empty((0, 6, 3)), np.empty(0, np.int64), 0, np.empty((0, 0)), np.empty(0, np.int64),
     )  # fmt: skip
 
 
@@ -238,20 +241,17 @@ def factor(blocks: Any, keeps: Any, rest: int) -> Any:
     kept = np.flatnonzero(keeps)
     place = keeps[:far].sum()
     core = _core(blocks, kept, place, FRAME + 3 * kept.shape[0] + rest)
-    return Factors(order, inverse, ahead, beside, back, below, kept, place, core)
+    return Factors(order, inverse, ahead, beside, back, below, kept, place, core, np.empty(core.shape[0], np.int64))
 
 
 @part
 def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]:
     """Solve for one right-hand side: frame (3,), sections (n + 2, 3), rest (r,); the solution as (3 + 3 n,) and (r,).
 
-    It is not finite where the core is singular.
+    The core must be eliminated; where it is singular, the solution is not finite.
     """
-    order, kept, far = factors.order, factors.kept, factors.far
-    inverse, ahead, beside, back, below = (
-        factors.inverse, factors.ahead, factors.beside, factors.back, factors.rows,
-    )  # fmt: skip
-    size, m = factors.core.shape[0], order.shape[0]
+    order, inverse, ahead, beside, back, below, kept, far, core, pivots = factors
+    size, m = core.shape[0], order.shape[0]
     border = np.zeros(6)
     right = sections.copy()
     for i in range(m):
@@ -274,7 +274,7 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]
     after = FRAME + 3 * kept.shape[0]
     for a in range(rest.shape[0]):
         known[after + a] = rest[a]
-    found = solve_dense(factors.core, known)
+    found = solved_by((core, pivots), known)
     x = np.zeros(right.shape)
     for k in range(kept.shape[0]):
         for a in range(3):

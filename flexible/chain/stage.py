@@ -1,6 +1,6 @@
 """One implicit stage of the chain: Newton on frame, sections and the rim nodes near the floor together.
 
-See :mod:`flexible.models.stage` for the stages, :mod:`flexible.chain.touch` for what the rim does. Newton's matrix is
+See :mod:`flexible.contact.stage` for the stages, :mod:`flexible.chain.touch` for what the rim does. Newton's matrix is
 exact in the contact, but for the bending of ``RimNodes.root``; that of the chain, whose stiffness and inertia change
 little within a stage, is kept while that does.
 """
@@ -19,7 +19,8 @@ from ..contact.guess import GUESSES, guess_again
 from ..contact.newton import breaks_loose, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Parameters, Rim, pulling
 from ..contact.points.rim import window_around
-from ..contact.vectors import largest, plus, times
+from ..contact.stage import Stage
+from ..contact.vectors import eliminate, largest, plus, times
 from .bordered import FRAME, Factors, factor, nothing_factored, solve
 from .inertia import Chain
 from .rim import RimNodes, follow
@@ -117,7 +118,7 @@ def solve_stage(
     facing : Facing
     law, mode, before, damper :
         See :func:`flexible.contact.forces.contact_forces`.
-    predictor : flexible.models.stage.Predictor
+    predictor : flexible.contact.stage.Predictor
     start : tuple
         What the nodes move beyond the sections, (m, 2), and :class:`Foreseen`, to begin with; tolerance on forces.
     """
@@ -175,9 +176,7 @@ def solve_stage(
             there = _misfit(touch, contact, place, (frame, force), scale)
             lacks, worst = _misfit(touch, back, place, (frame, force), scale), max(there.forces, there.nodes)
         elif moved_before or (stands.normal == 0 and res.elastic > 0):
-            last = (
-                np.inf
-            )  # of another damper, or off the floor: what lands too deep comes up, what is taken back is off
+            last = np.inf  # of another damper, or off the floor: what lands too deep comes up, and is off
         if worst > GROWS * last and damping > 1e-9:  # beyond a bend, the damper's onset for one
             move(d, u, 0.5 * damping, update, update_u)
             damping *= 0.5
@@ -187,6 +186,7 @@ def solve_stage(
             factors = factor(tangent(chain, pos, vel, acc, predictor.beta), keeps, 2 * m)
             chained, stale = factors.core.copy(), False
         _close(factors.core, chained, touch, contact, (rod, q, nodes, place), scale)
+        eliminate(factors.core, factors.pivots)
         update, update_u = solve(factors, lacks.frame, lacks.sections, lacks.rest)
         if not np.isfinite(largest(update) + largest(update_u)):
             break
@@ -198,20 +198,6 @@ def solve_stage(
     if iterations >= 0 and contact.outside:
         iterations = -2
     return Solved(iterations, d, u, factors, contact)
-
-
-class Stage(NamedTuple):
-    """See :class:`flexible.models.stage.Stage`."""
-
-    ok: bool
-    d: Any
-    acc: Any
-    matrix: Factors
-    window: Any
-    u: Any
-    nodal: Any
-    res: Any
-    bristles: Any
 
 
 def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, near: Any, first: bool) -> Stage:

@@ -8,5 +8,6 @@
 ``guess``     the same where Newton begins: the rim moved to where the forces say something
 ``foreseen``  N and F as unknowns of their own, where a damper all but gives them
 ``newton``    what Newton on a stage with these forces is alike for all rings
+``stage``     what a stage of a step is asked, and its answer
 ``vectors``   sums and products of whole vectors, small systems
 """

@@ -16,7 +16,7 @@ BENT = 0.03  # of the square of a misfit over 1 + N, what Newton leaves at most 
 
 @part
 def reached(predictor: Any, d: Any) -> tuple[Any, Any, Any]:
-    """Position, velocity and acceleration with an increment, see :class:`flexible.models.stage.Predictor`."""
+    """Position, velocity and acceleration with an increment, see :class:`flexible.contact.stage.Predictor`."""
     beta = predictor.beta
     return plus(predictor.pos, 1.0, d), plus(predictor.vel, 1 / beta, d), times(1 / beta**2, d)
 

@@ -67,12 +67,17 @@ def times(factor: float, values: Any) -> Any:
     return product
 
 
-@loop
+@part
 def eliminate(rows: Any, order: Any) -> None:
     """Factors of a matrix of some tens of unknowns in its place, by elimination with row pivots, for :func:`solved_by`.
 
     ``order`` is filled in with where its rows came from. Not finite where the matrix is singular.
     """
+    _eliminate(rows, order, np.empty(order.shape[0]))
+
+
+@loop
+def _eliminate(rows: Any, order: Any, pivot: Any) -> None:
     n = order.shape[0]
     for k in range(n):
         order[k] = k
@@ -81,16 +86,18 @@ def eliminate(rows: Any, order: Any) -> None:
         for i in range(k + 1, n):
             if abs(rows[i, k]) > abs(rows[best, k]):
                 best = i
-        if best != k:
-            for j in range(n):
-                rows[best, j], rows[k, j] = rows[k, j], rows[best, j]
-            order[best], order[k] = order[k], order[best]
+        for j in range(n):
+            pivot[j], rows[best, j] = rows[best, j], rows[k, j]
+            rows[k, j] = pivot[j]
+        for j in range(k):
+            pivot[j] = 0.0
+        order[best], order[k] = order[k], order[best]
         for i in range(k + 1, n):
-            factor = rows[i, k] / rows[k, k]
-            rows[i, k] = factor
+            factor = rows[i, k] / pivot[k]
             if factor != 0:
-                for j in range(k + 1, n):
-                    rows[i, j] -= factor * rows[k, j]
+                for j in range(n):  # all of the row: from its beginning, compiled code takes several numbers at once
+                    rows[i, j] -= factor * pivot[j]
+                rows[i, k] = factor
 
 
 @loop
@@ -111,31 +118,4 @@ def solved_by(factors: Any, right: Any) -> Any:
     """Solution for a right-hand side with the factors and the order of :func:`eliminate`."""
     x = np.empty(right.shape[0])
     _substitute(factors[0], factors[1], right, x)
-    return x
-
-
-@jit
-def solve_dense(matrix: Any, right: Any) -> Any:
-    """Solution of a system of some tens of unknowns, by elimination with row pivots; not finite where it has none."""
-    n = right.shape[0]
-    rows, x, pivot = matrix.copy(), right.copy(), np.empty(n)
-    for k in range(n):
-        best = k
-        for i in range(k + 1, n):
-            if abs(rows[i, k]) > abs(rows[best, k]):
-                best = i
-        for j in range(n):  # loops over whole rows run several numbers at once
-            pivot[j], rows[best, j] = rows[best, j], rows[k, j]
-            rows[k, j] = pivot[j]
-        x[k], x[best] = x[best], x[k]
-        for i in range(k + 1, n):
-            factor = rows[i, k] / pivot[k]
-            if factor != 0:
-                for j in range(n):
-                    rows[i, j] -= factor * pivot[j]
-                x[i] -= factor * x[k]
-    for k in range(n - 1, -1, -1):
-        for j in range(k + 1, n):
-            x[k] -= rows[k, j] * x[j]
-        x[k] /= rows[k, k]
     return x

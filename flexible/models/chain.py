@@ -19,10 +19,10 @@ from ..chain.stage import Arrays, solved
 from ..chain.touch import turned
 from ..chain.whole import floor_forces, held, momentum_error, moved
 from ..contact.points.data import Damper
+from ..contact.stage import Predictor, Stage
 from ..ring.fem import AROUND, ring_of
 from .reduced import start_of
 from .rim_contact import RimContact
-from .stage import Predictor, Stage
 from .state import Energies, State
 
 Array = NDArray[np.float64]
@@ -101,7 +101,8 @@ class ChainHoop(RimContact):
         first: bool,
     ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
-        return Stage(*solved(self.arrays, start_of(old), mode, damper, predictor, near, first))
+        found: Stage = solved(self.arrays, start_of(old), mode, damper, predictor, near, first)
+        return found
 
     def energies(self, state: State, held: Energies | None = None) -> Energies:
         """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""

@@ -16,12 +16,12 @@ from rigid import Scene
 
 from ..contact.forces import contact_forces
 from ..contact.points.data import MOST_ITERATIONS, Before, Damper, Rim, pulling
+from ..contact.stage import Predictor, Stage
 from ..contact.vectors import largest
 from ..ring.fem import AROUND, Ring, ring_of
 from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
 from .rim_contact import RimContact
-from .stage import Predictor, Stage
 from .state import Energies, State
 
 Array = NDArray[np.float64]

@@ -15,12 +15,13 @@ from ..contact.points.data import Before, Bristles, Damper, Parameters, Resultan
 from ..contact.points.data import Rim as NearFloor
 from ..contact.points.detection import least_gap
 from ..contact.points.rim import below_floor, window_around
+from ..contact.stage import Near, Predictor, Stage
 from ..contact.vectors import largest, plus
 from ..ring.frame import Frame, energies, inertia
 from ..ring.reduction import ReducedRing, Rim, is_known, reduce, residual, window_dofs
 from .equilibrium import RestingModes
 from .rim_contact import RimContact
-from .stage import From, Near, Predictor, Stage, Window, filtered_error, solve_stage
+from .stage import From, Window, filtered_error, solve_stage
 from .state import Energies, State
 
 Array = NDArray[np.float64]

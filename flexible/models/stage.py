@@ -1,7 +1,6 @@
 """One implicit stage of the reduced hoop: Newton on frame, modes and the rim nodes near the floor together.
 
-The stages of a step (:mod:`flexible.time.methods`) all have the form ``pos = pos_pred + d, vel = vel_pred + d/beta,
-acc = d/beta^2`` with the small increment d as the unknown.
+See :mod:`flexible.contact.stage` for the form of a stage.
 """
 
 from __future__ import annotations
@@ -16,53 +15,21 @@ from ..contact.forces import contact_forces
 from ..contact.guess import GUESSES, as_deep, guess_again
 from ..contact.newton import breaks_loose, left_by_kept, left_by_newton, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
+from ..contact.stage import Predictor
 from ..contact.vectors import eliminate, largest, plus, solved_by
 from ..ring.frame import Frame, inertia
 
 MOST_POINTS = 5000  # to a patch, forty times as wide as under the weight or more: 1e5 weights are no solution
 
 
-class Predictor(NamedTuple):
-    """A stage's form: pos = ``pos`` + d, vel = ``vel`` + d/``beta``, acc = d/``beta``^2."""
-
-    pos: Any
-    vel: Any
-    beta: float
-    guess: Any  # of d
-
-
-class Near(NamedTuple):
-    """The last stage that was solved, where Newton on the next one begins, and what is expected of that."""
-
-    window: Any  # first rim element and number of elements
-    u: Any  # displacement of its nodes
-    pos: Any
-    elastic: float  # N_el there
-    expected: float  # N_el here
-
-
 class From(NamedTuple):
-    """The same in the window of the stage to solve."""
+    """Where Newton begins, see :class:`flexible.contact.stage.Near`, in the window of the stage to solve."""
 
     u: Any  # displacement of the window's nodes
     deepest: float  # the least gap in the last stage
     elastic: float  # N_el there
     expected: float  # N_el here
     tolerance: float  # on forces over 1 + N
-
-
-class Stage(NamedTuple):
-    """One stage of a step, solved or not; of one that is not, only ``ok`` and ``window`` have a meaning."""
-
-    ok: bool
-    d: Any = None  # increment of pos
-    acc: Any = None
-    matrix: Any = None  # Newton's; the model's own business
-    window: Any = None  # first rim element and number of elements
-    u: Any = None
-    nodal: Any = None
-    res: Any = None
-    bristles: Any = None
 
 
 class Window(NamedTuple):

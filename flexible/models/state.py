@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..contact.laws.law import Law
 from ..contact.points.data import Bristles, Damper, Resultants
-from .stage import Predictor, Stage
+from ..contact.stage import Predictor, Stage
 
 Array = NDArray[np.float64]
 Energies = tuple[float, float, float]
@@ -77,7 +77,7 @@ class Model(Protocol):
     ) -> Stage:
         """Solve one stage, the ``first`` of a step or not.
 
-        Newton may start from the last stage that was solved, ``near`` (:class:`flexible.models.stage.Near`).
+        Newton may start from the last stage that was solved, ``near`` (:class:`flexible.contact.stage.Near`).
         Whatever fails in it is a stage that is not ok, or a LinAlgError.
         """
 

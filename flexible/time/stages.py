@@ -13,9 +13,9 @@ import numpy as np
 from rigid.kernel.compile import jit, loop, part
 
 from ..contact.points.data import Bristles, Damper, Resultants
+from ..contact.stage import Near, Predictor
 from ..contact.vectors import largest, plus, times
 from ..models import reduced
-from ..models.stage import Near, Predictor
 from .methods import Table
 from .rows import advanced, along, store
 

@@ -40,11 +40,27 @@ def _home() -> Path:
     return home("rigid", fingerprint({function.__code__.co_filename for function in _REGISTER.values()}))
 
 
-class Patience:
-    """How much a process does interpreted before it goes over to the compiled kernels.
+def _is_ready() -> bool:
+    """Whether this machine has the compiled kernels."""
+    from .store import is_compiled
 
-    The measure is a step of a motion, interpreted some 0.3 ms: what loading compiled code takes where this machine has
-    it, a tenth of what compiling takes where it does not.
+    return is_compiled(_home())
+
+
+class Patience:
+    """How many steps a process takes interpreted before it goes over to compiled code.
+
+    As many as take the time of loading that where this machine has it, and a part of the time of compiling where it has
+    none. The default is for steps of a rigid motion, interpreted some 0.3 ms.
+
+    Parameters
+    ----------
+    limit : float, optional
+        The number of steps, whether there is compiled code or none.
+    is_ready : callable
+        Whether there is; asked once, when ``load`` steps are spent.
+    load, compiling : float
+        The number where there is, and where there is none.
     """
 
     LOAD, COMPILE = 1_000, 10_000
@@ -54,17 +70,23 @@ class Patience:
     _limit: float
     _known: bool  # whether the limit stays, be there compiled code or none
 
-    def __init__(self, limit: float = LOAD) -> None:
+    def __init__(
+        self,
+        limit: float | None = None,
+        is_ready: Callable[[], bool] | None = None,
+        load: float = LOAD,
+        compiling: float = COMPILE,
+    ) -> None:
+        self._is_ready = is_ready or _is_ready
+        self._load, self._compiling = load, compiling
         self.renew(limit)
 
     def left(self, instants: int = 0) -> float:
         """Steps that may still be interpreted once so many instants of a motion are; none or less is none."""
         left = self._limit - self._spent - instants / self.INSTANTS
         if left <= 0 and not self._known:
-            from .store import is_compiled
-
             self._known = True
-            self._limit = float(self.LOAD if is_compiled(_home()) else self.COMPILE)
+            self._limit = self._load if self._is_ready() else self._compiling
             return self.left(instants)
         return left
 
@@ -72,11 +94,11 @@ class Patience:
         """What was interpreted."""
         self._spent += steps + instants / self.INSTANTS
 
-    def renew(self, limit: float = LOAD) -> None:
+    def renew(self, limit: float | None = None) -> None:
         """Begin anew, with so many steps: 0 is compiled from now on."""
         self._spent = 0.0
-        self._limit = float(limit)
-        self._known = limit != self.LOAD
+        self._limit = self._load if limit is None else limit
+        self._known = limit is not None
 
 
 patience = Patience()

@@ -70,7 +70,6 @@ def _long_run(steps: int) -> Contestant:
 
 def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[float], None] | None = None) -> Result:
     """Time everything that grows."""
-
     patience.renew(0)
     cores = os.cpu_count() or 1
     # the finest mesh last: what it leaves in memory would count for all that come after

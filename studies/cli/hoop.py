@@ -126,12 +126,15 @@ def scenes(name: str | None) -> None:
     from rigid import scene_names
     from rigid.scenefile import scene_text
 
+    from .shared.tables import screen_width
+
     if name:
         click.echo(scene_text(name), nl=False)
         return
-    for each in scene_names():
-        first = scene_text(each).splitlines()[0]  # a comment that says what it is
-        click.echo(f"{each:24} {first.lstrip('# ') if first.startswith('#') else ''}".rstrip())
+    firsts = {each: scene_text(each).splitlines()[0] for each in scene_names()}  # a comment that says what it is
+    listing = click.HelpFormatter(width=screen_width())
+    listing.write_dl([(each, first.lstrip("# ") if first.startswith("#") else "") for each, first in firsts.items()])
+    click.echo(listing.getvalue(), nl=False)
 
 
 @hoop.command()

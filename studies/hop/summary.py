@@ -8,7 +8,7 @@ from typing import Any
 
 from ..plots.sheet import Column, Sheet, number
 from .rolling.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG
-from .rolling.scaling import foreseen
+from .rolling.scaling import LEFT, SYMMETRIC, foreseen
 from .rolling.threshold import SYMBOL, Bracket, HopCase, Line, rigid_hops
 from .study import HopStudy
 
@@ -253,7 +253,7 @@ def _suddenness(study: HopStudy) -> list[str]:
     if any(foreseen(line.scene) for line in study.lines):
         said.append(
             "Foreseen, for k up to 0.2, is where the vibration that the pulse leaves exceeds the least N of the rigid "
-            "hoop behind it: ω_s t* = 4.2 + ln(N_max/N_min), ω_s = 2.8 ω₁."
+            f"hoop behind it: ω_s t* = {LEFT:g} + ln(N_max/N_min), ω_s = {SYMMETRIC:.2g} ω₁."
         )
     return said
 

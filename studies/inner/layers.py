@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rigid.kernel.compile import Patience
 from rigid.kernel.store import is_cold
 
 from .body import Body, accelerations, contact_mobility, rolling_forces, sliding_force
@@ -37,8 +38,8 @@ from .march import (
 Array = NDArray[np.float64]
 
 FINENESS = 0.1  # of the fastest time to a step: forces to 1e-4, times of switches to 1e-5
-PATIENCE = 60_000  # interpreted steps, some 3 s, after which a process goes over to compiled code that is not there yet
-_interpreted = 0
+#: some 3 s of interpreted steps where the march is not compiled yet
+_patience = Patience(is_ready=lambda: not is_cold(march.__module__), load=0, compiling=60_000)
 _POINTS = 300  # of a brush to its patch
 _RELEASED = 0.95  # of the part that sticks at the most a brush carries, where its running away begins
 
@@ -167,13 +168,12 @@ def layer(
 
 def _marched(system: System, state: Array, mode: int, kept: Bristles, ends: Array) -> Any:
     """:func:`studies.inner.march.march`; by the interpreter, to the same numbers, as long as compiling takes longer."""
-    global _interpreted
-    if system.contact.law == BRUSH or _interpreted > PATIENCE or not is_cold(march.__module__):
+    if system.contact.law == BRUSH or _patience.left() <= 0:
         return march(system, state, mode, kept, ends)
     by_python: Any = march
     with np.errstate(all="ignore"):
         found = by_python.py_func(system, state, mode, kept, ends)
-    _interpreted += len(found[0])
+    _patience.spend(steps=len(found[0]))
     return found
 
 

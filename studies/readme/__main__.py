@@ -20,7 +20,7 @@ from .again import ROOT, Bench, check, make
 from .stated import NUMBERS, PICTURES
 
 
-@click.command()
+@click.command(context_settings={"help_option_names": ["-h", "--help"]})
 @click.option("--pictures", is_flag=True, help="Make the pictures anew.")
 @click.option("--check", "checking", is_flag=True, help="Compare the README's numbers with today's.")
 @click.option("--only", multiple=True, metavar="NAME", help="Only this picture or table; may be given several times.")

@@ -38,13 +38,15 @@ _REASONS = 10
 """Failed cases whose reasons are printed; the table has all."""
 
 
-def show(*things: Any) -> None:
-    """Print tables and sentences on stdout.
-
-    As wide as the terminal, or as ``COLUMNS`` says; wide where stdout is neither.
-    """
+def screen_width() -> int:
+    """Columns of the terminal, or as many as ``COLUMNS`` says; many where stdout is neither."""
     told = "COLUMNS" in os.environ or sys.stdout.isatty()
-    width = shutil.get_terminal_size().columns if told else 150
+    return shutil.get_terminal_size().columns if told else 150
+
+
+def show(*things: Any) -> None:
+    """Print tables and sentences on stdout, as wide as the screen."""
+    width = screen_width()
     # what is in brackets is a unit, not a colour
     console = Console(width=width, highlight=False, markup=False, emoji=False)
     for thing in things:

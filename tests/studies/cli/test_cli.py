@@ -32,11 +32,15 @@ def test_a_newcomer_is_told_what_to_do_next(hoop, arguments):
         assert word in out
 
 
-def test_scenes_are_listed_and_printed(hoop):
+def test_scenes_are_listed_and_printed(hoop, monkeypatch):
     status, out, _ = hoop("scenes")
     assert status == 0
     assert "paper-3.1 " in out
     assert "point-mass" in out
+    monkeypatch.setenv("COLUMNS", "80")
+    _, narrow, _ = hoop("scenes")
+    assert max(map(len, narrow.splitlines())) <= 80
+    assert narrow.split() == out.split()
     status, out, _ = hoop("scenes", "paper-3.1")
     assert status == 0
     assert "[friction]" in out

@@ -50,10 +50,11 @@ def folder(tmp_path_factory):
 
 
 def pixels(path: Path) -> np.ndarray:
-    """An image as (height, width, 3) floats from 0 to 1."""
-    from matplotlib.image import imread
+    """An image as (height, width, 3) bytes: as numbers, a page of the browser's would take a quarter of a gigabyte."""
+    from PIL import Image
 
-    return imread(path)[..., :3]
+    with Image.open(path) as image:
+        return np.asarray(image.convert("RGB"))
 
 
 def test_the_folder_holds_table_figures_and_page(folder):
@@ -66,7 +67,7 @@ def test_the_folder_holds_table_figures_and_page(folder):
 def test_a_figure_is_not_blank(folder, name):
     image = pixels(folder / f"{name}.png")
     assert image.shape[0] > 400
-    inked = (image < 0.9).any(axis=2)
+    inked = (image < 230).any(axis=2)
     assert 0.005 < inked.mean() < 0.6
 
 
@@ -104,10 +105,11 @@ def test_a_browser_shows_the_figures(folder, tmp_path):
         [*line, "--window-size=1100,3600", f"--screenshot={shot}", address], capture_output=True, timeout=HANGS
     )
     image = pixels(shot)
-    blue = (np.abs(image - np.array([0x00, 0x72, 0xB2]) / 255) < 0.06).all(axis=2)
+    off = 15
+    blue = ((image <= [off, 0x72 + off, 0xB2 + off]) & (image >= [0, 0x72 - off, 0xB2 - off])).all(axis=2)
     assert blue.sum() > 100  # the points and the line of the fitted rate
     half = image.shape[0] // 2
-    assert (image[:half] < 0.5).any(axis=2).mean() > 0.003
+    assert (image[:half] < 128).any(axis=2).mean() > 0.003
 
 
 def test_a_history_is_straight_between_its_times():

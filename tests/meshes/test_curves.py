@@ -1,0 +1,27 @@
+"""The curves of N and F below a picture."""
+
+import numpy as np
+import pytest
+
+from meshes.draw.shots import Curves, MotionSource
+from rigid import load_scene, simulate
+
+
+def test_a_pulse_far_above_the_usual_force_gets_a_logarithm():
+    t = np.linspace(0, 1, 2001)
+    spike = 1 + 200 * np.exp(-(((t - 0.5) / 0.004) ** 2))
+    assert Curves(t, spike, 0.3 * spike).usual == pytest.approx(1)  # the median does not see the spike
+    assert Curves(t, 1 + t, t).usual is None
+    assert Curves(t, 0 * t, 0 * t).usual is None  # skimming or flight: nothing to take a logarithm of
+    assert Curves(np.empty(0), np.empty(0), np.empty(0)).usual is None
+
+
+@pytest.mark.parametrize("name", ["paper-3.1", "paper-3.4-tiny", "paper-point-mass", "paper-3.3-light"])
+def test_curves_of_the_papers_motions_reach_the_peaks_of_their_pulses(name):
+    """Sampled peaks lie a little below the true one, too little to see: a hundredth is a pixel."""
+    motion = simulate(load_scene(name))
+    curves = MotionSource(motion).curves
+    assert (np.diff(curves.t) > 0).all()
+    for pulse in motion.pulses:
+        inside = (curves.t >= pulse.t_start) & (curves.t <= pulse.t_end)
+        assert curves.normal_force[inside].max() == pytest.approx(pulse.peak_normal_force, rel=0.01)
