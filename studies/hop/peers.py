@@ -262,7 +262,8 @@ def peers_figure(found: Sequence[Rolled]) -> Figure:
                     axes.plot(phi, gap, color=colour, linewidth=widest * i / len(drawn), label=f"{program}, {setting}")
             starts = [hop.phi for each in mine for hop in each.hops[:SHOWN]]
             if starts:
-                axes.set_xlim(min(starts) - 0.15, max(starts) + 0.45)
+                end = max(float(each.track[0].max()) for each in mine if each.track)
+                axes.set_xlim(min(starts) - 0.15, min(max(starts) + 0.45, end))
             axes.set(xlabel="φ", title=title(scene))
         figure.axes[0].set_ylabel("height of the rim's lowest point / R")
         figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)

@@ -68,6 +68,8 @@ def _doubt(study: HopStudy) -> str:
         return ""
     if not moved:
         return " A third of the tolerance moves none of these thresholds."
+    if known == 1:
+        return " A third of the tolerance moves the only threshold out of its bracket."
     return f" A third of the tolerance moves {moved} of the {known} thresholds out of their brackets."
 
 

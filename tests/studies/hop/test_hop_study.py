@@ -276,7 +276,7 @@ def test_a_threshold_that_a_third_of_the_tolerance_moves_is_told_with_its_doubt(
 
     mapped, finer = (case(5.0, True), case(10.0, False)), (case(5.0, True, 1e-4), case(10.0, True, 1e-4))
     study = HopStudy(scene, None, (Line(None, scene, windows(scene), mapped, finer=finer),))
-    assert "A third of the tolerance moves 1 of the 1 thresholds out of their brackets." in answer(study)
+    assert "A third of the tolerance moves the only threshold out of its bracket." in answer(study)
     (line,) = verdict(study)
     assert "anywhere on its way below 7.07 ± 2.5 (more at a third of the tolerance)" in line
     assert "within its first pulse at none from 5 on" in line
