@@ -183,7 +183,7 @@ def liftoff_figure(found: Chosen) -> Figure:
         top = max(3 * found.hop["height"] / found.case.scene.hoop.R, 2e-3)
         shown: list[float] = []
         for words, (i, colour) in instants.items():
-            rim = _smooth(outline(found.steps.hoop, found.steps.states[i]))
+            rim = smooth(outline(found.steps.hoop, found.steps.states[i]))
             low = rim[rim[:, 1] < top]
             shown += [float(low[:, 0].min()), float(low[:, 0].max())]
             right.plot(*np.where(rim[:, 1:] < 1.5 * top, rim, np.nan).T, color=colour, label=words)
@@ -227,7 +227,7 @@ def _closed(points: np.ndarray) -> np.ndarray:
     return np.concatenate([points, points[:1]])
 
 
-def _smooth(points: np.ndarray, parts: int = 8) -> np.ndarray:
+def smooth(points: np.ndarray, parts: int = 8) -> np.ndarray:
     """The curve through a closed ring of points."""
     index = np.arange(len(points) + 1)
     fine: np.ndarray = CubicSpline(index, _closed(points), bc_type="periodic")(
@@ -244,4 +244,4 @@ def of_hop(study: Mapped, found: Chosen | None) -> dict[str, Figure]:
     return {name: figure for name, figure in drawn.items() if figure is not None}
 
 
-__all__ = ["Chosen", "chosen", "draw_hoop", "of_hop"]
+__all__ = ["Chosen", "chosen", "draw_hoop", "of_hop", "smooth"]
