@@ -22,7 +22,7 @@ PLACES = {
 def ends(found: Bracket, digits: int = 3) -> str:
     """A threshold in words."""
     if found.low == 0:
-        return f"at none from {number(found.high, digits)} on" if isfinite(found.high) else "undecided"
+        return f"at no stiffness from {number(found.high, digits)} on" if isfinite(found.high) else "undecided"
     if not isfinite(found.high):
         return f"still at {number(found.low, digits)}"
     return f"{number(found.low, digits)} to {number(found.high, digits)}"
