@@ -123,13 +123,13 @@ def _exudyn(quick: bool) -> list[Contestant]:
     entries = [
         Contestant(
             "exudyn", f"{elements} elements, h = {step:g}", SCENE_B,
-            partial(turn, "B", elements, step), measured, repeats=1, memory=False,
+            partial(turn, reference.scene_b(), elements, step), measured, repeats=1, memory=False,
         )
         for elements, step in (((120, 2e-4),) if quick else ((120, 2e-4), (240, 1e-4)))
     ]  # fmt: skip
     if not quick:
-        setting = "120 elements, h = 0.001"
-        entries.append(Contestant("exudyn", setting, SCENE_A, lambda: turn("A", 120, 1e-3), repeats=1, memory=False))
+        setting, scene = "120 elements, h = 0.001", reference.scene_a().replace(solve={"start": "undeformed"})
+        entries.append(Contestant("exudyn", setting, SCENE_A, partial(turn, scene, 120, 1e-3), repeats=1, memory=False))
     return entries
 
 

@@ -55,11 +55,17 @@ if TYPE_CHECKING:
     type=click.Choice(["auto", "reduced", "full", "exact", "chain"]),
     help="Level of the ring, in place of the scene's.",
 )
+@click.option(
+    "--peers",
+    "peers_too",
+    is_flag=True,
+    help="In place of a map: three hoops that hop beside Exudyn's ring, each code coarse to fine; some ten minutes.",
+)
 @workers
 @scheduler
-@click.pass_obj
+@click.pass_context
 def hop(
-    line: str,
+    ctx: click.Context,
     scene: str,
     as_json: bool,
     out: Path | None,
@@ -70,6 +76,7 @@ def hop(
     whole: bool,
     law: str | None,
     level: str | None,
+    peers_too: bool,
     workers: int | None,
     scheduler: str | None,
 ) -> int:
@@ -78,6 +85,8 @@ def hop(
     Hoops released at rest roll, flexible throughout, over a range of bending stiffness and one key more; every flight
     is listed with where it begins, how high it goes and where its energy came from.
     """
+    if peers_too:
+        return _beside(ctx, results_folder(out), as_json)
     from ..hop.rolling.roll import RTOL
     from ..hop.study import hop_study
     from ..running.progress import announce, bar
@@ -98,7 +107,7 @@ def hop(
             prepare(*missing(levels_of(_ends_of(asked))))  # one process for all workers
         found = hop_study(asked, pool=place, out=target, progress=progress, say=say)
     if target is not None:
-        _write(found, target, line)
+        _write(found, target, ctx.obj)
     if as_json:
         click.echo(to_json(found.to_dict()))
     else:
@@ -109,6 +118,31 @@ def hop(
         if target is not None:
             click.echo(f"Figures, film, table and report are in {target}; open {target / 'report.html'}.")
     return 1 if found.unfinished else 0
+
+
+def _beside(ctx: click.Context, target: Path | None, as_json: bool) -> int:
+    """Hoops of its own: what else is asked would be left undone."""
+    from ..hop import peers
+    from ..plots.style import save_both
+    from ..running.progress import bar
+    from .shared.tables import show
+
+    given = click.core.ParameterSource.COMMANDLINE
+    for name in ("scene", "over", "bisections", "rtol", "turns", "whole", "law", "level", "workers", "scheduler"):
+        if ctx.get_parameter_source(name) == given:
+            raise click.UsageError(f"--peers rolls hoops of its own: it goes without {name.replace('scene', 'SCENE')}.")
+    with bar("hops beside other codes") as progress:
+        found = peers.rolls(peers.CASES, progress=progress)
+    if target is not None:
+        write_text(target / "peers.json", to_json(peers.peers_to_dict(found)))
+        save_both(peers.peers_figure(found), target / "peers")
+    if as_json:
+        click.echo(to_json(peers.peers_to_dict(found)))
+    else:
+        show(*peers.peer_sheets(found))
+        if target is not None:
+            click.echo(f"Figure and table are in {target}.")
+    return 0
 
 
 def _ends_of(asked: HopMap) -> list[Scene]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import degrees, inf, sin
+from typing import Any
 
 import matplotlib
 import numpy as np
@@ -13,6 +14,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
 
 from flexible.models.state import State
 from flexible.output.body import lowest, outline, whole
@@ -93,6 +95,12 @@ def _hops(study: Mapped, lines: Sequence[Line], grid: NDArray[np.object_]) -> No
         axes.set_ylabel("φ at lift-off [°]")
     for axes in grid[-1]:
         axes.set_xlabel(SYMBOL)
+    named: dict[str, Any] = {}
+    for axes in grid.ravel():
+        named |= dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+    grid[0, 0].figure.legend(
+        named.values(), named.keys(), loc="outside lower center", ncols=min(len(named), 2 * len(grid[0]))
+    )
     if dots is not None:
         grid[0, 0].figure.colorbar(dots, ax=grid, label="height over R")
 
@@ -103,20 +111,23 @@ def _line(axes: Axes, study: Mapped, line: Line) -> PathCollection | None:
     points = np.array(
         [(c.bending_stiffness, degrees(hop["phi"]), hop["height"] / R) for c in cases for hop in c.hops]
     ).reshape(-1, 3)
-    for where, shade in (("pulse", "0.93"), ("bottom", "0.82")):
+    for where, shade, words in (("pulse", "0.93", "rigid pulse"), ("bottom", "0.82", "contact under the disk")):
         if (window := line.windows.get(where)) is not None:
             down = 1 if sin(line.scene.release.phi0) >= 0 else -1
             low, high = (degrees(line.scene.release.phi0 + down * x) for x in (window.low, window.high))
-            axes.axhspan(low, high, color=shade, zorder=0)
+            axes.axhspan(low, high, color=shade, zorder=0, label=words)
     dots = axes.scatter(
         points[:, 0], points[:, 1], c=np.clip(points[:, 2], *HEIGHTS), norm=LogNorm(*HEIGHTS), cmap="viridis_r", s=16,
-        zorder=3,
+        zorder=3, edgecolors="0.4", linewidths=0.3,
     )  # fmt: skip
+    none = [c.bending_stiffness for c in cases if not c.hops and c.motion["completed"]]
+    if none:
+        foot = axes.get_xaxis_transform()
+        axes.plot(none, np.full(len(none), 0.03), "|", color="0.4", transform=foot, label="no hop")
     stopped = [(c.bending_stiffness, degrees(line.scene.release.phi0 + c.motion["swept"])) for c in cases
                if not c.motion["completed"]]  # fmt: skip
     if stopped:
         axes.plot(*np.array(stopped).T, "x", color="0.5", markersize=5, label="stopped early")
-        axes.legend(loc="lower right")
     hoop = line.scene.hoop
     name = f"k = {hoop.k:.3g}, m_h/m = {hoop.mass_ratio:.3g}"
     if study.second not in (None, "hoop.k", "hoop.mass_ratio"):
@@ -169,16 +180,15 @@ def liftoff_figure(found: Chosen) -> Figure:
             "in the middle of the hop": ((found.first + found.last) // 2, OKABE_ITO["kinetic"]),
             "last step in the air": (found.last, OKABE_ITO["friction_loss"]),
         }
-        touched = []
-        for words, (i, colour) in instants.items():
-            rim = _closed(outline(found.steps.hoop, found.steps.states[i]))
-            x = float(rim[int(np.argmin(rim[:, 1])), 0])
-            touched.append(x)
-            near = np.abs(rim[:, 0] - x) < 0.5
-            right.plot(*np.where(near[:, None], rim, np.nan).T, color=colour, label=words)
-        right.axhline(0, color=RIGID, lw=1)
         top = max(3 * found.hop["height"] / found.case.scene.hoop.R, 2e-3)
-        right.set(xlim=(min(touched) - 0.3, max(touched) + 0.3), ylim=(-0.15 * top, top))
+        shown: list[float] = []
+        for words, (i, colour) in instants.items():
+            rim = smooth(outline(found.steps.hoop, found.steps.states[i]))
+            low = rim[rim[:, 1] < top]
+            shown += [float(low[:, 0].min()), float(low[:, 0].max())]
+            right.plot(*np.where(rim[:, 1:] < 1.5 * top, rim, np.nan).T, color=colour, label=words)
+        right.axhline(0, color=RIGID, lw=1)
+        right.set(xlim=(min(shown), max(shown)), ylim=(-0.15 * top, top))
         right.set(title="the rim over the floor, enlarged", xlabel="x/R", ylabel="y/R")
         figure.legend(*right.get_legend_handles_labels(), loc="outside lower right", ncols=3)
         return figure
@@ -217,6 +227,15 @@ def _closed(points: np.ndarray) -> np.ndarray:
     return np.concatenate([points, points[:1]])
 
 
+def smooth(points: np.ndarray, parts: int = 8) -> np.ndarray:
+    """The curve through a closed ring of points."""
+    index = np.arange(len(points) + 1)
+    fine: np.ndarray = CubicSpline(index, _closed(points), bc_type="periodic")(
+        np.linspace(0, len(points), parts * len(points) + 1)
+    )
+    return fine
+
+
 def of_hop(study: Mapped, found: Chosen | None) -> dict[str, Figure]:
     """All figures by name."""
     drawn = {"map": map_figure(study), "where": hop_map(study)}
@@ -225,4 +244,4 @@ def of_hop(study: Mapped, found: Chosen | None) -> dict[str, Figure]:
     return {name: figure for name, figure in drawn.items() if figure is not None}
 
 
-__all__ = ["Chosen", "chosen", "draw_hoop", "of_hop"]
+__all__ = ["Chosen", "chosen", "draw_hoop", "of_hop", "smooth"]

@@ -25,7 +25,8 @@ disk. A cross marks a roll that stopped before its end. On the right where the f
 highest as far as it was rolled; white: none.""",
     "where": """\
 Where each hop begins and how high it goes. Light band: the first pulse, the angles at which the rigid hoop's N exceeds
-the weight; dark: the contact is under the disk. A cross marks how far a roll came that stopped before its end.""",
+the weight; dark: the contact is under the disk. A stroke at the foot marks a roll without a hop, a cross
+how far one came that stopped before its end.""",
     "energies": """\
 One hop: what ring and floor store, what vibrates (kinetic energy beyond that of a rigid motion), what is lost since the
 picture begins; the lowest point of the rim over the floor, and N. Shaded: off the floor.""",

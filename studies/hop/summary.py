@@ -22,7 +22,7 @@ PLACES = {
 def ends(found: Bracket, digits: int = 3) -> str:
     """A threshold in words."""
     if found.low == 0:
-        return f"at none from {number(found.high, digits)} on" if isfinite(found.high) else "undecided"
+        return f"at no stiffness from {number(found.high, digits)} on" if isfinite(found.high) else "undecided"
     if not isfinite(found.high):
         return f"still at {number(found.low, digits)}"
     return f"{number(found.low, digits)} to {number(found.high, digits)}"
@@ -68,6 +68,8 @@ def _doubt(study: HopStudy) -> str:
         return ""
     if not moved:
         return " A third of the tolerance moves none of these thresholds."
+    if known == 1:
+        return " A third of the tolerance moves the only threshold out of its bracket."
     return f" A third of the tolerance moves {moved} of the {known} thresholds out of their brackets."
 
 

@@ -262,7 +262,7 @@ def test_what_was_not_rolled_far_enough_is_not_denied(hoop):
     """Below STOPS every roll stops before its pulse: only from there on is anything known."""
     _, out, _ = hoop("study", "hop", SCENE, "--over", "ring.bending_stiffness=0.1,0.2,30,200", "--workers", 1,
                      "--bisections", 0)  # fmt: skip
-    assert "within its first pulse at none from 30 on" in " ".join(out.split())
+    assert "within its first pulse at no stiffness from 30 on" in " ".join(out.split())
 
 
 def test_a_threshold_that_a_third_of_the_tolerance_moves_is_told_with_its_doubt():
@@ -276,10 +276,10 @@ def test_a_threshold_that_a_third_of_the_tolerance_moves_is_told_with_its_doubt(
 
     mapped, finer = (case(5.0, True), case(10.0, False)), (case(5.0, True, 1e-4), case(10.0, True, 1e-4))
     study = HopStudy(scene, None, (Line(None, scene, windows(scene), mapped, finer=finer),))
-    assert "A third of the tolerance moves 1 of the 1 thresholds out of their brackets." in answer(study)
+    assert "A third of the tolerance moves the only threshold out of its bracket." in answer(study)
     (line,) = verdict(study)
     assert "anywhere on its way below 7.07 ± 2.5 (more at a third of the tolerance)" in line
-    assert "within its first pulse at none from 5 on" in line
+    assert "within its first pulse at no stiffness from 5 on" in line
     assert "The stiffest hoop that hops, 5, first does so at φ = 269°." in line
 
 
