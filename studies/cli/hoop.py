@@ -236,6 +236,6 @@ def _forget_stdout() -> None:
 
 def main() -> None:
     """Entry point of the command ``hoop``."""
-    # for LLVM, before numba is imported: compiles in an eighth less time than its 3, to code as fast
+    # for LLVM, before numba is imported: compiles in a tenth less time than its 3, to code as fast
     os.environ.setdefault("NUMBA_OPT", "2")
     sys.exit(run())
