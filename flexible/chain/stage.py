@@ -14,10 +14,10 @@ import numpy as np
 from rigid.kernel.compile import jit, part, written_out
 
 from ..contact.forces import contact_forces
-from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by, moved_damper, short_of
-from ..contact.guess import GUESSES, guess_again
+from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by, moved_damper
+from ..contact.guess import GUESSES, as_before, guess_again
 from ..contact.newton import breaks_loose, move, reached, round_off, share_before_bend
-from ..contact.points.data import MOST_ITERATIONS, Before, Parameters, Rim, pulling
+from ..contact.points.data import MOST_ITERATIONS, Before, Bristles, Parameters, Rim, pulling
 from ..contact.points.rim import window_around
 from ..contact.stage import Stage
 from ..contact.vectors import eliminate, largest, plus, times
@@ -28,6 +28,8 @@ from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by,
 from .whole import balance, lacking, moved, near_floor, reach, sections, tangent
 
 GROWS = 3.0  # a step of Newton after which the forces are off by this many times as much is taken back to a half
+SOFTER = 1e4  # times as soft as its own is the foundation from which a stage is followed that Newton lost
+ROUGHLY = 1e-4  # tolerance on the way from there
 STALE = 0.1  # a step of Newton that leaves more than this of the forces is followed by a new matrix of the chain
 
 
@@ -85,16 +87,6 @@ def _misfit(touch: Any, contact: Any, place: Any, own: Any, scale: float) -> Mis
 
 
 @part
-def _as_foreseen(of: Any, damper: Any, foreseen: Foreseen, moved: Any, res: Any) -> tuple[Any, Any]:
-    """The contact that carries what was foreseen, and the same with the damper's move taken back."""
-    pose, u, rim, law, mode, before = of
-    share = short_of(foreseen, res)
-    by, less = moved_damper(damper, moved, 1.0), moved_damper(damper, moved, 1 - share)
-    contact = contact_forces(pose, u, rim, law, mode, before, by, share > 0)
-    return contact, moved_back(contact, contact_forces(pose, u, rim, law, mode, before, less, share <= 0), share)
-
-
-@part
 def _close(core: Any, chained: Any, touch: Any, contact: Any, chain: Any, scale: float) -> None:
     """The core of Newton's matrix: what the elimination of the ``chained`` sections left, and the floor."""
     rod, q, nodes, place = chain
@@ -120,20 +112,17 @@ def solve_stage(
         See :func:`flexible.contact.forces.contact_forces`.
     predictor : flexible.contact.stage.Predictor
     start : tuple
-        What the nodes move beyond the sections, (m, 2), and :class:`Foreseen`, to begin with; tolerance on forces.
+        Increment, displacement of the nodes, (m, 2), and :class:`Foreseen`, to begin with; tolerance on forces.
     """
-    beyond, foreseen, tolerance = start
+    d, u, foreseen, tolerance = start[0].copy(), start[1].copy(), start[2], start[3]
     nodes, rod = facing.nodes, chain.rod
     m = nodes.part.shape[0]
     keeps, place = kept_by(rod.theta.shape[0], nodes.part)
     inner = FRAME + 3 * keeps.sum()
-    d = predictor.guess.copy()
-    u = follow(rod, sections(reached(predictor, d)[0]), nodes)[0]
     update, update_u = np.zeros(d.shape[0]), np.zeros(2 * m)
-    move(d, u, 1.0, update, beyond.ravel())
     iterations, damping, last = -1, 1.0, np.inf
     way, reach, stuck, halved = 0.0, np.inf, 0.0, 0
-    factors, stands, moves = nothing_factored(), foreseen, False
+    factors, stands, moved_before = nothing_factored(), foreseen, False
     chained, stale = factors.core, True
     softest, damper = largest(facing.missing), pulling(damper, True)
     iteration, guesses = -1, GUESSES
@@ -147,8 +136,13 @@ def solve_stage(
             if guesses >= 0:
                 continue
         iteration += 1
+        moved = moved_by(damper, foreseen, res)
+        moves, carries = moved.elastic != 0 or moved.held != 0, contact
+        if moves:
+            by = moved_damper(damper, moved)
+            carries = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, by, asked)
         share = share_before_bend(res, way, reach)
-        if breaks_loose(res, stuck, halved):
+        if breaks_loose(carries.res, stuck, halved):
             share, halved = 0.5, halved + 1
         if share < 1:
             move(d, u, damping * (1 - share), update, update_u)
@@ -169,14 +163,13 @@ def solve_stage(
                 continue
             iterations = iteration
             break
-        moved, moved_before = moved_by(damper, foreseen, res), moves
-        moves, worst = moved.elastic != 0 or moved.held != 0, max(lacks.forces, lacks.nodes)
+        worst = max(lacks.forces, lacks.nodes)
         if moves:
-            contact, back = _as_foreseen((pos[:FRAME], u, facing.rim, law, mode, before), damper, foreseen, moved, res)
-            there = _misfit(touch, contact, place, (frame, force), scale)
-            lacks, worst = _misfit(touch, back, place, (frame, force), scale), max(there.forces, there.nodes)
+            there = _misfit(touch, carries, place, (frame, force), scale)
+            worst = max(there.forces, there.nodes)
+            lacks = _misfit(touch, moved_back(carries, damper, moved), place, (frame, force), scale)
         elif moved_before or (stands.normal == 0 and res.elastic > 0):
-            last = np.inf  # of another damper, or off the floor: what lands too deep comes up, and is off
+            last = np.inf  # of another damper; and what lands too deep comes up
         if worst > GROWS * last and damping > 1e-9:  # beyond a bend, the damper's onset for one
             move(d, u, 0.5 * damping, update, update_u)
             damping *= 0.5
@@ -185,19 +178,40 @@ def solve_stage(
         if stale or (iteration > 1 and worst > STALE * last):
             factors = factor(tangent(chain, pos, vel, acc, predictor.beta), keeps, 2 * m)
             chained, stale = factors.core.copy(), False
-        _close(factors.core, chained, touch, contact, (rod, q, nodes, place), scale)
+        _close(factors.core, chained, touch, carries, (rod, q, nodes, place), scale)
         eliminate(factors.core, factors.pivots)
         update, update_u = solve(factors, lacks.frame, lacks.sections, lacks.rest)
         if not np.isfinite(largest(update) + largest(update_u)):
             break
         damping = 0.5 if iteration > 3 and worst > last else 1.0
-        last = worst
-        stands, stuck = Foreseen(contact.res.normal, contact.res.friction), contact.res.stuck
-        foreseen = between(stands, foresee(damper, moved, contact, update, update_u), damping)
+        last, moved_before = worst, moves
+        stands, stuck = Foreseen(carries.res.normal, carries.res.friction), carries.res.stuck
+        foreseen = between(stands, foresee(damper, moved, carries, update, update_u), damping)
         move(d, u, -damping, update, update_u)
     if iterations >= 0 and contact.outside:
         iterations = -2
     return Solved(iterations, d, u, factors, contact)
+
+
+@part
+def _followed(
+    arrays: Any, facing: Facing, mode: int, before: Before, damper: Any, predictor: Any, begins: Any
+) -> Solved:  # fmt: skip
+    """The stage followed from a softer foundation, on which more of the rim lies and less of it comes and goes."""
+    law, bristles = arrays.law, before.bristles
+    d, u, foreseen, tolerance = begins
+    softer = SOFTER
+    while True:
+        by = Parameters(
+            law.law, law.spacing, law.eps_n / softer, law.eps_t / softer, law.mu_s, law.mu, law.slip_scale
+        )  # fmt: skip
+        held = Bristles(bristles.number, times(softer, bristles.stretch), bristles.pull, bristles.sliding)
+        since = Before(before.pose, before.u, held)
+        start = d, u, foreseen, tolerance if softer <= 1 else ROUGHLY
+        answer = solve_stage(arrays.chain, facing, by, mode, since, damper, predictor, start)
+        if answer.iterations < 0 or softer <= 1:
+            return answer
+        d, u, softer = answer.d, answer.u, softer / 10
 
 
 def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, near: Any, first: bool) -> Stage:
@@ -206,7 +220,7 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
     if massless:  # no inertia to go by: from where the ring was
         for i in range(FRAME, old.pos.shape[0]):
             predictor.guess[i] = old.pos[i] - predictor.pos[i]
-    expected = plus(predictor.pos, 1.0, predictor.guess)
+    expected, nothing = plus(predictor.pos, 1.0, predictor.guess), np.zeros(old.pos.shape[0])
     looked = arrays.looked  # both stages of a step look where the first one does
     if first:
         low, high = reach(arrays, expected)
@@ -222,9 +236,16 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         u_old, beyond = moved(arrays, old, window)
         number, nodes = near_floor(arrays, window)
         facing = Facing(Rim(window[0], vertex), nodes, lacking(arrays.missing, number, number))
-        begins = beyond, Foreseen(old.res.normal, old.res.friction), arrays.tolerance
         before = Before(old.pos[:FRAME], u_old, old.bristles)
+        u = follow(arrays.chain.rod, sections(expected), nodes)[0]
+        move(expected, u, 1.0, nothing, beyond.ravel())
+        begins = predictor.guess, u, Foreseen(old.res.normal, old.res.friction), arrays.tolerance
         answer = solve_stage(arrays.chain, facing, arrays.law, mode, before, damper, predictor, begins)
+        if answer.iterations == -1 and old.res.elastic > 0:
+            as_before(expected, u, facing.rim, before)
+            answer = solve_stage(arrays.chain, facing, arrays.law, mode, before, damper, predictor, begins)
+            if answer.iterations == -1:
+                answer = _followed(arrays, facing, mode, before, damper, predictor, begins)
         contact, d = answer.contact, answer.d
         acc = times(1 / predictor.beta**2, d)
         if massless:

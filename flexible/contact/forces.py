@@ -35,6 +35,8 @@ from .points.rim import gap_at, lift, sideways, upward, vertex_angle
 from .room import PULL, SCRATCH, Room, carried_in, forces_in, foundation_in, keep, points_in, room_for
 from .vectors import add, dot, total
 
+SHARING, SPREADING = 3, 4  # of the unknowns: what of the forces goes like eta, and what spreads like the pressure
+
 
 @loop
 def _load(foundation: Any, damper: Damper) -> Load:
@@ -139,7 +141,7 @@ def _differentiate(room: Room, shared: Any, load: Load, s: float, c: float, dphi
     points, foundation, forces, tangent = points_in(room), foundation_in(room, 0.0, 0.0), forces_in(room), room.tangent
     along, up, bases, unknowns, by_bases = room.fives[0], room.fives[1], room.bases, room.unknowns, room.by_bases
     pushes, force, elastic_by, sharing, spreading, slip_by = (
-        unknowns[0], unknowns[1], unknowns[2], unknowns[3], unknowns[4], unknowns[5],
+        unknowns[0], unknowns[1], unknowns[2], unknowns[SHARING], unknowns[SPREADING], unknowns[5],
     )  # fmt: skip
     tangents(points, foundation, forces, along, up, by_bases, room.block)
     add_spread(tangent, by_bases[0], Y, Y, s, c, load.eta)
@@ -152,6 +154,7 @@ def _differentiate(room: Room, shared: Any, load: Load, s: float, c: float, dphi
         spread(bases[2], X, s, c, sharing)
         add_outer(tangent, load.eta_rate, pushes, elastic_by)
         add_outer(tangent, load.eta_rate, sharing, elastic_by)
+        add(sharing, 1.0, pushes)  # all that goes like eta
     if shared.acts:
         gather(points, foundation.force, 1 / load.elastic, along, bases[3])
         spread(bases[3], X, s, c, spreading)
@@ -257,4 +260,5 @@ def contact_forces(
     bristles = Bristles(np.empty(kept, np.int64), np.empty(kept), np.empty(kept), np.empty(kept, np.int8))
     keep(room, bristles)
     share_out(room.unknowns[1], frame, nodal)
-    return Contact(frame, nodal, room.tangent, res, bristles, outside)
+    unknowns = room.unknowns
+    return Contact(frame, nodal, room.tangent, res, bristles, outside, unknowns[SHARING], unknowns[SPREADING])

@@ -9,7 +9,8 @@ So N and F are unknowns of their own, as a pressure is in a body that cannot be 
 its matrix is made where the patch carries what was foreseen. For that ``elastic_0`` and ``held`` are moved, and a step
 moves them back: the forces that it is to balance are those of the stage's own damper as they follow from the moved
 one's and their derivatives. (Its own as they are would say of bristles that they slide, where all the patch lacks is
-the pressure to hold them.)
+the pressure to hold them. For the same reason the derivatives are not differences: a bristle that breaks between two
+pressures lets go of a share of mu_s - mu, which over a small difference of pressures is no derivative.)
 """
 
 from __future__ import annotations
@@ -24,9 +25,6 @@ from .points.data import Contact, Damper, Resultants
 
 FRAME = 3  # V, h, phi, before the nodes
 NEAR = 0.1  # of 1 + N: nearer to what is foreseen than that the patch is taken as it is
-
-
-STEP = 0.01  # of 1 + N: over which forces are differentiated by the damper's move
 
 
 class Foreseen(NamedTuple):
@@ -60,32 +58,29 @@ def moved_by(damper: Damper, foreseen: Foreseen, res: Resultants) -> Moved:
 
 
 @loop
-def moved_damper(damper: Damper, moved: Moved, share: float) -> Damper:
-    """The damper itself, moved by a share of the whole."""
+def moved_damper(damper: Damper, moved: Moved) -> Damper:
+    """The damper itself, moved."""
     return Damper(
-        damper.relaxation, damper.elastic_0 + share * moved.elastic, damper.eta_0, damper.drag,
-        damper.way_0, damper.ratio, damper.rate, damper.velocity_0, damper.turning_0, damper.pulls,
-        damper.held + share * moved.held,
+        damper.relaxation, damper.elastic_0 + moved.elastic, damper.eta_0, damper.drag, damper.way_0, damper.ratio,
+        damper.rate, damper.velocity_0, damper.turning_0, damper.pulls, damper.held + moved.held,
     )  # fmt: skip
 
 
-@loop
-def short_of(foreseen: Foreseen, res: Resultants) -> float:
-    """Share of the whole move, taken back, that changes the patch's forces by little; ``res`` where it is not moved."""
-    change = max(abs(res.normal - foreseen.normal), abs(res.friction - foreseen.friction))
-    return STEP * (1 + abs(foreseen.normal)) / change
-
-
 @part
-def moved_back(contact: Contact, near: Contact, share: float) -> Contact:
-    """Forces with the move taken back, after those with the whole move and with this share of it taken back."""
+def moved_back(contact: Contact, damper: Damper, moved: Moved) -> Contact:
+    """The same contact with the move of its damper taken back, as the derivatives of its forces have it."""
     force, nodal = contact.force.copy(), contact.nodal.copy()
+    eta = damper.relaxation * moved.elastic / contact.res.elastic
+    by_eta, by_held = contact.by_eta, contact.by_held
     for i in range(force.shape[0]):
-        force[i] += (near.force[i] - contact.force[i]) / share
+        force[i] += eta * by_eta[i] - moved.held * by_held[i]
     for i in range(nodal.shape[0]):
         for a in range(2):
-            nodal[i, a] += (near.nodal[i, a] - contact.nodal[i, a]) / share
-    return Contact(force, nodal, contact.tangent, contact.res, contact.bristles, contact.outside)
+            k = FRAME + 2 * i + a
+            nodal[i, a] += eta * by_eta[k] - moved.held * by_held[k]
+    return Contact(
+        force, nodal, contact.tangent, contact.res, contact.bristles, contact.outside, by_eta, by_held
+    )  # fmt: skip
 
 
 @loop

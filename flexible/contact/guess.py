@@ -12,6 +12,7 @@ from rigid.kernel.compile import loop
 
 from .points.data import Before, Bristles, Contact, Damper, Parameters, Resultants, Rim
 from .points.detection import least_gap
+from .points.rim import element_at, shape_functions, upward, vertex_angle
 
 MOST_CHANGE = 10.0  # of N_el from a stage to the next by which a patch is foreseen from the one before
 GUESSES = 4  # three that raise the patch, and one along the floor
@@ -48,6 +49,32 @@ def _shift(u: Any, phi: float, along: float, up: float) -> None:
     for i in range(u.shape[0]):
         u[i, 0] += along * s + up * c
         u[i, 1] += along * c - up * s
+
+
+@loop
+def as_before(pose: Any, u: Any, rim: Rim, before: Before) -> None:
+    """Move each node up or down to where the rim over the same place of the floor was when the step began.
+
+    A soft ring on a stiff foundation lies flat, to a billionth of R, and its patch does not turn with it as it rolls.
+    """
+    first, vertex, count = rim.first, rim.vertex, (u.shape[0] - 1) // 2
+    phi, phi_old = pose[2], before.pose[2]
+    s, c, s_old, c_old = sin(phi), cos(phi), sin(phi_old), cos(phi_old)
+    start, end = vertex_angle(vertex, first), vertex_angle(vertex, first + count)
+    for i in range(u.shape[0]):
+        theta = vertex_angle(vertex, first + i // 2)
+        if i % 2 == 1:
+            theta = (theta + vertex_angle(vertex, first + i // 2 + 1)) / 2
+        there = min(max(theta + phi - phi_old, start), end)  # the material that was over that place
+        element = min(max(element_at(vertex, there), first), first + count - 1)
+        begin = vertex_angle(vertex, element)
+        n0, n1, n2 = shape_functions((there - begin) / (vertex_angle(vertex, element + 1) - begin))
+        k = 2 * (element - first)
+        v1 = n0 * before.u[k, 0] + n1 * before.u[k + 1, 0] + n2 * before.u[k + 2, 0]
+        v2 = n0 * before.u[k, 1] + n1 * before.u[k + 1, 1] + n2 * before.u[k + 2, 1]
+        up = before.pose[1] - pose[1] + upward(v1, v2, s_old, c_old) - upward(u[i, 0], u[i, 1], s, c)
+        u[i, 0] += up * c
+        u[i, 1] -= up * s
 
 
 @loop

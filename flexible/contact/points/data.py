@@ -161,6 +161,8 @@ class Contact(NamedTuple):
     res: Resultants
     bristles: Bristles
     outside: bool  # whether the window of rim is too short for the patch
+    by_eta: Any  # (n,) derivative of (force, nodal) by the damping factor, and
+    by_held: Any  # (n,) by the damper's ``held``; both where there is a tangent and the damper acts
 
 
 NOTHING = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, inf, 0.0)

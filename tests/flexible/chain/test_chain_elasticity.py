@@ -264,6 +264,25 @@ def test_derivatives_of_the_rim(thin):
     assert np.abs(change.T @ force.ravel() - exact[2:-2].ravel()).max() < 1e-6 * np.abs(exact).max()
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_the_rim_has_no_step_at_the_end_of_the_weld(side):
+    """A thick ring's first part is stretched, and all behind it goes along: so does the rim before it.
+
+    At a distance s from the first section it is off by what grows like s. It was off by a tenth of the way right at the
+    section, where what is fitted to loads far away ended: a step of 1e-3 R, on a foundation that gives way by 1e-9 R.
+    """
+    shape = _Shape(Ring(ring_mesh(1 / 1.18, 1.0, 240, 2), 0.3), 120)
+    rod, theta, end = shape.rod, side * shape.ring.mesh.rim_theta, shape.compliance.weld
+    way = 1e-3 * (rod.place[1] - rod.place[0] if side > 0 else rod.place[-2] - rod.place[-1])
+    q = np.zeros_like(shape.still)
+    q[1:-1, :2] = way
+    off = np.linalg.norm(follow(rod, q, shape.nodes)[0] - way, axis=1) / np.linalg.norm(way)
+    inside = np.flatnonzero((theta > end - 0.07) & (theta < end - 1e-9))
+    rate = np.polyfit(np.log(end - theta[inside]), np.log(off[inside]), 1)[0]
+    assert rate == pytest.approx(1, abs=0.1)
+    assert off[(theta > end - 1e-9) & (theta < end + 0.1)].max() < 1e-12
+
+
 def test_the_chain_is_the_mesh_for_small_loads(thin):
     """Compliance of the rim, chain and what it lacks together, against the mesh: 1e-5 of the largest.
 

@@ -41,7 +41,36 @@ def test_a_soft_hoop_at_rest_takes_long_steps():
 
 
 @pytest.mark.slow
+def test_a_brush_that_breaks_loose_is_rolled_on():
+    """In the pulse the damper bears seventeen times what the foundation does, and points stick and slide side by side.
+
+    Under the stage's own pressure, as a guess of the rim has it, all of them slide. Newton took that for a step that
+    broke the patch loose, and halved it until no iteration was left: no step however short could be solved.
+    """
+    brush = ROLL.replace(ring={"bending_stiffness": 2.8}, hoop={"k": 0.176}, contact={"law": "brush"})
+    motion = flexible.simulate(brush.replace(run=Run(t_end=6.5)), most_steps=2000)
+    assert motion.completed, motion.ended
+
+
+@pytest.mark.slow
 def test_a_brush_that_lands_flat_is_rolled_on():
     """It lies on the floor over a twelfth of R, some points stick, and some slide either way."""
     motion = flexible.simulate(FLAT.replace(contact={"law": "brush"}, run=Run(t_end=7.0)), most_steps=10_000)
+    assert motion.completed, motion.ended
+
+
+@pytest.mark.slow
+def test_a_thick_soft_ring_on_a_stiff_foundation():
+    """A patch that gives way by some 1e-9 R and lies flat, on a ring without mass that turns by 1e-3 in a step.
+
+    From a rim that turns with the disk a step began with a tenth of the patch, and Newton lost it unless the step was
+    of 1e-7. Where the patch came to the end of the chain's first part, at phi = 2.48, the rim had a step of 1e-3 R, and
+    no step however short could be solved.
+    """
+    scene = HOOP.replace(
+        hoop={"k": 0.25, "r": 1.18, "mass_ratio": 0.0}, friction={"mu_s": 0.2553, "mu": 0.246},
+        release={"phi0": 0.1426}, ring={"bending_stiffness": 1.13}, contact={"stiffness": 3.8e10, "damping": 1.0},
+        solve={"rtol": 1e-4, "level": "chain"}, run=Run(t_end=6.03),
+    )  # fmt: skip
+    motion = flexible.simulate(scene, most_steps=100)
     assert motion.completed, motion.ended
