@@ -1,7 +1,5 @@
 """The hoop on a chain of parts: its inertia, free flight, equilibria and pulses against the other levels."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from scenes import HOOP, energy, flying, steps_of
@@ -13,7 +11,6 @@ from flexible.chain.whole import moved, sections
 from flexible.handover import Pose, equilibrium
 from flexible.models.chain import ChainHoop
 from flexible.models.exact import ExactHoop
-from flexible.models.reduced import start_of
 from flexible.models.select import hoop_of
 from flexible.time.adaptive import restart
 from rigid import Kind
@@ -168,9 +165,9 @@ def test_another_window_leaves_the_rim_where_it_was(hoop):
     """
     pose = Pose(2.6, 3.0, 0.0, 5.0, 0.5, Kind.ROLL)
     state = equilibrium(hoop, pose)
-    state = replace(state, u=state.u + 1e-6 * np.random.default_rng(3).standard_normal(state.u.shape))
+    state = state._replace(u=state.u + 1e-6 * np.random.default_rng(3).standard_normal(state.u.shape))
     first, count = state.window
-    found = moved(hoop.arrays, start_of(state), (first - 1, count + 2))[0]
+    found = moved(hoop.arrays, state, (first - 1, count + 2))[0]
     assert np.abs(found[2:-2] - state.u).max() < 1e-15  # rounding
 
 
@@ -203,7 +200,8 @@ def test_a_soft_pulse_against_all_nodes(monkeypatch):
     """The first pulse at E I = 10, where the rim turns by 0.03, on the same mesh: a percent in all that is measured.
 
     At rtol = 3e-4 each of them is off by up to half a percent by itself; at 1e-3 a step is long beside the ring's fast
-    vibrations, and the largest force is another one for each.
+    vibrations, and the largest force is another one for each. The time off the floor is off by a percent by itself (the
+    chain's is 0.0647, and 0.0654 from 3e-5 on), so two are allowed between them.
     """
     scene = HOOP.replace(ring={"bending_stiffness": 10.0}, hoop={"mass_ratio": 0.05}, solve={"rtol": 3e-4})
     found = []
@@ -214,4 +212,23 @@ def test_a_soft_pulse_against_all_nodes(monkeypatch):
         found.append([
             pulse.normal_impulse, ratio, pulse.peak_normal_force, pulse.friction_loss, pulse.time_off_floor,
         ])  # fmt: skip
-    assert np.array(found[0]) == pytest.approx(found[1], rel=0.01)
+    assert found[0][:-1] == pytest.approx(found[1][:-1], rel=0.01)
+    assert found[0][-1] == pytest.approx(found[1][-1], rel=0.02)
+
+
+@pytest.mark.slow
+def test_a_thick_soft_pulse_against_all_nodes():
+    """A wall of a tenth of R, the disk over it a quarter of the hoop: the floor pushes where the weld's own field is.
+
+    The chain's rim misses the mesh's by some thousandths of what loads move it there, and the largest force is that of
+    a vibration: a twentieth of it, a thirtieth of friction and its loss, a two-hundredth of J_N.
+    """
+    thick = HOOP.replace(
+        hoop={"k": 0.2, "r": 1.12, "mass_ratio": 0.1}, ring={"bending_stiffness": 10.0},
+        contact={"stiffness": 1e7, "damping": 1.0}, solve={"rtol": 1e-3},
+    )  # fmt: skip
+    chain, exact = (flexible.simulate(thick.replace(solve={"level": kind})).pulses[0] for kind in ("chain", "exact"))
+    assert chain.normal_impulse == pytest.approx(exact.normal_impulse, rel=0.005)
+    assert chain.friction_impulse == pytest.approx(exact.friction_impulse, rel=1 / 30)
+    assert chain.friction_loss == pytest.approx(exact.friction_loss, rel=1 / 30)
+    assert chain.peak_normal_force == pytest.approx(exact.peak_normal_force, rel=0.05)
