@@ -167,14 +167,14 @@ either side, so that of the three degrees between that node and the middle the h
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("bending_stiffness", "rtol"), [(30.0, RTOL), (10.0, RTOL), (3.0, RTOL / 3)])
+@pytest.mark.parametrize(("bending_stiffness", "rtol"), [(30.0, RTOL), (10.0, RTOL), (3.0, RTOL / 6)])
 def test_hops_are_those_of_a_discrete_rod(bending_stiffness, rtol):
     """First hops and the time between them, two codes with nothing in common.
 
     With 240 nodes (and half the weld) the rod's flights are apart from this code's by 0.005 in angle, a quarter in
     duration and a third in height, as they are with 120: so far a penalty floor at nodes is from a patch. The start of
-    the roll is a hyperbola's: times of the two may be apart, from one flight to the next they are not. At 3 two flights
-    that are one at the larger tolerance are two in the rod.
+    the roll is a hyperbola's: times of the two may be apart, from one flight to the next they are not. At 3 the
+    second flight begins at 4.49 by a tolerance of 1e-4 or more, at 4.484 from half of that on.
     """
     flights = roll(scene_of(bending_stiffness, 7.45).replace(ring=RODS_RING, solve={"rtol": rtol})).flights
     ours = [flight for flight in flights if flight.duration > LONG[bending_stiffness]][:3]
