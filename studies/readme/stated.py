@@ -185,7 +185,7 @@ NUMBERS: tuple[Stated, ...] = (
            _row("seconds_median", "hoop-pulse reduced", "rtol 1e-03"), 2.0),
     Stated("flexible", rf"\| reduced, rtol 10⁻³ \| [\d.]+ s \| {_POWER} \|", FLEXIBLE,
            _row("error", "hoop-pulse reduced", "rtol 1e-03"), 2.0),
-    Stated("scaling", r"grows like stiffness\^([−\d.]+)", SCALING,
-           lambda b: next(float(p) for name, p in b["exponents"].items() if "stiffness" in name), 5.0),
+    Stated("scaling", r"elements\^([\d.]+)", SCALING, lambda b: float(b["exponents"]["elements"]), 1.5),
+    Stated("scaling", r"workers\^−([\d.]+)", SCALING, lambda b: -float(b["exponents"]["workers"]), 1.3),
 )  # fmt: skip
 """Numbers that are held to what is printed. Of tables of times the ones that the text draws on."""
