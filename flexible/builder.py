@@ -28,7 +28,7 @@ from .time.methods import METHODS
 
 Array = NDArray[np.float64]
 
-COURSE = ("step", "pace", "attempts", "turns", "stalls", "length")  # what of a march's course a file keeps as it is
+COURSE = ("step", "pace", "attempts", "turns", "stalls")  # what of where a march stands a file keeps as it is
 
 
 @dataclass(frozen=True)
@@ -76,13 +76,13 @@ class Sampler:
         marches = []
         for number, (marched, turned) in enumerate(motion.marches):
             course = marched.course
-            arrays |= {f"march{number}.{name}": a for name, a in pack([marched.state, course.state]).items()}
+            arrays |= {f"march{number}.{name}": a for name, a in pack([marched.state, course.now.state]).items()}
             if motion.kept:
                 arrays |= {f"kept{number}.{name}": a for name, a in pack(motion.kept[number].states).items()}
             marches.append({
                 "attempts": marched.attempts, "ended": marched.ended, "turned": turned,
-                "course": {name: getattr(course, name) for name in COURSE},
-                "books": course.books._asdict(),
+                "course": {name: getattr(course.now, name) for name in COURSE}, "length": course.length,
+                "books": course.now.books._asdict(),
             })  # fmt: skip
         lists = {name: [dataclasses.asdict(item) for item in getattr(motion, name)] for name in ("phases", "turns")}
         pulses = [dataclasses.asdict(replace(pulse, sample=None)) for pulse in motion.pulses]
@@ -240,7 +240,7 @@ class Builder:
             if earlier is not None:
                 start = earlier.marched.course
                 del states[start.length :]
-                self.range.records += [turned for turned in earlier.turned if turned[0] <= start.state.t]
+                self.range.records += [turned for turned in earlier.turned if turned[0] <= start.now.state.t]
             keep = None if self.kept is None else states.append
             marched = march(hoop, start, ends, rtol, limits, watch, keep, method)
         if self.kept is not None:

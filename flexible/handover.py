@@ -18,6 +18,7 @@ from rigid import Kind, Motion, Side, States
 from rigid.output.units import without_units
 
 from .contact.laws.law import Rolling
+from .contact.laws.listing import sticks
 from .contact.points.data import NOTHING, no_bristles
 from .contact.points.rim import lift, sideways, upward
 from .models.equilibrium import Patch, settle
@@ -193,8 +194,8 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, there: States | None = None)
     state = state._replace(
         vel=vel, acc=np.zeros_like(vel), bristles=bristles, slip_velocity=pose.slip_velocity + creep
     )  # fmt: skip
-    sticks = law.sticks(state.mode) and len(bristles.number) > 0
-    return _balanced(hoop, state, pose) if sticks else restart(hoop, state, state.mode)
+    held = sticks(law.parameters, state.mode) and len(bristles.number) > 0
+    return _balanced(hoop, state, pose) if held else restart(hoop, state, state.mode)
 
 
 def _balanced(hoop: Hoop, state: State, pose: Pose) -> State:

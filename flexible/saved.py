@@ -17,7 +17,7 @@ from .motion import FlexibleMotion, FlexiblePulse, Kept, Ledger, March
 from .packed import unpack
 from .segment import Segment
 from .time.control import Pace
-from .time.course import Course, Marched
+from .time.course import Course, Marched, Standing
 
 
 def load_motion(path: str | PathLike[str]) -> Motion:
@@ -71,8 +71,8 @@ def _march(number: int, told: dict[str, Any], stored: Stored, pieces: tuple[Piec
     records = [piece.segment for piece in pieces if piece.segment is not None][number].records()
     end, state = unpack(_named(f"march{number}.", stored))
     told["course"]["pace"] = Pace(*told["course"]["pace"])
-    course = Course(state=state, books=Books(**told["books"]), records=records, **told["course"])
-    marched = Marched(end, records, told["attempts"], told["ended"], course)
+    now = Standing(state=state, books=Books(**told["books"]), cut=False, **told["course"])
+    marched = Marched(end, records, told["attempts"], told["ended"], Course(now, records, told["length"]))
     return March(marched, tuple((t, turned, phi) for t, turned, phi in told["turned"]))
 
 

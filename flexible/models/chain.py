@@ -17,7 +17,7 @@ from ..chain.rim import follow
 from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
 from ..chain.stage import Arrays, solved
 from ..chain.touch import turned
-from ..chain.whole import floor_forces, held, momentum_error, moved
+from ..chain.whole import energies_of, floor_forces, held, momentum_error, moved
 from ..contact.points.data import Damper
 from ..contact.stage import Predictor, Stage
 from ..ring.fem import AROUND, ring_of
@@ -83,12 +83,10 @@ class ChainHoop(RimContact):
 
     def displacement(self, state: State, window: Window) -> Array:
         """Displacement of the rim nodes of a window."""
-        return state.u if window == state.window else self._moved(state, window)[0]
-
-    def _moved(self, state: State, window: Window) -> tuple[Array, Array]:
-        """Displacement of the rim nodes of a window, and what of it the sections do not account for."""
-        u, beyond = moved(self.arrays, state, window)
-        return u, beyond
+        if window == state.window:
+            return state.u
+        u: Array = moved(self.arrays, state, window)[0]
+        return u
 
     def stage(
         self,
@@ -105,9 +103,7 @@ class ChainHoop(RimContact):
 
     def energies(self, state: State, held: Energies | None = None) -> Energies:
         """Kinetic, gravity (0 with the hoop's centre at the floor), ring strain."""
-        kinetic, gravity, strain = held or self.held(state.pos, state.vel)
-        if state.res.normal > 0:
-            strain += float((state.nodal * self._moved(state, state.window)[1]).sum()) / 2
+        kinetic, gravity, strain = energies_of(self.arrays, state, held or self.held(state.pos, state.vel))
         return kinetic, gravity, strain
 
     def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:

@@ -8,6 +8,7 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
+from ..contact.laws.listing import sticks
 from ..contact.points.bristles import edge_of_patch
 from ..contact.points.rim import element_at, gap_at, shape_functions, upward, vertex_angle
 from ..models.rim_contact import RimContact
@@ -49,7 +50,7 @@ def profile(hoop: RimContact, state: State) -> Profile:
         return Profile(none, none, none, np.empty(0, np.int8))
     law, number = hoop.law, state.bristles.number
     spacing = law.parameters.spacing
-    sticks = law.sticks(state.mode)
+    holds = sticks(law.parameters, state.mode)
     parts = np.split(np.arange(len(number)), np.flatnonzero(np.diff(number) > 1) + 1)
     pieces = []
     for part in parts:
@@ -69,7 +70,7 @@ def profile(hoop: RimContact, state: State) -> Profile:
         stick = np.where(law.slipping(state, sliding), SLIPS, STICKS)
         columns = [theta[inside], state.res.eta * elastic[inside], held[inside], stick[inside]]
         for end, way in ((on_floor[0], -1), (on_floor[-1], 1)):
-            share, pull = _beyond(gap, held - dragged, end, way, sticks)
+            share, pull = _beyond(gap, held - dragged, end, way, holds)
             edge = [theta[end] + way * spacing * share, np.zeros(3), pull, np.full(3, FREE)]
             columns = [np.concatenate([e[::-1], c] if way < 0 else [c, e]) for c, e in zip(columns, edge, strict=True)]
         pieces.append(columns)
@@ -89,17 +90,17 @@ def _gap(hoop: RimContact, state: State, theta: Array) -> Array:
     return gap
 
 
-def _beyond(gap: Array, held: Array, end: int, way: int, sticks: bool) -> tuple[Array, Array]:
+def _beyond(gap: Array, held: Array, end: int, way: int, holds: bool) -> tuple[Array, Array]:
     """Where, in spacings beyond the last touching point, pressure and then friction end (twice), and friction there.
 
     The pressure's edge is that of :mod:`flexible.contact.points.normal`, on a straight gap, and so is that of whatever
     slides; that of a patch that sticks as a whole lies on the parabola of :mod:`flexible.contact.points.bristles`.
     """
     straight = curved = gap[end] / (gap[end] - gap[end + way])
-    if sticks and 0 <= end - way < len(gap):
+    if holds and 0 <= end - way < len(gap):
         curved = max(straight, edge_of_patch(gap[end], gap[end + way], gap[end - way])[0])
     share = np.array([straight, curved, curved])
-    if sticks and not np.isnan(held[end + way]):  # points leave here, stretched
+    if holds and not np.isnan(held[end + way]):  # points leave here, stretched
         pull = held[end] + share * (held[end + way] - held[end])
     else:
         pull = held[end] * (1 - share / curved)

@@ -136,7 +136,7 @@ def march(
     wrote (:func:`flexible.time.advance.write`); ``keep`` is given the state behind every new record.
     """
     if isinstance(start, Course):
-        now, records = start.standing(), start.behind()
+        now, records = start.now, start.behind()
     else:
         start = start._replace(mode=free(model.law.parameters, start))
         now, records = beginning(start, float(limits.first)), []
@@ -178,7 +178,7 @@ def march(
         stood, behind = now, len(records)
     if why != REACHED:
         ended = ended or _sentence(why, now, limits)
-    return Marched(now.state, records, now.attempts, ended, Course.at(stood, records, behind))
+    return Marched(now.state, records, now.attempts, ended, Course(stood, records, behind))
 
 
 def _records(rows: Array) -> list[Record]:

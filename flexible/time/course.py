@@ -44,26 +44,9 @@ class Course:
     A march that goes on from here takes the steps that it would have taken if nobody had stopped it, to the last bit.
     """
 
-    state: State
-    step: float  # length of the next step
-    pace: Pace  # of the last one
-    attempts: int  # steps tried until now
-    turns: int
-    stalls: int  # events within a shortest step of each other, by now
-    books: Books
+    now: Standing
     records: list[Record]  # of the whole march; those after the first ``length`` came later
     length: int
-
-    @classmethod
-    def at(cls, now: Standing, records: list[Record], length: int) -> Course:
-        """That of a march that stands there."""
-        return cls(now.state, now.step, now.pace, now.attempts, now.turns, now.stalls, now.books, records, length)
-
-    def standing(self) -> Standing:
-        """Where it stands, for compiled code."""
-        return Standing(
-            self.state, self.step, self.pace, self.books, self.attempts, self.turns, self.stalls, False
-        )  # fmt: skip
 
     def behind(self) -> list[Record]:
         """The records up to here."""

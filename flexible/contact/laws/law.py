@@ -70,10 +70,6 @@ class Law:
         """The mode in which the patch begins out of a rigid phase."""
         return 0
 
-    def sticks(self, mode: int) -> bool:
-        """Whether the patch as a whole holds on to the floor in this mode, to the last digit."""
-        return False
-
     def handed_back(self, state: PatchState) -> float:
         """The slip velocity with which a rigid motion goes on."""
         return state.slip_velocity

@@ -149,10 +149,6 @@ class Patch(Law):
         slides = {Kind.SKID: SLIDE_LEFT, Kind.SPIN: SLIDE_RIGHT}.get(kind, STICK)
         return SLIDE_RIGHT if slides == STICK and kind != Kind.ROLL and self.parameters.mu_s == 0 else slides
 
-    def sticks(self, mode: int) -> bool:
-        """See :class:`~flexible.contact.laws.law.Law`."""
-        return mode == STICK
-
     def handed_back(self, state: PatchState) -> float:
         """What a sticking patch creeps is elastic."""
         return 0.0 if state.mode == STICK else state.slip_velocity
