@@ -20,6 +20,16 @@ from .corotated import chord, directions
 Array = NDArray[np.float64]
 
 
+def curve_weights(theta: Array) -> Array:
+    """Weights of the parabola's slope through three neighbours, (n, 3); zero at the ends."""
+    weights = np.zeros((len(theta), 3))
+    before, behind = np.diff(theta)[:-1], np.diff(theta)[1:]
+    weights[1:-1, 0] = -behind / (before * (before + behind))
+    weights[1:-1, 1] = (behind - before) / (before * behind)
+    weights[1:-1, 2] = before / (behind * (before + behind))
+    return weights
+
+
 class RimNodes(NamedTuple):
     """Nodes of the rim, and what they follow; see :func:`rim_point`.
 

@@ -23,12 +23,13 @@ from ..ring.reduction import body_of
 from .bordered import no_blocks
 from .corotated import Rod, elastic_tangent
 from .inertia import Body, Chain
-from .rim import RimNodes, follow
+from .rim import RimNodes, curve_weights, follow
 from .section import LOADED, RodCompliance, mass_radius, radial, rod_compliance
 
 Array = NDArray[np.float64]
 
 FINER, FADES = 3.0, 0.2  # parts at the weld, see cuts
+WITHIN = 0.05  # share of a half-plane's give under the shortest waves of the rim's nodes, see _Shape.within
 
 
 def chord_strains(one: Array, two: Array, moves: int) -> Array:
@@ -51,16 +52,6 @@ def in_strains(compliance: Array, by: Array) -> Array:
     inverse = np.linalg.inv(by)
     stiffness = inverse.T @ np.linalg.inv(compliance) @ inverse
     return (stiffness + stiffness.T) / 2
-
-
-def curve_weights(theta: Array) -> Array:
-    """Weights of the parabola's slope through three neighbours, (n, 3); zero at the ends."""
-    weights = np.zeros((len(theta), 3))
-    before, behind = np.diff(theta)[:-1], np.diff(theta)[1:]
-    weights[1:-1, 0] = -behind / (before * (before + behind))
-    weights[1:-1, 1] = (behind - before) / (before * behind)
-    weights[1:-1, 2] = before / (behind * (before + behind))
-    return weights
 
 
 def cuts(weld: float, parts: int) -> Array:
@@ -220,14 +211,25 @@ class _Shape:
         matrix = weight[:, None] * dense_stiffness(self.rod, self.still)[3:-3, 3:-3] * weight
         return np.asarray(weight[:, None] * np.linalg.eigh(matrix)[1], dtype=float)
 
+    @property
+    def within(self) -> float:
+        """What the wall gives way by under a unit pressure, nodes there or none; R at E b = 1.
+
+        A wave of pressure of length l dents a half-plane by l/(pi E b) times itself, and nodes h apart carry none
+        shorter than 2 h: a floor stiffer than the wall would meet the elements as the sides of a polygon. A share of
+        what the shortest of their waves dents is left to the contact, and not counted twice where nodes carry the load.
+        """
+        return WITHIN * 2 * (2 * pi / len(self.nodes.part)) / pi
+
     @cached_property
     def missing(self) -> Array:
         """Static displacement of the rim under unit forces on it that the chain lacks, (2 n_rim, 2 n_rim).
 
         Right over a section the chain gives way a little more than the mesh, for a load on the rim spreads over half a
-        wall before it bends the ring. A wall does not push back: of the difference the positive part is kept.
+        wall before it bends the ring. A wall does not push back: the positive part is kept, less what is ``within``.
         """
         lacks = self.ring.rim_compliance - self.rim @ self.inverse @ self.rim.T
+        lacks -= self.within * np.kron(np.linalg.inv(self.ring.rim_products), np.eye(2))
         values, vectors = np.linalg.eigh(lacks)
         positive = values > 0
         return (vectors[:, positive] * values[positive]) @ vectors[:, positive].T
@@ -254,12 +256,15 @@ class ChainRing:
         Of the whole rim.
     vertex : (n_elements,) array
         Angles at which rim elements begin.
+    within : float
+        See :class:`flexible.models.rim_contact.RimContact`.
     """
 
     def __init__(self, scene: Scene, ring: Ring, parts: int) -> None:
         self.shape = _shape(ring, parts)
         self.ring = ring
         self.stiffness = membrane_stiffness(scene)
+        self.within = self.shape.within / self.stiffness
         unit, mass = self.shape.rod, scene.hoop.mass_ratio
         rod = unit._replace(
             local=unit.local * self.stiffness,

@@ -59,7 +59,7 @@ class ChainHoop(RimContact):
     ) -> None:
         parts = (scene.solve.elements or AROUND) // PER_PART if parts is None else parts
         self.ring = ChainRing(scene, ring_of(scene, through, AROUND), parts)
-        super().__init__(scene, self.ring.vertex, points, tolerance)
+        super().__init__(scene, self.ring.vertex, points, tolerance, self.ring.within)
         rod = self.ring.chain.rod
         mass = np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1].ravel()
         #: momenta of the slow vibrations, by which steps are chosen, of a rate of the sections

@@ -27,17 +27,20 @@ def points_to_a_patch(law: type[Law], rtol: float) -> int:
     return ceil(max(LEAST, law.points * (COARSE / rtol) ** (1 / 3)))
 
 
-def contact_law(scene: Scene, elements: int, points: int | None = None) -> Law:
-    """The scene's friction law, with ``points`` to the patch of a rigid hoop under the disk's weight."""
+def contact_law(scene: Scene, elements: int, points: int | None = None, within: float = 0.0) -> Law:
+    """The scene's friction law, with ``points`` to the patch of a rigid hoop under the disk's weight.
+
+    ``within`` is what the rim's wall gives way by point by point, besides the foundation and its bristles.
+    """
     contact, friction = scene.contact, scene.friction
-    eps = float(contact.stiffness)
+    eps = 1 / (1 / contact.stiffness + within)
     half_width = (1.5 / eps) ** (1 / 3)
     law = LAWS[contact.law]
     parameters = Parameters(
         law=law.code,
         spacing=min(2 * half_width / (points or points_to_a_patch(law, scene.solve.rtol)), 2 * pi / elements / 8),
         eps_n=eps,
-        eps_t=eps * contact.tangential_ratio,
+        eps_t=1 / (1 / (contact.stiffness * contact.tangential_ratio) + within),
         mu_s=float(friction.mu_s),
         mu=float(friction.mu),
         slip_scale=float(contact.slip_velocity_scale),
@@ -78,17 +81,19 @@ class RimContact:
         Contact points to a patch; by default what the scene's tolerance asks for.
     tolerance : float
         Of Newton, on forces relative to the disk's weight.
+    within : float
+        What the wall gives way by within an element, in R per pressure: the foundation and its bristles do in addition.
     """
 
     linear = True
     """Whether rotations of the ring's sections against one are neglected."""
 
-    def __init__(self, scene: Scene, vertex: Array, points: int | None, tolerance: float) -> None:
+    def __init__(self, scene: Scene, vertex: Array, points: int | None, tolerance: float, within: float = 0.0) -> None:
         self.scene = scene
         self.vertex = vertex
         middle = (vertex + np.append(vertex[1:], vertex[0] + 2 * pi)) / 2
         self.theta = np.column_stack([vertex, middle]).ravel()
-        self.law = contact_law(scene, len(vertex), points)
+        self.law = contact_law(scene, len(vertex), points, within)
         self.tolerance = tolerance
         self.element = 2 * pi / len(vertex)
         self.relaxation = relaxation_time(scene)

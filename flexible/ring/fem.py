@@ -8,7 +8,7 @@ Plane stress; the weld (a short arc of the inner rim) is clamped to the disk's f
 from __future__ import annotations
 
 from functools import cached_property, lru_cache
-from math import ceil, sqrt
+from math import ceil, pi, sqrt
 from typing import Any
 
 import numpy as np
@@ -142,6 +142,18 @@ class Ring:
         every = np.arange(len(self.rim_dofs))
         compliance, _ = self.solve_rim(every)
         return (compliance + compliance.T) / 2
+
+    @property
+    def rim_products(self) -> Array:
+        """Integrals of products of two nodes' shape functions along the outer rim, (n_rim, n_rim), R = 1."""
+        theta = self.mesh.rim_theta
+        n = len(theta)
+        of_element = np.array([[4.0, 2, -1], [2, 16, 2], [-1, 2, 4]]) / 30
+        products = np.zeros((n, n))
+        for begin in range(0, n, 2):
+            nodes = np.arange(begin, begin + 3) % n
+            products[np.ix_(nodes, nodes)] += (theta[nodes[2]] - theta[begin]) % (2 * pi) * of_element
+        return products
 
     def modes(self, count: int) -> tuple[Array, Array]:
         """The lowest ``count`` vibration modes of the clamped ring.

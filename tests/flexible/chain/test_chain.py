@@ -171,6 +171,24 @@ def test_another_window_leaves_the_rim_where_it_was(hoop):
     assert np.abs(found[2:-2] - state.u).max() < 1e-15  # rounding
 
 
+def test_a_stiff_floor_dents_the_wall_as_hertz_has_it():
+    """Half-width of a line contact in plane stress, a^2 = 4 N R/(pi E b), on a floor 1e5 times as stiff as the wall.
+
+    Wherever it lies on the mesh, whose elements are nearly as wide as a: a tenth, of which half is that the ring bends,
+    which makes R larger there. When nothing gave way within an element, the patch was a twentieth as wide.
+    """
+    hoop = ChainHoop(
+        HOOP.replace(
+            hoop={"r": 1.2}, ring={"bending_stiffness": 3.0}, contact={"stiffness": 1e12}, solve={"rtol": 1e-4}
+        )
+    )
+    half = np.sqrt(4 * 5.0 / (np.pi * hoop.ring.stiffness))
+    assert half < 1.1 * hoop.element
+    for share in np.linspace(0, 1, 5, endpoint=False):
+        state = equilibrium(hoop, Pose(2.2 + share * hoop.element, 1.0, 0.0, 5.0, 0.5, Kind.ROLL))
+        assert state.res.length == pytest.approx(2 * half, rel=0.1)
+
+
 def test_a_stiff_hoop_is_the_reduced_one():
     """A pulse at E I = 1e3, where the linear ring is exact: impulses to the tolerance of the march."""
     scene = HOOP.replace(release={"phi0": 2.4, "omega0": 1.5})

@@ -74,3 +74,19 @@ def test_a_thick_soft_ring_on_a_stiff_foundation():
     )  # fmt: skip
     motion = flexible.simulate(scene, most_steps=100)
     assert motion.completed, motion.ended
+
+
+@pytest.mark.slow
+def test_a_floor_far_stiffer_than_the_wall():
+    """The wall is dented over a hundredth of R, and by a thousand times what the foundation gives way.
+
+    Each element of the rim has one curvature and bulged by itself; the hoop went from bulge to bulge as on a polygon,
+    on patches of a hundredth of an element, in steps of 1e-9.
+    """
+    scene = HOOP.replace(
+        hoop={"k": 0.102, "r": 1.193, "mass_ratio": 0.247}, friction={"mu_s": 0.355, "mu": 0.315},
+        release={"phi0": 0.7}, ring={"bending_stiffness": 10.1}, contact={"stiffness": 5.3e11, "damping": 1.0},
+        solve={"rtol": 1e-4, "level": "chain"},
+    )  # fmt: skip
+    motion = flexible.simulate(scene, most_steps=3000)
+    assert motion.completed, motion.ended
