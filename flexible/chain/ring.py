@@ -215,9 +215,8 @@ class _Shape:
     def within(self) -> float:
         """What the wall gives way by under a unit pressure, nodes there or none; R at E b = 1.
 
-        A wave of pressure of length l dents a half-plane by l/(pi E b) times itself, and nodes h apart carry none
-        shorter than 2 h: a floor stiffer than the wall would meet the elements as the sides of a polygon. A share of
-        what the shortest of their waves dents is left to the contact, and not counted twice where nodes carry the load.
+        Waves of pressure of length l dent a half-plane by l/(pi E b) times themselves, and nodes h apart carry none
+        shorter than 2 h: a stiff floor would meet elements as sides of a polygon. The contact has a share of that.
         """
         return WITHIN * 2 * (2 * pi / len(self.nodes.part)) / pi
 

@@ -15,7 +15,7 @@ from rigid.kernel.compile import jit, part, written_out
 
 from ..contact.forces import contact_forces
 from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by, moved_damper
-from ..contact.guess import GUESSES, as_before, guess_again
+from ..contact.guess import GUESSES, as_before, guess_again, held_again
 from ..contact.newton import breaks_loose, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Bristles, Parameters, Rim, pulling
 from ..contact.points.rim import window_around
@@ -124,18 +124,19 @@ def solve_stage(
     way, reach, stuck, halved = 0.0, np.inf, 0.0, 0
     factors, stands, moved_before = nothing_factored(), foreseen, False
     chained, stale = factors.core, True
-    softest, damper = largest(facing.missing), pulling(damper, True)
-    iteration, guesses = -1, GUESSES
+    softest, damper, iteration, guesses = largest(facing.missing), pulling(damper, True), -1, GUESSES
     asked = guesses > 0  # for a tangent; nowhere a plain True, for which contact_forces would be compiled once more
     while iteration < MOST_ITERATIONS:
         pos, vel, acc = reached(predictor, d)
         contact = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper, asked)
-        res = contact.res
         if guesses > 0:
             guesses = guess_again(pos[:FRAME], u, facing.rim, law, before, damper, contact, guesses)
             if guesses >= 0:
                 continue
-        iteration += 1
+        if iteration < 0:
+            of = (facing.rim, law, mode, before, damper)
+            contact = held_again(pos[:FRAME], u, of, contact, foreseen.friction, asked)
+        iteration, res = iteration + 1, contact.res
         moved = moved_by(damper, foreseen, res)
         moves, carries = moved.elastic != 0 or moved.held != 0, contact
         if moves:

@@ -8,14 +8,18 @@ from __future__ import annotations
 from math import cos, sin
 from typing import Any
 
-from rigid.kernel.compile import loop
+import numpy as np
 
+from rigid.kernel.compile import loop, part
+
+from .forces import contact_forces
 from .points.data import Before, Bristles, Contact, Damper, Parameters, Resultants, Rim
 from .points.detection import least_gap
 from .points.rim import element_at, shape_functions, upward, vertex_angle
 
 MOST_CHANGE = 10.0  # of N_el from a stage to the next by which a patch is foreseen from the one before
 GUESSES = 4  # three that raise the patch, and one along the floor
+SEARCHES = 8  # along the floor for where a brush sticks, each as far as its bristles reach to both sides
 
 
 @loop
@@ -115,3 +119,43 @@ def guess_again(
         _shift(u, pose[2], damper.way_0 - contact.res.way, 0.0)
         return 0
     return -1
+
+
+@part
+def held_again(pose: Any, u: Any, of: Any, contact: Contact, friction: float, asked: bool) -> Contact:
+    """Move the rim along the floor to where half as many points stick as when the step began; the contact there.
+
+    Of a patch that slid on by the guess, ``friction`` is what it is expected to pull. It falls with the way: from where
+    the patch goes on without a slip the rim is moved by what the bristles reach, and by half of what lies between one
+    that pulls more and one that pulls less. From there Newton knows what each point does.
+
+    Parameters
+    ----------
+    pose, u :
+        See :func:`flexible.contact.forces.contact_forces`.
+    of : tuple
+        Rim, law, mode, contact before the step, and damper.
+    contact : Contact
+        Of the rim as it is.
+    friction : float
+    asked : bool
+        For a tangent.
+    """
+    rim, law, mode, before, damper = of
+    at, low, high = 0.0, -np.inf, np.inf
+    for search in range(SEARCHES):
+        res = contact.res
+        if res.elastic == 0 or 2 * _sticking(contact.bristles) >= _sticking(before.bristles):
+            break
+        step = 2 * law.mu_s * res.normal / (law.eps_t * res.length)
+        if res.friction > friction:
+            low = at
+        else:
+            high, step = at, -step
+        there = damper.way_0 - res.way if search == 0 else at + step
+        if not low < there < high:
+            there = (low + high) / 2 if np.isfinite(low + high) else at + step
+        _shift(u, pose[2], there - at, 0.0)
+        at = there
+        contact = contact_forces(pose, u, rim, law, mode, before, damper, asked)
+    return contact

@@ -41,6 +41,18 @@ def test_a_soft_hoop_at_rest_takes_long_steps():
 
 
 @pytest.mark.slow
+def test_a_soft_brush_that_rocks_takes_long_steps():
+    """Some points stick and some slide, and a long step begins with most of them sliding one way.
+
+    Newton then went from there to the other side of the bristles' reach and back without end: of 403 steps 118 were
+    tried in vain.
+    """
+    motion = flexible.simulate(FLAT.replace(hoop={"k": 0.2}, contact={"law": "brush"}, run=Run(t_end=2.0)))
+    assert motion.completed, motion.ended
+    assert motion.steps < 330
+
+
+@pytest.mark.slow
 def test_a_brush_that_breaks_loose_is_rolled_on():
     """In the pulse the damper bears seventeen times what the foundation does, and points stick and slide side by side.
 

@@ -4,10 +4,10 @@ from math import sqrt
 
 import numpy as np
 import pytest
-from kinematic import VERTEX, parameters
+from kinematic import VERTEX, Floor, parameters
 
 from flexible.contact.forces import contact_forces
-from flexible.contact.guess import as_deep
+from flexible.contact.guess import as_deep, held_again
 from flexible.contact.points.data import UNDAMPED, Before, Rim, no_bristles
 from flexible.contact.points.rim import element_at
 from flexible.models.stage import From
@@ -40,3 +40,27 @@ def test_a_patch_that_is_another_one_is_no_guide(deepest, elastic, expected):
     rim = Rim(element_at(VERTEX, np.pi - PHI) - 2, VERTEX)
     assert not as_deep(0.0, PHI, u, rim, From(u, deepest, elastic, expected, 1e-9))
     assert not u.any()
+
+
+@pytest.mark.parametrize("way", [-1e-3, -3e-5, 3e-5, 1e-3])
+def test_a_brush_is_found_where_it_sticks(way):
+    """Pulled along by a third of what it can bear, and then moved off by hundreds of times the bristles' reach.
+
+    That the patch go on without a slip is a guess that may be off by several times their reach either way.
+    """
+    law = parameters("brush", 2e-5, EPS, EPS, 0.35, 0.3)
+    floor = Floor(law, 1e-6, PHI)
+    reach = 0.35 * 1e-6
+    pulled = floor.move(-reach / 6, 0.0)
+    assert (floor.bristles.sliding == 0).mean() > 0.7
+    pose = floor.pose + np.array([way, 0.0, 0.0])
+    for off in (-3 * reach, 0.0, 3 * reach):
+        rim, u = Rim(element_at(VERTEX, np.pi - PHI) - 6, VERTEX), np.zeros((27, 2))
+        before = Before(floor.pose, u.copy(), floor.bristles)
+        damper = UNDAMPED._replace(way_0=off)
+        slid = contact_forces(pose, u, rim, law, 0, before, damper, True)
+        assert not (slid.bristles.sliding == 0).any()
+        found = held_again(pose, u, (rim, law, 0, before, damper), slid, pulled.friction, True)
+        assert 2 * (found.bristles.sliding == 0).sum() >= (floor.bristles.sliding == 0).sum()
+        assert abs(found.res.friction) < 0.3 * found.res.normal
+        assert np.ptp(u, axis=0).max() < 1e-15 * abs(way) + 1e-18  # moved as a whole
