@@ -44,7 +44,6 @@ class Arrays(NamedTuple):
     theta: Any  # (n_rim,) angles of rim nodes
     element: float  # mean length of one
     law: Parameters
-    tolerance: float  # of Newton
     looked: Any  # (2,) angles between which the first stage of a step has looked for the floor
 
 
@@ -115,16 +114,16 @@ def solve_stage(
         Increment, displacement of the nodes, (m, 2), and :class:`Foreseen`, to begin with; tolerance on forces.
     """
     d, u, foreseen, tolerance = start[0].copy(), start[1].copy(), start[2], start[3]
-    nodes, rod = facing.nodes, chain.rod
-    m = nodes.part.shape[0]
+    nodes, rod, m = facing.nodes, chain.rod, facing.nodes.part.shape[0]
     keeps, place = kept_by(rod.theta.shape[0], nodes.part)
     inner = FRAME + 3 * keeps.sum()
     update, update_u = np.zeros(d.shape[0]), np.zeros(2 * m)
     iterations, damping, last = -1, 1.0, np.inf
     way, reach, stuck, halved = 0.0, np.inf, 0.0, 0
-    factors, stands, moved_before = nothing_factored(), foreseen, False
-    chained, stale = factors.core, True
+    factors, stands, moved_before, stale = nothing_factored(), foreseen, False, True
+    chained = factors.core
     softest, damper, iteration, guesses = largest(facing.missing), pulling(damper, True), -1, GUESSES
+    touching = (facing.rim, law, mode, before, damper)
     asked = guesses > 0  # for a tangent; nowhere a plain True, for which contact_forces would be compiled once more
     while iteration < MOST_ITERATIONS:
         pos, vel, acc = reached(predictor, d)
@@ -134,8 +133,7 @@ def solve_stage(
             if guesses >= 0:
                 continue
         if iteration < 0:
-            of = (facing.rim, law, mode, before, damper)
-            contact = held_again(pos[:FRAME], u, of, contact, foreseen.friction, asked)
+            contact = held_again(pos[:FRAME], u, touching, contact, foreseen.friction, asked)
         iteration, res = iteration + 1, contact.res
         moved = moved_by(damper, foreseen, res)
         moves, carries = moved.elastic != 0 or moved.held != 0, contact
@@ -204,7 +202,7 @@ def _followed(
     softer = SOFTER
     while True:
         by = Parameters(
-            law.law, law.spacing, law.eps_n / softer, law.eps_t / softer, law.mu_s, law.mu, law.slip_scale
+            law.law, law.spacing, law.eps_n / softer, law.eps_t / softer, law.mu_s, law.mu, law.slip_scale, law.known,
         )  # fmt: skip
         held = Bristles(bristles.number, times(softer, bristles.stretch), bristles.pull, bristles.sliding)
         since = Before(before.pose, before.u, held)
@@ -240,7 +238,7 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         before = Before(old.pos[:FRAME], u_old, old.bristles)
         u = follow(arrays.chain.rod, sections(expected), nodes)[0]
         move(expected, u, 1.0, nothing, beyond.ravel())
-        begins = predictor.guess, u, Foreseen(old.res.normal, old.res.friction), arrays.tolerance
+        begins = predictor.guess, u, Foreseen(old.res.normal, old.res.friction), arrays.law.known
         answer = solve_stage(arrays.chain, facing, arrays.law, mode, before, damper, predictor, begins)
         if answer.iterations == -1 and old.res.elastic > 0:
             as_before(expected, u, facing.rim, before)
