@@ -44,7 +44,6 @@ class Arrays(NamedTuple):
     theta: Any  # (n_rim,) angles of rim nodes
     element: float  # mean length of one
     law: Parameters
-    tolerance: float  # of Newton
     looked: Any  # (2,) angles between which the first stage of a step has looked for the floor
 
 
@@ -203,7 +202,7 @@ def _followed(
     softer = SOFTER
     while True:
         by = Parameters(
-            law.law, law.spacing, law.eps_n / softer, law.eps_t / softer, law.mu_s, law.mu, law.slip_scale
+            law.law, law.spacing, law.eps_n / softer, law.eps_t / softer, law.mu_s, law.mu, law.slip_scale, law.known,
         )  # fmt: skip
         held = Bristles(bristles.number, times(softer, bristles.stretch), bristles.pull, bristles.sliding)
         since = Before(before.pose, before.u, held)
@@ -239,7 +238,7 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         before = Before(old.pos[:FRAME], u_old, old.bristles)
         u = follow(arrays.chain.rod, sections(expected), nodes)[0]
         move(expected, u, 1.0, nothing, beyond.ravel())
-        begins = predictor.guess, u, Foreseen(old.res.normal, old.res.friction), arrays.tolerance
+        begins = predictor.guess, u, Foreseen(old.res.normal, old.res.friction), arrays.law.known
         answer = solve_stage(arrays.chain, facing, arrays.law, mode, before, damper, predictor, begins)
         if answer.iterations == -1 and old.res.elastic > 0:
             as_before(expected, u, facing.rim, before)

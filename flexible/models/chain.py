@@ -41,7 +41,7 @@ class ChainHoop(RimContact):
     ----------
     parts : int, optional
         Of the chain; one to ``PER_PART`` rim elements by default.
-    points, tolerance :
+    points : int, optional
         See :class:`flexible.models.rim_contact.RimContact`.
     through : int
         Elements through the wall of the mesh.
@@ -50,16 +50,11 @@ class ChainHoop(RimContact):
     linear = False
 
     def __init__(
-        self,
-        scene: Scene,
-        parts: int | None = None,
-        points: int | None = None,
-        tolerance: float = 1e-9,
-        through: int = THROUGH,
+        self, scene: Scene, parts: int | None = None, points: int | None = None, through: int = THROUGH
     ) -> None:
         parts = (scene.solve.elements or AROUND) // PER_PART if parts is None else parts
         self.ring = ChainRing(scene, ring_of(scene, through, AROUND), parts)
-        super().__init__(scene, self.ring.vertex, points, tolerance)
+        super().__init__(scene, self.ring.vertex, points)
         rod = self.ring.chain.rod
         mass = np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1].ravel()
         #: momenta of the slow vibrations, by which steps are chosen, of a rate of the sections
@@ -78,7 +73,7 @@ class ChainHoop(RimContact):
         ring, every = self.ring, np.arange(len(self.theta))
         return Arrays(
             ring.chain, ring.nodes, ring.missing(every, every), self._slow, self.vertex, self.theta, self.element,
-            self.law.parameters, self.tolerance, np.zeros(2),
+            self.law.parameters, np.zeros(2),
         )  # fmt: skip
 
     def displacement(self, state: State, window: Window) -> Array:

@@ -96,15 +96,15 @@ class FullHoop(RimContact):
 
     Parameters
     ----------
-    points, tolerance :
+    points : int, optional
         See :class:`flexible.models.rim_contact.RimContact`.
     through : int
         Least number of elements through the wall, unless the scene says how many.
     """
 
-    def __init__(self, scene: Scene, points: int | None = None, tolerance: float = 1e-9, through: int = 1) -> None:
+    def __init__(self, scene: Scene, points: int | None = None, through: int = 1) -> None:
         self.ring = self._make_ring(scene, ring_of(scene, through, AROUND))
-        super().__init__(scene, self.ring.vertex, points, tolerance)
+        super().__init__(scene, self.ring.vertex, points)
         self._factored: _Factored | None = None
         #: momenta of the slow vibrations, by which steps are chosen, of a rate of the free dofs
         self._slow = np.zeros((0, self.ring.size))
@@ -187,7 +187,7 @@ class FullHoop(RimContact):
             worst = max(largest(frame), largest(ring))
             if not isfinite(worst):
                 return Stage(False), False
-            small = self.tolerance * (1 + abs(res.normal))
+            small = self.law.parameters.known * (1 + abs(res.normal))
             if worst > small:
                 depth = abs(pos[1]) + np.abs(u).max()
                 small += 4e-16 * (law.eps_n + law.eps_t) * res.length * depth * (damper.relaxation + 1)

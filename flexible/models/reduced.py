@@ -36,7 +36,6 @@ class Arrays(NamedTuple):
     theta: Any  # (n_rim,) angles of rim nodes
     element: float  # mean length of one
     law: Parameters
-    tolerance: float  # of Newton
 
 
 @jit
@@ -111,7 +110,7 @@ def _solved(
         u_old = _moved(arrays, old, window)
         before = Before(old.pos[:3], u_old, old.bristles)
         u = near.u if near.window == window else u_old
-        start = From(u, deepest, near.elastic, near.expected, arrays.tolerance)
+        start = From(u, deepest, near.elastic, near.expected, arrays.law.known)
         answer = solve_stage(
             arrays.frame, _near_floor(arrays, window), arrays.law, mode, before, damper, predictor, start
         )
@@ -171,11 +170,9 @@ def energies_of(arrays: Arrays, state: State, held: Energies) -> Energies:
 class ReducedHoop(RimContact):
     """Frame, modes and residual static compliance of a scene's hoop."""
 
-    def __init__(
-        self, scene: Scene, modes: int | None = None, points: int | None = None, tolerance: float = 1e-9
-    ) -> None:
+    def __init__(self, scene: Scene, modes: int | None = None, points: int | None = None) -> None:
         self.ring: ReducedRing = reduce(scene, modes)
-        super().__init__(scene, self.ring.vertex, points, tolerance)
+        super().__init__(scene, self.ring.vertex, points)
         self._blocks: dict[tuple[int, int], tuple[Array, Array]] = {}
 
     @cached_property
@@ -183,7 +180,6 @@ class ReducedHoop(RimContact):
         """What the compiled step takes."""
         return Arrays(
             self.ring.frame, self.ring.rim, self.vertex, self.theta, self.element, self.law.parameters,
-            self.tolerance,
         )  # fmt: skip
 
     @property

@@ -19,12 +19,19 @@ Array = NDArray[np.float64]
 
 
 LEAST = 8  # points to a patch: with fewer the force of a patch that moves is noise
+KNOWN = 1e-4  # of rtol: errors of forces are that much less than what a step is allowed
+FINEST, ROUGHEST = 1e-9, 1e-7  # of forces over 1 + N
 COARSE = 1e-3  # rtol at which a law has its number of points; their share of the error falls like its cube, and faster
 
 
 def points_to_a_patch(law: type[Law], rtol: float) -> int:
     """Contact points by which a patch under the weight is as accurate as a tolerance asks for."""
     return ceil(max(LEAST, law.points * (COARSE / rtol) ** (1 / 3)))
+
+
+def known(rtol: float) -> float:
+    """Newton's tolerance on forces, over 1 + N, for a motion with the tolerance ``rtol``."""
+    return min(max(KNOWN * rtol, FINEST), ROUGHEST)
 
 
 def contact_law(scene: Scene, elements: int, points: int | None = None) -> Law:
@@ -41,6 +48,7 @@ def contact_law(scene: Scene, elements: int, points: int | None = None) -> Law:
         mu_s=float(friction.mu_s),
         mu=float(friction.mu),
         slip_scale=float(contact.slip_velocity_scale),
+        known=known(scene.solve.rtol),
     )
     return law(parameters)
 
@@ -76,20 +84,17 @@ class RimContact:
         Angles at which rim elements begin.
     points : int, optional
         Contact points to a patch; by default what the scene's tolerance asks for.
-    tolerance : float
-        Of Newton, on forces relative to the disk's weight.
     """
 
     linear = True
     """Whether rotations of the ring's sections against one are neglected."""
 
-    def __init__(self, scene: Scene, vertex: Array, points: int | None, tolerance: float) -> None:
+    def __init__(self, scene: Scene, vertex: Array, points: int | None) -> None:
         self.scene = scene
         self.vertex = vertex
         middle = (vertex + np.append(vertex[1:], vertex[0] + 2 * pi)) / 2
         self.theta = np.column_stack([vertex, middle]).ravel()
         self.law = contact_law(scene, len(vertex), points)
-        self.tolerance = tolerance
         self.element = 2 * pi / len(vertex)
         self.relaxation = relaxation_time(scene)
 

@@ -48,7 +48,7 @@ def _pressed(depth: float, spacing: float, phi: float) -> float:
 
 
 def _forces(depth: float, spacing: float, pose: np.ndarray, before: np.ndarray | None, bristles: Bristles | None):  # type: ignore[no-untyped-def]
-    law = Parameters(LAWS[LAW].code, spacing, EPS, 0.8 * EPS, MU, MU, 1e-3)
+    law = Parameters(LAWS[LAW].code, spacing, EPS, 0.8 * EPS, MU, MU, 1e-3, 1e-9)
     rim, flat = Rim(element_at(VERTEX, pi - pose[2]) - 6, VERTEX), np.zeros((27, 2))
     was = Before(pose if before is None else before, flat, no_bristles() if bristles is None else bristles)
     return contact_forces(pose, flat, rim, law, 0, was, UNDAMPED, True)

@@ -23,6 +23,7 @@ class Parameters(NamedTuple):
     mu_s: float
     mu: float
     slip_scale: float  # slip velocity by which a regularised friction is smooth
+    known: float  # to what share of 1 + N Newton finds the forces
 
 
 class Rim(NamedTuple):

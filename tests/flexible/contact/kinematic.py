@@ -14,7 +14,7 @@ VERTEX = -pi + 2 * pi / 240 * np.arange(240)
 
 def parameters(law, spacing, eps_n, eps_t, mu_s=0.3, mu=0.3, slip_scale=1e-3):
     """Parameters of the contact under the law of this name."""
-    return Parameters(LAWS[law].code, spacing, eps_n, eps_t, mu_s, mu, slip_scale)
+    return Parameters(LAWS[law].code, spacing, eps_n, eps_t, mu_s, mu, slip_scale, 1e-9)
 
 
 class Floor:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+from math import pi, radians
 
 import numpy as np
 import pytest
 from command_line import is_one_sentence
 
-from rigid import Scene, simulate
+from rigid import Friction, Hoop, Release, Run, Scene, simulate
 from studies.bench.peers.exudyn_ring import roll as roll_cables
 from studies.bench.peers.exudyn_ring import turn
 from studies.bench.truth import reference
@@ -100,6 +101,35 @@ def test_hops_from_rest_are_those_of_geometrically_exact_cables(number):
         assert hop.phi == pytest.approx(phi, abs=0.01)
         assert hop.duration == pytest.approx(duration, rel=0.05)
         assert hop.height == pytest.approx(height, rel=0.05)
+
+
+WHOLE_ROLL = (
+    (4.29846, 0.71979, 0.14904, 2.93e-3), (4.80478, 0.95565, 0.23897, 5.93e-3), (5.23440, 1.27381, 0.24122, 7.42e-3),
+    (5.65625, 1.71838, 0.11053, 3.76e-3), (6.85046, 4.28914, 0.14010, 8.60e-3),
+)  # fmt: skip
+"""(t, phi, duration, height) of flights longer than 0.1 of a hoop released undeformed, by Exudyn 1.13.6, 120 cables of
+8 segments, h = 1e-3. With half the segments and twice the step the first three begin 0.013, 0.001 and 0.008 away, last
+18 to 29 % less and are 6, 10 and 33 % lower; the fourth and the last are others."""
+
+
+def test_a_whole_roll_is_that_of_geometrically_exact_cables():
+    """E I/(m g R^2) = 10 from 10 degrees, k = 0.1, m_h/m = 0.1, undamped: the vibration of its start throws it up at
+    each swing, over the pulse to the next turn. A third of the tolerance moves ours by 0.003, 1 % and 3 % (the
+    last height by 13 %).
+    """
+    scene = Scene(Hoop(k=0.1, r=1.02, mass_ratio=0.1), Friction(0.3, 0.3), Release(radians(10)), Run(t_end=7.0))
+    motion = roll(scene.replace(
+        ring={"bending_stiffness": 10.0}, contact={"law": "brush", "stiffness": 1e7, "damping": 0.0},
+        solve={"level": "chain", "resolve": "all", "start": "undeformed", "rtol": 3e-4},
+    ))  # fmt: skip
+    assert motion.completed
+    flights = [flight for flight in motion.flights if flight.duration > 0.1]
+    for t, phi, duration, height in WHOLE_ROLL:
+        flight = min(flights, key=lambda each: abs(each.t - t))
+        assert flight.t == pytest.approx(t, abs=0.03)
+        assert flight.phi == pytest.approx(phi, abs=0.015)
+        assert flight.duration == pytest.approx(duration, rel=0.12)
+        assert flight.height == pytest.approx(height, rel=0.1 if phi < pi else 0.35)
 
 
 def without_exudyn(scene: Scene, rtol: float) -> list[Rolled]:
