@@ -2,8 +2,8 @@
 
 meshio can write such files too, and a test reads these with it. It is not used because it drops field data,
 where the display factor belongs, and not for its speed alone. Measured on the ring of 240 elements with
-random fields (1440 nodes, 16 doubles each): 4.7 ms and 202 kB a frame with meshio and zlib, 2.8 ms and 153 kB
-here; without compression meshio takes 0.5 ms and 275 kB, which is over 50 MB for 200 frames.
+random fields (1440 nodes, 16 doubles each): 4.9 ms and 226 kB a frame with meshio and zlib, 1.5 ms and 173 kB
+here; without compression meshio takes 0.6 ms and 275 kB, which is over 50 MB for 200 frames.
 """
 
 from __future__ import annotations
