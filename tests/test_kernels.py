@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import gc
 import os
 import re
 import shutil
@@ -45,6 +46,17 @@ print(by_gap(np.full(1, 0.5), foundation, np.zeros(1)), compile_seconds() > 0)
 """
 
 
+OF_WHAT = """
+from numba.core.codegen import JITCodeLibrary
+made, finish = [], JITCodeLibrary._finalize_specific
+JITCodeLibrary._finalize_specific = lambda library: (made.append(library.name), finish(library))
+"""
+CALLED_BY_PYTHON_ALONE = """
+assert "by_gap" in made, made
+assert "sum_by_gaps" not in made, made
+"""
+
+
 def copy_of_the_packages(folder: Path) -> Path:
     """The two solvers, as if installed into ``folder``, with a small kernel; without the face of ``flexible``."""
     for package in ("rigid", "flexible"):
@@ -55,11 +67,11 @@ def copy_of_the_packages(folder: Path) -> Path:
     return folder
 
 
-def run(installation: Path, cache: Path, **environment: str) -> tuple[float, bool, str]:
+def run(installation: Path, cache: Path, program: str = PROGRAM, **environment: str) -> tuple[float, bool, str]:
     """The kernel's result, whether something was compiled for it, and what stderr says; from another folder."""
     variables = {"PYTHONPATH": str(installation), "NUMBA_CACHE_DIR": str(cache), **environment}
     done = subprocess.run(
-        [sys.executable, "-c", PROGRAM],
+        [sys.executable, "-c", program],
         cwd=installation.parent,
         env={**os.environ, **variables},
         capture_output=True,
@@ -111,6 +123,12 @@ def test_a_changed_callee_is_never_served_from_the_cache(tmp_path, warm):
     assert edited != text
     (installation / CALLEE).write_text(edited, encoding="utf-8")
     assert run(installation, cache)[:2] == (-3.0, True)
+
+
+def test_machine_code_is_made_of_what_python_calls(tmp_path):
+    """And of no part of that by itself, which has it made again in each function that calls it."""
+    installation = copy_of_the_packages(tmp_path / "installation")
+    assert run(installation, tmp_path / "cache", OF_WHAT + PROGRAM + CALLED_BY_PYTHON_ALONE)[:2] == (-1.5, True)
 
 
 def test_kernels_beside_a_shared_installation_are_used(tmp_path, warm):
@@ -249,7 +267,9 @@ def test_one_worker_compiles_for_all_what_the_cases_need(monkeypatch):
     for solver, hoop in (("rigid", soft), ("flexible", scene), ("flexible", scene), ("flexible", soft)):
         place.submit(Case(solver, hoop))
     run = workers.run_case
-    assert asked == [run, (prepare, "reduced"), run, run, (prepare, "chain"), run]
+    first, *then = asked
+    assert first == workers._awake  # both processes load, while this one is still busy with what they shall do
+    assert then == [first, run, (prepare, "reduced"), run, run, (prepare, "chain"), run]
 
 
 def test_each_level_is_known_to_be_compiled_by_its_own_step(monkeypatch):
@@ -281,6 +301,23 @@ def test_seconds_of_compiling_are_no_run_time(monkeypatch, caplog):
     assert announce.compile_seconds() - before == 10.0
     assert announce.running_clock() - clock == 5.0
     assert [record.name for record in caplog.records] == ["hoop-pulse"]
+
+
+def test_garbage_is_looked_for_less_often_while_compiling(monkeypatch):
+    """As often as before afterwards, and where nobody looks for it nobody begins to."""
+    monkeypatch.setattr(announce, "_told", {"flexible"})
+    threshold = gc.get_threshold()
+    try:
+        for often in (700, 0):
+            gc.set_threshold(often, 10, 10)
+            announce._begin("flexible")
+            announce._begin("numba")
+            announce._end()
+            assert gc.get_threshold()[0] == (announce._SELDOM if often else 0)
+            announce._end()
+            assert gc.get_threshold() == (often, 10, 10)
+    finally:
+        gc.set_threshold(*threshold)
 
 
 def test_a_process_goes_over_to_compiled_code_sooner_where_there_is_some(monkeypatch):

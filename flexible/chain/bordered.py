@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid.kernel.compile import jit, part
+from rigid.kernel.compile import jit, loop, part
 
 from ..contact.vectors import solved_by
 
@@ -94,7 +94,7 @@ def nothing_factored() -> Any:
     )  # fmt: skip
 
 
-@part
+@loop
 def _invert(matrix: Any, at: int, inverse: Any, to: int) -> None:
     """Inverse of a 3 x 3 block."""
     a, b, c = matrix[at, 0, 0], matrix[at, 0, 1], matrix[at, 0, 2]
@@ -108,7 +108,7 @@ def _invert(matrix: Any, at: int, inverse: Any, to: int) -> None:
     inverse[to, 2, 1], inverse[to, 2, 2] = (b * g - a * h) * scale, (a * e - b * d) * scale
 
 
-@part
+@loop
 def _times(left: Any, right: Any, to: Any, columns: int) -> None:
     """Product of a 3 x 3 block with the first columns of another."""
     for a in range(3):
@@ -117,7 +117,7 @@ def _times(left: Any, right: Any, to: Any, columns: int) -> None:
             to[a, b] = x * right[0, b] + y * right[1, b] + z * right[2, b]
 
 
-@part
+@loop
 def _take(left: Any, right: Any, of: Any, rows: int, columns: int) -> None:
     """Take the product of the first rows of one block with the first columns of another from a third."""
     for a in range(rows):
@@ -126,7 +126,7 @@ def _take(left: Any, right: Any, of: Any, rows: int, columns: int) -> None:
             of[a, b] -= x * right[0, b] + y * right[1, b] + z * right[2, b]
 
 
-@part
+@loop
 def _fades(border: Any, below: Any) -> bool:
     """Whether a section feels nothing any more of the kept one that it borders on."""
     for a in range(3):
@@ -136,7 +136,7 @@ def _fades(border: Any, below: Any) -> bool:
     return True
 
 
-@part
+@loop
 def _eliminate(blocks: Any, i: int, here: int, there: int, factors: Any) -> None:
     """Eliminate one section: what it leaves for later, and what it adds to the next one and to the border."""
     diagonal, columns, rows, corner = blocks.diagonal, blocks.columns, blocks.rows, blocks.corner
@@ -181,7 +181,7 @@ def _turns(keeps: Any) -> tuple[Any, int]:
     return order[:count], far
 
 
-@part
+@loop
 def _border(blocks: Any, here: int, by: Any, of: Any, at: int) -> None:
     """A section borders on the kept one by these off-diagonal blocks: of its forces by that one, and the other way."""
     for a in range(3):

@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid.kernel.compile import jit, part
+from rigid.kernel.compile import jit, loop, part
 
 Array = NDArray[np.float64]
 
@@ -64,7 +64,7 @@ class Rod(NamedTuple):
     pinch: float
 
 
-@jit
+@loop
 def chord(rod: Any, q: Any, p: int) -> tuple[float, float, float, float, float, float]:
     """Direction and length of a part's chord, and the three strains of the part."""
     a1, a2 = rod.place[p + 1, 0] - rod.place[p, 0], rod.place[p + 1, 1] - rod.place[p, 1]
@@ -77,7 +77,7 @@ def chord(rod: Any, q: Any, p: int) -> tuple[float, float, float, float, float, 
     return x1 / now, x2 / now, now, longer, q[p, 2] - alpha, q[p + 1, 2] - alpha
 
 
-@part
+@loop
 def _product(local: Any, e: float, tau_1: float, tau_2: float) -> tuple[float, float, float]:
     s0 = local[0, 0] * e + local[0, 1] * tau_1 + local[0, 2] * tau_2
     s1 = local[1, 0] * e + local[1, 1] * tau_1 + local[1, 2] * tau_2
@@ -85,7 +85,7 @@ def _product(local: Any, e: float, tau_1: float, tau_2: float) -> tuple[float, f
     return s0, s1, s2
 
 
-@part
+@loop
 def directions(t1: float, t2: float, now: float, by: Any) -> None:
     """Derivatives (3, 6) of the strains of a part by the coordinates of its sections."""
     s1, s2 = t1 / now, t2 / now
@@ -95,7 +95,7 @@ def directions(t1: float, t2: float, now: float, by: Any) -> None:
         by[i, 2], by[i, 5] = 2.0 - i, i - 1.0
 
 
-@part
+@loop
 def _stiffen(t1: float, t2: float, pull: float, turn: float, local: Any, by: Any, tangent: Any) -> None:
     """Second derivatives (6, 6) of a part's energy, of the stress ``pull`` and ``turn`` over the chord's length."""
     for k in range(6):
@@ -114,7 +114,7 @@ def _stiffen(t1: float, t2: float, pull: float, turn: float, local: Any, by: Any
             tangent[a + 1, b + 1] += sign * g22
 
 
-@part
+@loop
 def _stress(rod: Any, q: Any, p: int, e: float, tau_1: float, tau_2: float) -> tuple[float, float, float]:
     """Force along the chord and the moments at both ends of a part with these strains."""
     local, last = rod.local[p], rod.local.shape[0] - 1
@@ -200,7 +200,7 @@ def elastic_tangent(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None
     _add_across(rod, q, up[last], down[last])
 
 
-@part
+@loop
 def strain_energy(rod: Any, q: Any) -> float:
     """Strain energy of the chain, see :func:`elastic`."""
     energy = 0.0

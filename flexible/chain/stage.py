@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit, part, written_out
+from rigid.kernel.compile import jit, part
 
 from ..contact.forces import contact_forces
 from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by, moved_damper
@@ -269,4 +269,4 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
     return found
 
 
-solved, solved_in_step = jit(_solved), written_out(_solved)
+solved, solved_in_step = jit(_solved), part(_solved)

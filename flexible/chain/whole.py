@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel.compile import jit, part, written_out
+from rigid.kernel.compile import jit, part
 
 from ..contact.vectors import largest, times
 from .bordered import FRAME, no_blocks, solve
@@ -40,7 +40,7 @@ def balance(chain: Any, pos: Any, vel: Any, acc: Any) -> Any:
     return q, frame, force
 
 
-@written_out
+@part
 def tangent(chain: Any, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     """Derivatives of the forces of :func:`balance` by an increment."""
     q = sections(pos)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Scene
-from rigid.kernel.compile import jit, loop, part, written_out
+from rigid.kernel.compile import jit, loop, part
 
 from ..contact.points.data import Before, Damper, Parameters
 from ..contact.points.data import Rim as NearFloor
@@ -125,7 +125,7 @@ def _solved(
     return found
 
 
-solved, solved_in_step = jit(_solved), written_out(_solved)
+solved, solved_in_step = jit(_solved), part(_solved)
 
 
 @part

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import loop, written_out
+from rigid.kernel.compile import loop, part
 
 from ..contact.forces import contact_forces
 from ..contact.guess import GUESSES, as_deep, guess_again
@@ -99,7 +99,7 @@ def _assemble(matrix: Any, own: Any, contact: Any, window: Window, scale: float)
         matrix[k, k] += scale
 
 
-@written_out
+@part
 def solve_stage(
     frame: Frame, window: Window, law: Parameters, mode: int, before: Before, damper: Damper, predictor: Predictor,
     start: From,
@@ -179,7 +179,7 @@ def solve_stage(
     return Solved(iterations, d, reached(predictor, d)[2], u, (matrix, order), contact)
 
 
-@written_out
+@part
 def filtered_error(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float, factors: Any, error: Any) -> Any:
     """The error of the velocities as the step itself passes it on: (M + beta C + beta^2 K)^-1 M times it.
 

@@ -6,6 +6,7 @@ as on a terminal.
 
 from __future__ import annotations
 
+import gc
 import logging
 import threading
 import time
@@ -14,9 +15,14 @@ from typing import Any
 
 SOLVERS = ("rigid", "flexible")
 
+_SELDOM = 10_000
+"""New objects between two searches for garbage while compiling. Most of what it makes lives until it is done: after
+every 700, as Python has it, a tenth of the time goes into finding that."""
+
 _logger = logging.getLogger("hoop-pulse")
 _told: set[str] = set()
 _thread = threading.local()
+_before: list[tuple[int, ...]] = []  # how often garbage was searched for
 
 
 @cache
@@ -43,6 +49,7 @@ def _begin(package: str) -> None:
     if depth == 0:
         _thread.ours = ours = package in SOLVERS
         _thread.start = time.perf_counter()
+        _search_seldom()
     _thread.depth = depth + 1
     if depth == 0 and ours and package not in _told:
         from .store import user_cache
@@ -50,7 +57,7 @@ def _begin(package: str) -> None:
         _told.add(package)
         folder, trouble = user_cache()
         _logger.warning(
-            "hoop: compiling the %s solver for this machine, once: half a minute, or two if it is busy. Kept in %s%s.",
+            "hoop: compiling the %s solver for this machine, once: 20 to 40 s, or more if it is busy. Kept in %s%s.",
             package,
             folder,
             f", as {trouble}" if trouble else "",
@@ -59,8 +66,22 @@ def _begin(package: str) -> None:
 
 def _end() -> None:
     _thread.depth -= 1
+    if _thread.depth == 0:
+        _search_as_before()
     if _thread.depth == 0 and _thread.ours:
         _thread.seconds = compile_seconds() + time.perf_counter() - _thread.start
+
+
+def _search_seldom() -> None:
+    often, *later = gc.get_threshold()
+    if 0 < often < _SELDOM:
+        _before.append((often, *later))
+        gc.set_threshold(_SELDOM, *later)
+
+
+def _search_as_before() -> None:
+    if _before:
+        gc.set_threshold(*_before.pop())
 
 
 def compiling() -> bool:

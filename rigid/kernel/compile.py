@@ -120,7 +120,8 @@ def compiled() -> dict[str, Callable[..., Any]]:
         twin = moved(function, place, scopes[-1])
         entry = name.startswith("entry_")
         # the kernels make no arrays: without counted references, which cost a third of their time
-        twins[name] = _compiler(twin, keep=entry, nogil=True, _nrt=False, no_cpython_wrapper=not entry)
+        options = {"nogil": True, "_nrt": False}
+        twins[name] = _compiler(twin, True, **options) if entry else _compiler(twin, False, **_as_part(), **options)
     for scope in scopes:
         scope.update(twins)
     return twins
@@ -146,7 +147,7 @@ def part(function: F, module: str = "", **instead: Any) -> F:
     from numba.extending import register_jitable
 
     text: Any = _at_home(function, module, instead) if instead else function
-    marked: F = register_jitable(**_OPTIONS, no_cpython_wrapper=True)(text)
+    marked: F = register_jitable(**_OPTIONS, **_as_part())(text)
     return marked
 
 
@@ -158,7 +159,7 @@ def loop(function: F) -> F:
     """
     from numba.extending import register_jitable
 
-    marked: F = register_jitable(**{**_OPTIONS, "_nrt": False}, no_cpython_wrapper=True)(function)
+    marked: F = register_jitable(**{**_OPTIONS, "_nrt": False}, **_as_part())(function)
     return marked
 
 
@@ -170,22 +171,74 @@ def in_loops(text: Callable[..., Any], **options: bool) -> Callable[[F], F]:
     from numba.extending import overload
 
     def mark(function: F) -> F:
-        jit_options: Any = {**_OPTIONS, "no_cpython_wrapper": True, **options}
+        jit_options: Any = {**_OPTIONS, **_as_part(), **options}
         overload(function, jit_options=jit_options, strict=False)(lambda *_: text)
         return function
 
     return mark
 
 
-def written_out(function: F) -> F:
-    """Mark a function that is written out in the compiled functions that call it.
+def _as_part() -> dict[str, Any]:
+    """Options of a function that compiled code alone calls."""
+    return {"no_cpython_wrapper": True, "pipeline_class": _compiler_of_parts()}
 
-    For one that is little but a call of a large function: on its own it would have all of that compiled once more.
+
+@cache
+def _compiler_of_parts() -> type:
+    """numba's compiler, but of a part its intermediate code is all that is made.
+
+    numba optimises each function by itself, with all that it calls, and makes machine code of it. Nothing runs that
+    where the function is only called by compiled ones: they take its intermediate code and do both again. With
+    functions that call each other eight deep that is half of LLVM's work.
     """
-    import numba
+    from numba._dynfunc import make_function
+    from numba.core.codegen import JITCodeLibrary
+    from numba.core.compiler import CompilerBase, DefaultPassBuilder, _LowerResult
+    from numba.core.compiler_machinery import register_pass
+    from numba.core.typed_passes import NativeLowering
 
-    marked: Any = numba.njit(inline="always", **_OPTIONS)(_at_home(function, "", {}))
-    return marked
+    class Code(JITCodeLibrary):
+        """For callers to link and to optimise; the engine that runs machine code never sees it."""
+
+        def _optimize_final_module(self) -> None:
+            pass
+
+        def _finalize_final_module(self) -> None:
+            self._finalize_dynamic_globals()
+            self._verify_declare_only_symbols()
+            self._finalized = True
+
+    @register_pass(mutates_CFG=True, analysis_only=False)
+    class Lowering(NativeLowering):
+        """To such code, of which callers are told."""
+
+        _name = "native_lowering_of_a_part"
+
+        def run_pass(self, state: Any) -> bool:
+            code = state.library = Code(state.targetctx.codegen(), state.func_id.func_qualname)
+            code.enable_object_caching()
+            state.flags.no_compile = True
+            super().run_pass(state)
+            code.finalize()
+            made, described = state.cr, state.cr.fndesc
+            # what callers know the part by: an entry without an address
+            entry = make_function(described.lookup_module(), state.func_id.func_name, "", 0, made.env, (code,))
+            state.targetctx.insert_user_function(entry, described, [code])
+            state.reload_init.extend(code._reload_init)
+            state.cr = _LowerResult(described, made.call_helper, cfunc=entry, env=made.env)
+            return True
+
+    class Parts(CompilerBase):
+        """numba's passes, the last of them as above."""
+
+        def define_pipelines(self) -> list[Any]:
+            passes = DefaultPassBuilder.define_nopython_pipeline(self.state, "a part")
+            place = [each for each, _ in passes.passes].index(NativeLowering)
+            passes.passes[place] = (Lowering, "to intermediate code")
+            passes.finalize()
+            return [passes]
+
+    return Parts
 
 
 def _at_home(function: Callable[..., Any], module: str, instead: dict[str, Any]) -> FunctionType:
@@ -205,7 +258,7 @@ def _home_of(module: str, file: str) -> Path:
     return home(module, fingerprint([file]))
 
 
-def _compiler(function: FunctionType, keep: bool, nogil: bool = False, **options: bool) -> Any:
+def _compiler(function: FunctionType, keep: bool, **options: Any) -> Any:
     """Compiled lazily, with a cache on disk if ``keep``."""
     import numba
 
@@ -215,4 +268,4 @@ def _compiler(function: FunctionType, keep: bool, nogil: bool = False, **options
     tell()
     with beside_the_source():
         compiler: Any = numba.njit
-        return compiler(cache=keep, nogil=nogil, **{**_OPTIONS, **options})(function)
+        return compiler(cache=keep, **{**_OPTIONS, **options})(function)

@@ -125,32 +125,33 @@ def stiffness(
 def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool, place: Pool) -> StudyError | None:
     """All that a study leaves, the page last: what it names is there. What kept the fields from being written.
 
-    Figures and fields are made side by side.
+    Figures and fields are made side by side, what takes longest first.
     """
     from ..running.progress import bar
-    from ..stiffness.figures import FIGURES, write_figure
-    from ..stiffness.report import stiffness_report
-    from .shared.output import write_first_pulse, write_frame
+    from ..stiffness.report import CAPTIONS, stiffness_report, write_figure
+    from .shared.output import write_first_pulse
 
     page = target / "report.html"
     page.unlink(missing_ok=True)
-    numbers = [write_text(target / "study.json", to_json(found.to_dict()))]
-    numbers.insert(0, write_frame(found.to_dataframe(), target / "study.csv"))
-    drawn = {name: place.beside(write_figure, found, name, target) for name in FIGURES}
-    lost, beside = None, []
-    if fields:
-        try:
-            with bar("fields of the first pulse") as progress:
-                write_first_pulse(found.scene, target, progress)
-            beside.append(f"fields.pvd: the ring at the scene's own stiffness; hoop view {target}, ParaView, pyvista")
-        except StudyError as error:
-            lost = error
-    images = {}
-    with bar("figures") as progress:
+    written = place.beside(write_first_pulse, found.scene, target) if fields else None
+    drawn = {name: place.beside(write_figure, found, name, target) for name in CAPTIONS}
+    numbers = [
+        write_text(target / "study.csv", found.to_csv()),
+        write_text(target / "study.json", to_json(found.to_dict())),
+    ]
+    images, lost, beside = {}, None, []
+    with bar("figures and fields") as progress:
         for number, (name, figure) in enumerate(drawn.items(), 1):
             if (image := figure.result()) is not None:
                 images[name] = image
-            progress(number / len(drawn))
+            progress(number / (len(drawn) + fields))
+        if written is not None:
+            try:
+                written.result()
+                where = f"hoop view {target}, ParaView, pyvista"
+                beside.append(f"fields.pvd: the ring at the scene's own stiffness; {where}")
+            except StudyError as error:
+                lost = error
     stiffness_report(found, images, line, page, numbers, beside)
     return lost
 

@@ -9,8 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf, sqrt
 
-from scipy.optimize import brentq
-
 from .march import BRUSH, REGULARISED, ScaledContact
 
 
@@ -65,4 +63,6 @@ def sticking_part(mu_s: float, mu: float, ratio: float) -> float:
         return strongest
     if mu_s == mu:
         return float((1 - ratio / mu) ** (1 / 3))
+    from scipy.optimize import brentq
+
     return float(brentq(lambda b: carried(b) - ratio, strongest, 1.0, xtol=1e-15))

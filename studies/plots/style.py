@@ -6,11 +6,14 @@ Colours are told apart by every kind of colour vision: the rigid hoop is black, 
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import matplotlib
 import numpy as np
+from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -31,6 +34,8 @@ STYLE: Any = {
     "lines.linewidth": 1.4,
     "savefig.facecolor": "white",
 }
+
+AnyCanvas = TypeVar("AnyCanvas", bound=FigureCanvasBase)
 
 RIGID = "black"
 UNDER: Any = {"linewidth": 3.2, "zorder": 1.8}
@@ -74,11 +79,29 @@ def panels_on(axes: Any, count: int, size: tuple[float, float]) -> NDArray[np.ob
 
 
 def save(figure: Figure, path: Path) -> Path:
-    """Write a figure, as PNG or SVG by its suffix, whole or not at all; the same figure is the same file."""
+    """Write a figure, as PNG or SVG by its suffix, whole or not at all; the same figure is the same file.
+
+    The canvases print themselves: ``savefig`` draws everything once more beforehand, to no avail but that of a bounding
+    box that is not asked for here.
+    """
     if path.suffix == ".svg":
-        with matplotlib.rc_context({"svg.hashsalt": path.stem}):
-            return write_whole(path, lambda part: figure.savefig(part, format="svg", metadata={"Date": None}))
-    return write_whole(path, lambda part: figure.savefig(part, format="png", dpi=150))
+        from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+        with matplotlib.rc_context({"svg.hashsalt": path.stem}), _on(FigureCanvasSVG(figure), 72) as canvas:
+            return write_whole(path, lambda part: canvas.print_svg(part, metadata={"Date": None}))
+    with _on(FigureCanvasAgg(figure), 150) as canvas:
+        return write_whole(path, canvas.print_png)
+
+
+@contextmanager
+def _on(canvas: AnyCanvas, dpi: float) -> Iterator[AnyCanvas]:
+    """A canvas with its figure at a resolution, which it has for as long as that."""
+    figure = canvas.figure
+    before, figure.dpi = figure.dpi, dpi
+    try:
+        yield canvas
+    finally:
+        figure.dpi = before
 
 
 def save_both(figure: Figure, path: Path) -> Path:

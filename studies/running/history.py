@@ -10,7 +10,6 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from flexible import History
 from rigid import Motion, Pulse, Scene, States
 from rigid.output.units import units_of
 
@@ -66,6 +65,8 @@ def whole(motion: Motion) -> Columns:
 
 def dimensionless(columns: Columns, scene: Scene) -> Columns:
     """Columns in the paper's scaling, whatever the units of the scene; angles and shares stay as they are."""
+    from flexible import History
+
     units = units_of(States) | units_of(History)
     return {name: values / units[name].of(scene) for name, values in columns.items()}
 

@@ -17,6 +17,9 @@ from .solvers import levels_of, missing, prepare, version
 
 T = TypeVar("T")
 
+_EARLY = 4
+"""So many processes begin at once, before there is anything for them to do; the others with their first case."""
+
 _DEATHS = 3
 """A case whose worker has died this often is not tried again."""
 
@@ -69,6 +72,8 @@ class Machine:
         self._count = workers
         self._processes = Processes(workers)
         self._ready: set[str] = set()
+        for _ in range(min(workers, _EARLY)):
+            self._processes.submit(_awake)
 
     def submit(self, case: Case) -> Future[Outcome]:
         if case.solver == "flexible":
@@ -86,6 +91,11 @@ class Machine:
 
     def stop(self) -> None:
         self._processes.stop()
+
+
+def _awake() -> None:
+    """Load what cases take, while the process that has them is still finding out what they are."""
+    import flexible  # noqa: F401
 
 
 class Cluster:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from pathlib import Path
 
 import matplotlib
 import numpy as np
@@ -13,21 +12,9 @@ from rigid import Motion, Pulse, simulate
 
 from ..plots.difference import at_the_same_angle, at_the_same_normal_impulse, impulses_along, passage_of
 from ..plots.pulse import Curve, energy, impulses, pulse
-from ..plots.style import RIGID, STYLE, blank, colours, power_of_ten, save_both
+from ..plots.style import RIGID, STYLE, blank, colours, power_of_ten
 from ..running.history import dimensionless
 from .found import Rung, StiffnessStudy
-
-
-def write_figure(study: StiffnessStudy, name: str, folder: Path) -> Path | None:
-    """Write one of ``FIGURES`` as PNG and SVG.
-
-    Returns
-    -------
-    Path or None
-        The SVG; none where the study has nothing to draw in it.
-    """
-    figure = FIGURES[name](study)
-    return None if figure is None else save_both(figure, folder / name)
 
 
 def forces(study: StiffnessStudy) -> Figure:

@@ -13,6 +13,7 @@ from rigid import Scene, scene_to_dict
 from rigid.output import summary
 
 from ..running.case import SHARE, Outcome
+from ..running.history import rows_to_csv
 from ..running.measures import MEASURES
 from .coefficient import Coefficient, coefficient
 from .ladder import Ladder
@@ -189,19 +190,31 @@ class StiffnessStudy:
 
         return draw({name: self.distance(name) for name in names or LIMITS[:2]}, axes)
 
-    def to_dataframe(self) -> pandas.DataFrame:
-        """A row for each rung: its stiffness, the first pulse's measures, or why there are none."""
-        import pandas
-
-        return pandas.DataFrame(
+    def records(self) -> list[dict[str, Any]]:
+        """A flat record for each rung: its stiffness, the first pulse's measures, or why there are none."""
+        nothing: dict[str, float] = dict.fromkeys(self.reference.pulses[0], nan)
+        return [
             {
                 "bending_stiffness": rung.bending_stiffness,
                 "contact_stiffness": rung.contact_stiffness,
+                **nothing,
                 **(rung.outcome.pulses[0] if rung.outcome.pulses else {}),
                 "failure": rung.outcome.failure,
             }
             for rung in self.rungs
-        )
+        ]
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """The records as a pandas data frame."""
+        import pandas
+
+        return pandas.DataFrame.from_records(self.records())
+
+    def to_csv(self) -> str:
+        """The records as text, numbers to the last bit."""
+        records = self.records()
+        told = ([("" if value != value else value) for value in record.values()] for record in records)  # NaN is empty
+        return rows_to_csv(list(records[0]), told)
 
     def __repr__(self) -> str:
         return summary.text(self._title(), self._lines())

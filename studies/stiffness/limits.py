@@ -12,10 +12,9 @@ from math import hypot, inf, isfinite, nan, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import minimize_scalar
 from scipy.special import stdtrit
 
-from .series import extrapolated, fewest
+from .series import extrapolated, fewest, inferred_series
 
 Array = NDArray[np.float64]
 
@@ -207,6 +206,8 @@ def _fit(s: Array, y: Array, error: Array, exponent: float | None) -> tuple[floa
 
     if exponent is None:
         grid = np.linspace(*_RATES, 60)
+        from scipy.optimize import minimize_scalar
+
         costs = [_cost(solve(p)) for p in grid]
         i = int(np.argmin(costs))
         bounds = (grid[max(i - 1, 0)], grid[min(i + 1, grid.size - 1)])
@@ -288,8 +289,7 @@ def fitted_series(
         return None
     x, v, e = (np.asarray(values, float)[stiff] for values in (s, y, error))
     along = np.geomspace(x[0], x[-1], points)
-    fitted = [extrapolated(x, v, e, limit.exponents, CONFIDENCE, to=there).value for there in along]
-    return along, np.array(fitted)
+    return along, inferred_series(x, v, e, limit.exponents, along)
 
 
 def _span(values: Array, error: ArrayLike | None) -> float:

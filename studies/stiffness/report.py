@@ -43,7 +43,23 @@ leading powers as predicted from the rigid motion, without any of the cases, and
     "energy": """\
 Where the energy is and where it goes; below, the small terms on a logarithmic axis.""",
 }
-"""What stands under each figure."""
+"""What stands under each figure, in their order."""
+
+
+def write_figure(study: StiffnessStudy, name: str, folder: Path) -> Path | None:
+    """Write the figure of one of ``CAPTIONS`` as PNG and SVG.
+
+    Returns
+    -------
+    Path or None
+        The SVG; none where the study has nothing to draw in it.
+    """
+    from ..plots.style import save_both
+    from .figures import FIGURES
+
+    figure = FIGURES[name](study)
+    return None if figure is None else save_both(figure, folder / name)
+
 
 FOUND = """\
 <h2>The limit of the first pulse</h2>

@@ -14,7 +14,6 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 from scipy.special import ndtr
 
 Array = NDArray[np.float64]
@@ -42,9 +41,9 @@ class Extrapolated(NamedTuple):
 class _Posterior(NamedTuple):
     """For each choice of the coefficients' size and the errors'."""
 
-    evidence: Array  # logarithm, up to a constant
-    mean: Array
-    deviation: Array
+    evidence: Array  # (cases,) logarithm, up to a constant
+    mean: Array  # (cases, m)
+    deviation: Array  # (cases, m)
 
 
 def fewest(exponents: Sequence[float]) -> int:
@@ -90,9 +89,7 @@ def extrapolated(
     Extrapolated
         With fewer than ``FEWEST`` cases its uncertainty is infinite and the value the last one.
     """
-    x, v, e = np.asarray(s, float), np.asarray(y, float), np.nan_to_num(np.abs(np.asarray(error, float)))
-    use = np.isfinite(v)
-    x, v, e = x[use], v[use], e[use]
+    x, v, e = _finite(s, y, error)
     if v.size < FEWEST:
         return Extrapolated(float(v[-1]) if v.size else nan, inf)
     span = float(np.ptp(v))
@@ -100,6 +97,25 @@ def extrapolated(
         return Extrapolated(float(v[-1]), float(e.max()))
     powers, there = terms(x / x[0], exponents), terms(to / x[0], exponents)
     return _inferred(v, e, _SIZES * span, powers, np.append(1.0, there), confidence)
+
+
+def inferred_series(s: ArrayLike, y: ArrayLike, error: ArrayLike, exponents: Sequence[float], to: Array) -> Array:
+    """The values of :func:`extrapolated` at many s (n,), without their uncertainty."""
+    x, v, e = _finite(s, y, error)
+    span = float(np.ptp(v)) if v.size else 0.0
+    if v.size < FEWEST or span == 0:
+        return np.full(len(to), v[-1] if v.size else nan)
+    there = np.column_stack([np.ones(len(to)), terms(to / x[0], exponents)])
+    likely, means, _ = _weighed(v - v[-1], e, _SIZES * span, terms(x / x[0], exponents), there)
+    found: Array = likely @ means + v[-1]
+    return found
+
+
+def _finite(s: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[Array, Array, Array]:
+    """The cases whose measure is finite."""
+    x, v, e = np.asarray(s, float), np.asarray(y, float), np.nan_to_num(np.abs(np.asarray(error, float)))
+    use = np.isfinite(v)
+    return x[use], v[use], e[use]
 
 
 def leading_part(
@@ -110,9 +126,7 @@ def leading_part(
     The powers behind them, which a distance divided by its leading power has in it too, are inferred with them and left
     out. Parameters as of :func:`extrapolated`; with fewer than ``FEWEST`` - 1 cases the uncertainty is infinite.
     """
-    x, d, e = np.asarray(s, float), np.asarray(distance, float), np.nan_to_num(np.abs(np.asarray(error, float)))
-    use = np.isfinite(d)
-    x, d, e = x[use], d[use], e[use]
+    x, d, e = _finite(s, distance, error)
     span = float(np.max(np.abs(d), initial=0.0))
     if d.size < FEWEST - 1 or span == 0:
         return Extrapolated(float(d[-1]) if d.size else nan, inf)
@@ -126,16 +140,11 @@ def _inferred(
 ) -> Extrapolated:
     """A linear functional of L and the coefficients, over all sizes of these and of the errors; where L is not in it, L
     is known and 0."""
-    free = bool(functional[0])
-    origin = float(y[-1]) if free else 0.0
-    understated, size = (grid.ravel() for grid in np.meshgrid(_UNDERSTATED, sizes))
-    common = understated[:, None] * error
-    own = np.hypot(common, _ROUND_OFF * float(np.ptp(sizes)))
-    weighed = np.concatenate([np.full((size.size, 1), functional[0]), size[:, None] * functional[1:]], axis=1)
-    evidence, means, deviations = _posterior(y - origin, common, own, size[:, None, None] * powers, weighed)
-    weights = evidence - np.log(understated)
-    likely = np.exp(weights - weights.max())
-    likely /= likely.sum()
+    from scipy.optimize import brentq  # by whoever infers, and not by every process that is told
+
+    origin = float(y[-1]) if functional[0] else 0.0
+    likely, several, spread = _weighed(y - origin, error, sizes, powers, functional[None])
+    means, deviations = several[:, 0], spread[:, 0]
     middle = float(likely @ means)
 
     def outside(half: float) -> float:
@@ -146,14 +155,30 @@ def _inferred(
     return Extrapolated(middle + origin, float(brentq(outside, 0.0, widest, rtol=1e-6)))
 
 
-def _posterior(y: Array, common: Array, own: Array, powers: Array, functional: Array) -> _Posterior:
+def _weighed(
+    y: Array, error: Array, sizes: Array, powers: Array, functionals: Array
+) -> tuple[Array, Array, Array]:  # fmt: skip
+    """How likely each choice of sizes is, (cases,), and what each makes of linear functionals (m, 1 + TERMS): means and
+    deviations, (cases, m)."""
+    understated, size = (grid.ravel() for grid in np.meshgrid(_UNDERSTATED, sizes))
+    common = understated[:, None] * error
+    own = np.hypot(common, _ROUND_OFF * float(np.ptp(sizes)))
+    weighed = np.repeat(functionals[None], size.size, axis=0)
+    weighed[:, :, 1:] *= size[:, None, None]
+    evidence, means, deviations = _posterior(y, common, own, size[:, None, None] * powers, weighed)
+    weights = evidence - np.log(understated)
+    likely = np.exp(weights - weights.max())
+    return likely / likely.sum(), means, deviations
+
+
+def _posterior(y: Array, common: Array, own: Array, powers: Array, functionals: Array) -> _Posterior:
     """Least squares for L, the coefficients and the common error, the latter two of unit size beforehand.
 
-    ``common`` and ``own`` are (cases, n) errors, ``powers`` (cases, n, TERMS), ``functional`` (cases, 1 + TERMS); a
-    case is one choice of sizes. L is no unknown where the functional does not have it.
+    ``common`` and ``own`` are (cases, n) errors, ``powers`` (cases, n, TERMS), ``functionals`` (cases, m, 1 + TERMS); a
+    case is one choice of sizes. L is no unknown where the functionals do not have it.
     """
     cases, n, count = powers.shape
-    free = int(bool(functional[0, 0]))
+    free = int(bool(functionals[0, 0, 0]))
     unknowns = free + count + 1
     design = np.zeros((cases, n + count + 1, unknowns))
     if free:
@@ -164,9 +189,9 @@ def _posterior(y: Array, common: Array, own: Array, powers: Array, functional: A
     right = np.concatenate([y / own, np.zeros((cases, count + 1))], axis=1)[..., None]
     orthogonal, upper = np.linalg.qr(design)
     along = np.swapaxes(orthogonal, 1, 2) @ right
-    asked = np.zeros((cases, unknowns, 1))
-    asked[:, :-1, 0] = functional[:, 1 - free :]
+    asked = np.zeros((cases, unknowns, functionals.shape[1]))
+    asked[:, :-1] = np.swapaxes(functionals[:, :, 1 - free :], 1, 2)
     reach = np.linalg.solve(np.swapaxes(upper, 1, 2), asked)
     left = np.square(right - orthogonal @ along).sum(axis=(1, 2))
     sizes = np.log(np.abs(np.diagonal(upper, axis1=1, axis2=2))).sum(axis=1) + np.log(own).sum(axis=1)
-    return _Posterior(-left / 2 - sizes, (reach * along).sum(axis=(1, 2)), np.linalg.norm(reach, axis=(1, 2)))
+    return _Posterior(-left / 2 - sizes, (reach * along).sum(axis=1), np.linalg.norm(reach, axis=1))

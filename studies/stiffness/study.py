@@ -93,6 +93,8 @@ def stiffness_study(
     # 2. what is foreseen of the rungs
     foreseen, separate = _prediction(scene, ladder, solver)
 
+    import scipy.optimize  # noqa: F401  what the limits take, while other processes are still loading what cases take
+
     # 3. the flexible hoop on every rung, as finely as its distance from the rigid one asks for
     scenes = ladder.rungs(scene)
     pulse = reference.pulses[0]

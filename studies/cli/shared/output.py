@@ -66,7 +66,7 @@ def field_wishes(frames: int | None = None, times: str | None = None, only: str 
     return wishes
 
 
-def write_fields(motion: Motion, out: Path, progress: Callable[[float], None], **wishes: Any) -> None:
+def write_fields(motion: Motion, out: Path, progress: Callable[[float], None] | None = None, **wishes: Any) -> None:
     """The ring's displacement, stress and the rest as ``fields.pvd`` and its frames.
 
     Parameters
@@ -75,7 +75,7 @@ def write_fields(motion: Motion, out: Path, progress: Callable[[float], None], *
         A flexible motion with its history.
     out : Path
         Folder of the series.
-    progress : callable
+    progress : callable, optional
         Told the fraction done.
     **wishes
         From :func:`field_wishes`; by default all fields through the first pulse.
@@ -99,12 +99,12 @@ def write_fields(motion: Motion, out: Path, progress: Callable[[float], None], *
         raise StudyError(trouble(error, out)) from None
 
 
-def write_first_pulse(scene: Scene, out: Path, progress: Callable[[float], None]) -> None:
+def write_first_pulse(scene: Scene, out: Path) -> None:
     """Run the scene's first pulse, at the scene's own stiffness, and write its fields."""
     from flexible import simulate
 
     motion = simulate(scene.replace(run=Run(until="pulse")), history=True)
-    write_fields(motion, out, progress)
+    write_fields(motion, out)
 
 
 def write_mesh(scene: Scene, path: Path) -> str:
