@@ -23,6 +23,9 @@ F = TypeVar("F", bound=Callable[..., Any])
 _OPTIONS: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True, "_nrt": True}
 _REGISTER: dict[str, FunctionType] = {}
 
+_OLDEST, _NEXT = (0, 61), (0, 69)
+"""numba from and before which :func:`_compiler_of_parts` knows its insides; others compile longer, to the same code."""
+
 
 def kernel(function: F) -> F:
     """Mark a function for compilation, under a name that no other kernel has."""
@@ -180,7 +183,12 @@ def in_loops(text: Callable[..., Any], **options: bool) -> Callable[[F], F]:
 
 def _as_part() -> dict[str, Any]:
     """Options of a function that compiled code alone calls."""
-    return {"no_cpython_wrapper": True, "pipeline_class": _compiler_of_parts()}
+    options: dict[str, Any] = {"no_cpython_wrapper": True}
+    from numba import version_info
+
+    if _OLDEST <= version_info.short < _NEXT:
+        options["pipeline_class"] = _compiler_of_parts()
+    return options
 
 
 @cache
@@ -224,7 +232,8 @@ def _compiler_of_parts() -> type:
             # what callers know the part by: an entry without an address
             entry = make_function(described.lookup_module(), state.func_id.func_name, "", 0, made.env, (code,))
             state.targetctx.insert_user_function(entry, described, [code])
-            state.reload_init.extend(code._reload_init)
+            if hasattr(code, "_reload_init"):
+                state.reload_init.extend(code._reload_init)
             state.cr = _LowerResult(described, made.call_helper, cfunc=entry, env=made.env)
             return True
 
