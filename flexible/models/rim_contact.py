@@ -19,19 +19,13 @@ Array = NDArray[np.float64]
 
 
 LEAST = 8  # points to a patch: with fewer the force of a patch that moves is noise
-KNOWN = 1e-4  # of rtol: errors of forces are that much less than what a step is allowed
-FINEST, ROUGHEST = 1e-9, 1e-7  # of forces over 1 + N
+KNOWN = 1e-9  # of 1 + N: Newton's tolerance on forces
 COARSE = 1e-3  # rtol at which a law has its number of points; their share of the error falls like its cube, and faster
 
 
 def points_to_a_patch(law: type[Law], rtol: float) -> int:
     """Contact points by which a patch under the weight is as accurate as a tolerance asks for."""
     return ceil(max(LEAST, law.points * (COARSE / rtol) ** (1 / 3)))
-
-
-def known(rtol: float) -> float:
-    """Newton's tolerance on forces, over 1 + N, for a motion with the tolerance ``rtol``."""
-    return min(max(KNOWN * rtol, FINEST), ROUGHEST)
 
 
 def contact_law(scene: Scene, elements: int, points: int | None = None, within: float = 0.0) -> Law:
@@ -51,7 +45,7 @@ def contact_law(scene: Scene, elements: int, points: int | None = None, within: 
         mu_s=float(friction.mu_s),
         mu=float(friction.mu),
         slip_scale=float(contact.slip_velocity_scale),
-        known=known(scene.solve.rtol),
+        known=KNOWN,
     )
     return law(parameters)
 

@@ -18,9 +18,8 @@ from flexible.time.methods import METHODS
 
 
 def rolling(scene, level=ReducedHoop):
-    """The hoop in the equilibrium of its release, at the bottom of a swing; Newton goes to 1e-9 of its forces."""
+    """The hoop in the equilibrium of its release, at the bottom of a swing."""
     hoop = level(scene)
-    hoop.law.parameters = hoop.law.parameters._replace(known=1e-9)
     return hoop, hand_over(hoop, rigid.simulate(scene), 0.0)
 
 
