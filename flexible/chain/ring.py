@@ -4,8 +4,7 @@ Each part is a rod with the compliance that :mod:`flexible.chain.section` measur
 bending within it; :mod:`flexible.chain.corotated` makes it turn and move far. What a rod lacks, the giving way of the
 wall right under a load on the rim, is a static compliance: that of the mesh minus that of the undeformed chain, for
 rim nodes near each other. The chain's answer to small loads on the rim is therefore that of the mesh to round-off; what
-is left is the square of the rotation within a part, the inertia of what is smaller than one, and the strain that
-is not small (a wall bent to the radius r strains by half a wall over r).
+is left is the square of the rotation within a part, the inertia of what is smaller, and strain that is not small.
 """
 
 from __future__ import annotations
@@ -215,10 +214,11 @@ class _Shape:
     def within(self) -> float:
         """What the wall gives way by under a unit pressure, nodes there or none; R at E b = 1.
 
-        Waves of pressure of length l dent a half-plane by l/(pi E b) times themselves, and nodes h apart carry none
-        shorter than 2 h: a stiff floor would meet elements as sides of a polygon. The contact has a share of that.
+        Waves of pressure of length l dent a half-plane, to which a wall of two waves comes near, by l/(pi E b) times
+        themselves; nodes h apart carry none below 2 h: elements were sides of a polygon. The contact has a share of it.
         """
-        return WITHIN * 2 * (2 * pi / len(self.nodes.part)) / pi
+        h, mesh = 2 * pi / len(self.nodes.part), self.ring.mesh
+        return WITHIN * 2 * h / pi if mesh.outer - mesh.inner > 4 * h else 0.0
 
     @cached_property
     def missing(self) -> Array:
