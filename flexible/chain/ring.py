@@ -212,10 +212,10 @@ class _Shape:
 
     @property
     def within(self) -> float:
-        """What the wall gives way by under a unit pressure, nodes there or none; R at E b = 1.
+        """What the wall gives way by under a unit pressure, nodes there or none; R at E b = 1. 0 if it is below 4 h.
 
-        Waves of pressure of length l dent a half-plane, to which a wall of two waves comes near, by l/(pi E b) times
-        themselves; nodes h apart carry none below 2 h: elements were sides of a polygon. The contact has a share of it.
+        A half-plane, which a thicker wall is to them, is dented by waves of pressure of length l by l/(pi E b) times
+        themselves. Nodes h apart carry none below 2 h, by which elements were sides of a polygon: a share of that.
         """
         h, mesh = 2 * pi / len(self.nodes.part), self.ring.mesh
         return WITHIN * 2 * h / pi if mesh.outer - mesh.inner > 4 * h else 0.0
