@@ -45,9 +45,9 @@ def breaks_loose(res: Resultants, stuck: float, halved: int) -> bool:
 
     It may pass the bristles' reach on both sides; and where all slide nothing tells where they would stick. A patch
     that does break loose still does so after a 64th of the step. The last points to stick, at an edge, are let go at
-    once: what they pull is nothing.
+    once: what they pull is nothing. A patch whose N the damper has taken away, or made a pull, holds nothing at all.
     """
-    return bool(stuck > FEW and res.stuck == 0 and res.elastic > 0 and halved < HALVINGS)
+    return bool(stuck > FEW and res.stuck == 0 and res.normal > 0 and halved < HALVINGS)
 
 
 @loop

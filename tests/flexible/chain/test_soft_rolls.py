@@ -65,6 +65,22 @@ def test_a_brush_that_breaks_loose_is_rolled_on():
 
 
 @pytest.mark.slow
+def test_a_brush_that_its_damper_lets_go_of_is_rolled_on():
+    """As the patch opens N falls to nothing while the foundation still bears ten times the weight, and all slides.
+
+    Newton took that for a step that broke the patch loose, and halved it from a stage that stuck under a large N until
+    no iteration was left: at t = 6.486 no step however short could be solved.
+    """
+    brush = HOOP.replace(
+        hoop={"k": 0.216, "mass_ratio": 0.1}, ring={"bending_stiffness": 14.0}, run=Run(t_end=6.6),
+        contact={"law": "brush", "stiffness": 1e9, "damping": 1.0},
+        solve={"rtol": 1e-5, "level": "chain", "resolve": "all", "start": "equilibrium"},
+    )  # fmt: skip
+    motion = flexible.simulate(brush, most_steps=4000)
+    assert motion.completed, motion.ended
+
+
+@pytest.mark.slow
 def test_a_brush_that_lands_flat_is_rolled_on():
     """It lies on the floor over a twelfth of R, some points stick, and some slide either way."""
     motion = flexible.simulate(FLAT.replace(contact={"law": "brush"}, run=Run(t_end=7.0)), most_steps=10_000)
