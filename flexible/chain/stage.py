@@ -133,7 +133,7 @@ def solve_stage(
             if guesses >= 0:
                 continue
         if iteration < 0:
-            contact = held_again(pos[:FRAME], u, touching, contact, foreseen.friction, asked)
+            contact = held_again(pos[:FRAME], u, touching, contact, foreseen, asked)
         iteration, res = iteration + 1, contact.res
         moved = moved_by(damper, foreseen, res)
         moves, carries = moved.elastic != 0 or moved.held != 0, contact

@@ -13,6 +13,7 @@ import numpy as np
 from rigid.kernel.compile import loop, part
 
 from .forces import contact_forces
+from .foreseen import Foreseen, Moved, moved_by, moved_damper
 from .points.data import Before, Bristles, Contact, Damper, Parameters, Resultants, Rim
 from .points.detection import least_gap
 from .points.rim import element_at, shape_functions, upward, vertex_angle
@@ -122,10 +123,14 @@ def guess_again(
 
 
 @part
-def held_again(pose: Any, u: Any, of: Any, contact: Contact, friction: float, asked: bool) -> Contact:
+def held_again(pose: Any, u: Any, of: Any, contact: Contact, foreseen: Foreseen, asked: bool) -> Contact:
     """Move the rim along the floor to where half as many points stick as when the step began; the contact there.
 
-    Of a patch that slid on by the guess, ``friction`` is what it is expected to pull. It falls with the way: from where
+    Bristles are looked at under the pressure that the patch is foreseen to carry. In a short step the damper makes most
+    of it, and by the guess it is another one: held by a tenth of it, a patch that sticks would be taken for one that
+    slides, and be shifted by what that tenth holds.
+
+    Of a patch that slid on by the guess, it is known what it is expected to pull. That falls with the way: from where
     the patch goes on without a slip the rim is moved by what the bristles reach, and by half of what lies between one
     that pulls more and one that pulls less. From there Newton knows what each point does.
 
@@ -137,18 +142,25 @@ def held_again(pose: Any, u: Any, of: Any, contact: Contact, friction: float, as
         Rim, law, mode, contact before the step, and damper.
     contact : Contact
         Of the rim as it is.
-    friction : float
+    foreseen : Foreseen
     asked : bool
         For a tangent.
     """
     rim, law, mode, before, damper = of
+    stuck = _sticking(before.bristles)
+    if contact.res.elastic == 0 or 2 * _sticking(contact.bristles) >= stuck:
+        return contact
+    pressed = Moved(moved_by(damper, foreseen, contact.res).elastic, 0.0)
+    carrying, carries = moved_damper(damper, pressed), contact
+    if pressed.elastic != 0:
+        carries = contact_forces(pose, u, rim, law, mode, before, carrying, asked)
     at, low, high = 0.0, -np.inf, np.inf
     for search in range(SEARCHES):
-        res = contact.res
-        if res.elastic == 0 or 2 * _sticking(contact.bristles) >= _sticking(before.bristles):
+        res = carries.res
+        if res.elastic == 0 or 2 * _sticking(carries.bristles) >= stuck:
             break
         step = 2 * law.mu_s * res.normal / (law.eps_t * res.length)
-        if res.friction > friction:
+        if res.friction > foreseen.friction:
             low = at
         else:
             high, step = at, -step
@@ -157,5 +169,7 @@ def held_again(pose: Any, u: Any, of: Any, contact: Contact, friction: float, as
             there = (low + high) / 2 if np.isfinite(low + high) else at + step
         _shift(u, pose[2], there - at, 0.0)
         at = there
-        contact = contact_forces(pose, u, rim, law, mode, before, damper, asked)
-    return contact
+        carries = contact_forces(pose, u, rim, law, mode, before, carrying, asked)
+    if pressed.elastic == 0:
+        return carries
+    return contact if at == 0 else contact_forces(pose, u, rim, law, mode, before, damper, asked)

@@ -7,8 +7,9 @@ import pytest
 from kinematic import VERTEX, Floor, parameters
 
 from flexible.contact.forces import contact_forces
+from flexible.contact.foreseen import Foreseen
 from flexible.contact.guess import as_deep, held_again
-from flexible.contact.points.data import UNDAMPED, Before, Rim, no_bristles
+from flexible.contact.points.data import UNDAMPED, Before, Rim, no_bristles, pulling
 from flexible.contact.points.rim import element_at
 from flexible.models.stage import From
 
@@ -60,7 +61,32 @@ def test_a_brush_is_found_where_it_sticks(way):
         damper = UNDAMPED._replace(way_0=off)
         slid = contact_forces(pose, u, rim, law, 0, before, damper, True)
         assert not (slid.bristles.sliding == 0).any()
-        found = held_again(pose, u, (rim, law, 0, before, damper), slid, pulled.friction, True)
+        found = held_again(
+            pose, u, (rim, law, 0, before, damper), slid, Foreseen(slid.res.normal, pulled.friction), True
+        )
         assert 2 * (found.bristles.sliding == 0).sum() >= (floor.bristles.sliding == 0).sum()
         assert abs(found.res.friction) < 0.3 * found.res.normal
         assert np.ptp(u, axis=0).max() < 1e-15 * abs(way) + 1e-18  # moved as a whole
+
+
+def test_a_brush_is_held_by_what_the_damper_presses_it_with():
+    """A rim that has not moved, pulled by two thirds of what it can bear: nothing slides.
+
+    By the guess of the damper it is pressed with a tenth of that, and most of it would slide.
+    """
+    law = parameters("brush", 2e-5, 1e10, 1e10, 0.35, 0.3)  # 19 times the weight, by which it is told from none
+    floor = Floor(law, 1e-6, PHI)
+    pulled = floor.move(-0.35 * 1e-6 / 3, 0.0)
+    stuck = (floor.bristles.sliding == 0).sum()
+    rim, u = Rim(element_at(VERTEX, np.pi - PHI) - 6, VERTEX), np.zeros((27, 2))
+    before = Before(floor.pose, u.copy(), floor.bristles)
+    relaxation = 30.0
+    damper = pulling(UNDAMPED._replace(relaxation=relaxation, elastic_0=(1 + 0.9 / relaxation) * pulled.elastic), True)
+    guess = contact_forces(floor.pose, u, rim, law, 0, before, damper, True)
+    assert guess.res.normal == pytest.approx(0.1 * pulled.normal)
+    assert 2 * (guess.bristles.sliding == 0).sum() < stuck
+    found = held_again(
+        floor.pose, u, (rim, law, 0, before, damper), guess, Foreseen(pulled.normal, pulled.friction), True
+    )
+    assert found.res.normal == guess.res.normal  # Newton goes on with its own damper
+    assert not u.any()
