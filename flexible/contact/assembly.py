@@ -91,6 +91,18 @@ def _row(q: int, first: int) -> int:
 
 
 @loop
+def _add_row(
+    row: Any, first: int, factor: float, v0: float, v1: float, v2: float, v3: float, v4: float
+) -> None:  # fmt: skip
+    """Add so many times the five values of an element whose nodes begin at ``first``."""
+    row[0] += factor * v0
+    row[1] += factor * v1
+    row[first + 2] += factor * v2
+    row[first + 3] += factor * v3
+    row[first + 4] += factor * v4
+
+
+@loop
 def direct(points: Any, along: Any, up: Any) -> None:
     """What moves each point's abscissa and gap: by V or h, by phi, by the three nodes of its element."""
     for i in range(along.shape[0]):
@@ -106,7 +118,7 @@ def tangents(points: Any, foundation: Any, forces: Any, along: Any, up: Any, to:
 
     The points of an element share a basis: its products are gathered in a block and added when it is left.
     """
-    k_yy, k_xy, k_xx, by = to[0], to[1], to[2], block[3]
+    k_yy, k_xy, k_xx = to[0], to[1], to[2]
     element = 0
     total = points.gap.shape[0]
     for i in range(total):
@@ -116,9 +128,12 @@ def tangents(points: Any, foundation: Any, forces: Any, along: Any, up: Any, to:
         if here != element:
             _scatter(k_yy, k_xy, k_xx, block, element)
             element = here
-        for w in range(5):
-            by[0, w] = -foundation.diagonal[i] * up[i, w]
-            by[1, w] = forces.by_gap[i, 2] * up[i, w]
+        # numbers, not arrays: compiled code need not ask whether one of them is changed with another
+        y0, y1, y2, y3, y4 = up[i, 0], up[i, 1], up[i, 2], up[i, 3], up[i, 4]
+        factor = -foundation.diagonal[i]
+        n0, n1, n2, n3, n4 = factor * y0, factor * y1, factor * y2, factor * y3, factor * y4
+        factor = forces.by_gap[i, 2]
+        f0, f1, f2, f3, f4 = factor * y0, factor * y1, factor * y2, factor * y3, factor * y4
         for away in (-2, -1, 1, 2):
             near = i + away
             if near < 0 or near >= total or points.last[min(i, near)]:
@@ -129,24 +144,29 @@ def tangents(points: Any, foundation: Any, forces: Any, along: Any, up: Any, to:
             elif rate == 0:
                 continue
             there = points.local[near]
+            y0, y1, y2, y3, y4 = up[near, 0], up[near, 1], up[near, 2], up[near, 3], up[near, 4]
             if there == here:
-                for w in range(5):
-                    by[0, w] -= spring * up[near, w]
-                    by[1, w] += rate * up[near, w]
+                n0, n1, n2 = n0 - spring * y0, n1 - spring * y1, n2 - spring * y2
+                n3, n4 = n3 - spring * y3, n4 - spring * y4
+                f0, f1, f2 = f0 + rate * y0, f1 + rate * y1, f2 + rate * y2
+                f3, f4 = f3 + rate * y3, f4 + rate * y4
             else:
                 for q in range(5):
-                    for w in range(5):
-                        k_yy[_row(q, here), _row(w, there)] -= spring * up[i, q] * up[near, w]
-                        k_xy[_row(q, here), _row(w, there)] += rate * along[i, q] * up[near, w]
+                    row = q if q < 2 else here + q
+                    factor = -spring * up[i, q]
+                    _add_row(k_yy[row], there, factor, y0, y1, y2, y3, y4)
+                    factor = rate * along[i, q]
+                    _add_row(k_xy[row], there, factor, y0, y1, y2, y3, y4)
         for q in range(5):
-            for w in range(5):
-                block[0, q, w] += up[i, q] * by[0, w]
-                block[1, q, w] += along[i, q] * by[1, w]
-        if forces.by_abscissa[i] != 0 or forces.by_phi[i] != 0:
+            _add_row(block[0, q], 0, up[i, q], n0, n1, n2, n3, n4)
+            _add_row(block[1, q], 0, along[i, q], f0, f1, f2, f3, f4)
+        by_abscissa, by_phi = forces.by_abscissa[i], forces.by_phi[i]
+        if by_abscissa != 0 or by_phi != 0:
+            x0, x1, x2, x3, x4 = along[i, 0], along[i, 1], along[i, 2], along[i, 3], along[i, 4]
             for q in range(5):
-                block[2, q, 1] += along[i, q] * forces.by_phi[i]
-                for w in range(5):
-                    block[2, q, w] += along[i, q] * forces.by_abscissa[i] * along[i, w]
+                factor = along[i, q]
+                block[2, q, 1] += factor * by_phi
+                _add_row(block[2, q], 0, factor * by_abscissa, x0, x1, x2, x3, x4)
     _scatter(k_yy, k_xy, k_xx, block, element)
 
 

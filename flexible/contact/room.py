@@ -35,7 +35,7 @@ class Room(NamedTuple):
     bases: Any  # (BASES, 2 + nodes) see :mod:`flexible.contact.assembly`
     unknowns: Any  # (UNKNOWNS, 3 + 2 nodes)
     by_bases: Any  # (3, 2 + nodes, 2 + nodes)
-    block: Any  # (4, 5, 5)
+    block: Any  # (3, 5, 5)
     tangent: Any  # that of the unknowns; of no size where none is asked for
 
 
@@ -96,5 +96,5 @@ def room_for(total: int, nodes: int, ranges: Any, ranged: int, differentiates: b
     return Room(
         ranges, ranged, np.zeros((ROWS, total)), np.zeros((4, total, 5)), np.empty((total, 3)),
         np.empty((2, total), np.int64), np.zeros((4, total), np.int8), np.zeros((BASES, basis)),
-        np.zeros((UNKNOWNS, unknowns)), np.zeros((3, basis, basis)), np.zeros((4, 5, 5)), np.zeros((size, size)),
+        np.zeros((UNKNOWNS, unknowns)), np.zeros((3, basis, basis)), np.zeros((3, 5, 5)), np.zeros((size, size)),
     )  # fmt: skip

@@ -74,29 +74,47 @@ def _misfit(residual: Any, own: Any, contact: Contact, window: Window, pos: Any,
 @loop
 def _assemble(matrix: Any, own: Any, contact: Any, window: Window, scale: float) -> None:
     """Newton's matrix for frame, modes and window, out of the tangents of inertia and contact."""
-    # in loops: an assignment of slices would compile numpy's broadcasting with all its messages
+    # in loops: an assignment of slices would compile numpy's broadcasting with all its messages; the innermost along
+    # rows, from their beginning: compiled code takes several numbers at once
     m, nodes = own.shape[0], window.shapes.shape[0]
     for i in range(m):
+        row, edge = matrix[i], matrix[i, m:]
         for j in range(m):
-            matrix[i, j] = own[i, j]
+            row[j] = own[i, j]
         for j in range(nodes):
-            matrix[i, m + j] = -contact[i, 3 + j] if i < 3 else 0.0
-            matrix[m + j, i] = -scale * window.shapes[j, i - 3] if i >= 3 else 0.0
-    for i in range(3):
+            edge[j] = 0.0
+        if i < 3:
+            for j in range(3):
+                row[j] -= contact[i, j]
+            near = contact[i, 3:]
+            for j in range(nodes):
+                edge[j] = -near[j]
+            continue
+        for k in range(nodes):
+            frame, near, shape = contact[3 + k], contact[3 + k, 3:], window.shapes[k, i - 3]
+            for j in range(3):
+                row[j] -= shape * frame[j]
+            for j in range(nodes):
+                edge[j] -= shape * near[j]
+    for i in range(nodes):
+        row, edge = matrix[m + i], matrix[m + i, m:]
+        for j in range(nodes):
+            edge[j] = 0.0
         for j in range(3):
-            matrix[i, j] -= contact[i, j]
-    for column in range(3 + nodes):
-        j = column if column < 3 else m + column - 3
-        for i in range(3, m):
-            for k in range(nodes):
-                matrix[i, j] -= window.shapes[k, i - 3] * contact[3 + k, column]
-        for i in range(nodes):
-            gives = 0.0
-            for k in range(nodes):
-                gives += window.compliance[i, k] * contact[3 + k, column]
-            matrix[m + i, j] = -scale * gives
-    for k in range(m, m + nodes):
-        matrix[k, k] += scale
+            row[j] = 0.0
+        for k in range(nodes):
+            frame, near, gives = contact[3 + k], contact[3 + k, 3:], window.compliance[i, k]
+            for j in range(3):
+                row[j] += gives * frame[j]
+            for j in range(nodes):
+                edge[j] += gives * near[j]
+        for j in range(3):
+            row[j] *= -scale
+        for j in range(nodes):
+            edge[j] *= -scale
+        for j in range(3, m):
+            row[j] = -scale * window.shapes[i, j - 3]
+        edge[i] += scale
 
 
 @part

@@ -12,11 +12,10 @@ from math import ceil
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba.extending import register_jitable
 from numpy.typing import NDArray
 
 from rigid import Scene
-from rigid.kernel.compile import jit, loop
+from rigid.kernel.compile import jit, loop, part
 
 from .fem import COLUMNS, Ring, membrane_stiffness, ring_of
 from .frame import Body, Frame
@@ -34,7 +33,7 @@ class Rim(NamedTuple):
     stiffness: float  # E b
 
 
-@register_jitable
+@part
 def window_dofs(elements: int, window: tuple[int, int]) -> Any:
     """Dofs of a window of a rim of so many elements, counted round and round."""
     dofs = np.empty(4 * window[1] + 2, np.int64)
@@ -55,20 +54,25 @@ def is_known(rim: Rim, columns: Any) -> bool:
 @jit
 def residual(rim: Rim, rows: Any, columns: Any) -> Any:
     """Static compliance but for what the modes hold of it, in columns that are known."""
-    block, held = np.empty((rows.shape[0], columns.shape[0])), np.zeros((rows.shape[0], columns.shape[0]))
-    _fill_residual(rim, rows, columns, block, held)
+    block = np.zeros((rows.shape[0], columns.shape[0]))
+    _fill_residual(rim, rows, columns, block, np.empty((rim.shapes.shape[1], columns.shape[0])))
     return block
 
 
 @loop
-def _fill_residual(rim: Rim, rows: Any, columns: Any, block: Any, held: Any) -> None:
-    for k in range(rim.shapes.shape[1]):
-        for i in range(rows.shape[0]):
-            for j in range(columns.shape[0]):
-                held[i, j] += rim.weighted[rows[i], k] * rim.shapes[columns[j], k]
-    for i in range(rows.shape[0]):
+def _fill_residual(rim: Rim, rows: Any, columns: Any, block: Any, shapes: Any) -> None:
+    """Fill in the block, of zeros, and modes at the columns, in rows of which compiled code takes several at once."""
+    for k in range(shapes.shape[0]):
         for j in range(columns.shape[0]):
-            block[i, j] = rim.unit[rows[i], columns[j]] / rim.stiffness - held[i, j]
+            shapes[k, j] = rim.shapes[columns[j], k]
+    for i in range(rows.shape[0]):
+        held, unit, weighted = block[i], rim.unit[rows[i]], rim.weighted[rows[i]]
+        for k in range(shapes.shape[0]):
+            weight, shape = weighted[k], shapes[k]
+            for j in range(columns.shape[0]):
+                held[j] += weight * shape[j]
+        for j in range(columns.shape[0]):
+            held[j] = unit[columns[j]] / rim.stiffness - held[j]
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,42 +9,41 @@ from math import floor, pi
 from typing import Any
 
 import numpy as np
-from numba.extending import register_jitable
 
-from rigid.kernel.compile import jit, loop
+from rigid.kernel.compile import jit, loop, part
 
 
-@register_jitable
+@loop
 def shape_functions(xi: Any) -> tuple[Any, Any, Any]:
     """Weights of the three nodes of a quadratic element at its coordinate ``xi``, 0..1."""
     return (1 - xi) * (1 - 2 * xi), 4 * xi * (1 - xi), xi * (2 * xi - 1)
 
 
-@register_jitable
+@loop
 def lift(psi: Any) -> Any:
     """Height of the undeformed circle over its lowest point, at the angle ``psi`` from there."""
     return 2 * np.sin(psi / 2) ** 2
 
 
-@register_jitable
+@loop
 def gap_at(height: Any, psi: Any, u_y: Any) -> Any:
     """Gap of a rim point displaced upward by ``u_y`` on a hoop whose centre is ``height`` above R."""
     return height + lift(psi) + u_y
 
 
-@register_jitable
+@loop
 def upward(u1: Any, u2: Any, s: Any, c: Any) -> Any:
     """Vertical component of a displacement in the disk's axes; s, c are sine and cosine of phi."""
     return u1 * c - u2 * s
 
 
-@register_jitable
+@loop
 def sideways(u1: Any, u2: Any, s: Any, c: Any) -> Any:
     """Horizontal component."""
     return u1 * s + u2 * c
 
 
-@register_jitable
+@loop
 def vertex_angle(vertex: Any, element: Any) -> Any:
     """Angle at which rim element ``element`` begins; elements are counted on round and round."""
     n = vertex.shape[0]
@@ -116,7 +115,7 @@ def below_floor(theta: Any, phi: float, height: float, moved: Any) -> tuple[floa
     return low, high
 
 
-@register_jitable
+@part
 def window_around(vertex: Any, phi: float, low: float, high: float, margin: float) -> tuple[int, int]:
     """First rim element and number of elements of the part ``low`` to ``high`` (angles from the bottom)."""
     theta = pi - phi
