@@ -27,7 +27,7 @@ from .rim import RimNodes, follow
 from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
 from .whole import balance, lacking, moved, near_floor, reach, sections, tangent
 
-GROWS = 3.0  # a step of Newton after which the forces are off by this many times as much is taken back to a half
+GROWS = 2.0  # a step of Newton after which the forces are off by this many times as much is taken back to a half
 SOFTER = 1e4  # times as soft as its own is the foundation from which a stage is followed that Newton lost
 ROUGHLY = 1e-4  # tolerance on the way from there
 STALE = 0.1  # a step of Newton that leaves more than this of the forces is followed by a new matrix of the chain
@@ -162,10 +162,9 @@ def solve_stage(
                 continue
             iterations = iteration
             break
-        worst = max(lacks.forces, lacks.nodes)
+        worst = lacks.forces
         if moves:
-            there = _misfit(touch, carries, place, (frame, force), scale)
-            worst = max(there.forces, there.nodes)
+            worst = _misfit(touch, carries, place, (frame, force), scale).forces
             lacks = _misfit(touch, moved_back(carries, damper, moved), place, (frame, force), scale)
         elif moved_before or (stands.normal == 0 and res.elastic > 0):
             last = np.inf  # of another damper; and what lands too deep comes up
@@ -182,7 +181,7 @@ def solve_stage(
         update, update_u = solve(factors, lacks.frame, lacks.sections, lacks.rest)
         if not np.isfinite(largest(update) + largest(update_u)):
             break
-        damping = 0.5 if iteration > 3 and worst > last else 1.0
+        damping = 0.5 if iteration > 0 and worst > last else 1.0
         last, moved_before = worst, moves
         stands, stuck = Foreseen(carries.res.normal, carries.res.friction), carries.res.stuck
         foreseen = between(stands, foresee(damper, moved, carries, update, update_u), damping)
