@@ -213,10 +213,11 @@ def astray_of(touch: Touch, nodal: Any, scale: float) -> Any:
 @part
 def _take_products(core: Any, by: Any, tangent: Any) -> None:
     """Take ``by``, (c, 2 m), times the derivatives of the nodes' forces by frame and nodes."""
-    nodal = by.shape[1]
-    inner = core.shape[0] - nodal
-    for i in range(by.shape[0]):
-        for k in range(nodal):
+    nodal, inner = by.shape[1], core.shape[0] - by.shape[1]
+    for k in range(nodal):
+        if not tangent[FRAME + k].any():  # most nodes of a wide window are off the floor
+            continue
+        for i in range(by.shape[0]):
             weight = by[i, k]
             if weight == 0:  # most sections move but a few of the nodes
                 continue

@@ -71,20 +71,32 @@ def times(factor: float, values: Any) -> Any:
 def eliminate(rows: Any, order: Any) -> None:
     """Factors of a matrix of some tens of unknowns in its place, by elimination with row pivots, for :func:`solved_by`.
 
-    ``order`` is filled in with where its rows came from. Not finite where the matrix is singular.
+    ``order`` is filled in with where its rows came from, and with -1 for an unknown that is in no equation but its own:
+    that one is left as it is, to be solved when all others are known. Not finite where the matrix is singular.
     """
     _eliminate(rows, order, np.empty(order.shape[0]))
+
+
+@loop
+def _alone(rows: Any, k: int) -> bool:
+    """Whether an unknown is in its own equation only."""
+    i = 0
+    while i < rows.shape[0] and (rows[i, k] == 0 or i == k):
+        i += 1
+    return bool(i == rows.shape[0])
 
 
 @loop
 def _eliminate(rows: Any, order: Any, pivot: Any) -> None:
     n = order.shape[0]
     for k in range(n):
-        order[k] = k
+        order[k] = -1 if _alone(rows, k) else k
     for k in range(n):
+        if order[k] < 0:
+            continue
         best = k
         for i in range(k + 1, n):
-            if abs(rows[i, k]) > abs(rows[best, k]):
+            if order[i] >= 0 and abs(rows[i, k]) > abs(rows[best, k]):
                 best = i
         for j in range(n):
             pivot[j], rows[best, j] = rows[best, j], rows[k, j]
@@ -93,6 +105,8 @@ def _eliminate(rows: Any, order: Any, pivot: Any) -> None:
             pivot[j] = 0.0
         order[best], order[k] = order[k], order[best]
         for i in range(k + 1, n):
+            if order[i] < 0:
+                continue
             factor = rows[i, k] / pivot[k]
             if factor != 0:
                 for j in range(n):  # all of the row: from its beginning, compiled code takes several numbers at once
@@ -104,13 +118,23 @@ def _eliminate(rows: Any, order: Any, pivot: Any) -> None:
 def _substitute(rows: Any, order: Any, right: Any, x: Any) -> None:
     n = order.shape[0]
     for k in range(n):
-        x[k] = right[order[k]]
-        for j in range(k):
-            x[k] -= rows[k, j] * x[j]
+        x[k] = 0.0
+        if order[k] >= 0:
+            x[k] = right[order[k]]
+            for j in range(k):
+                x[k] -= rows[k, j] * x[j]
     for k in range(n - 1, -1, -1):
-        for j in range(k + 1, n):
-            x[k] -= rows[k, j] * x[j]
-        x[k] /= rows[k, k]
+        if order[k] >= 0:
+            for j in range(k + 1, n):
+                x[k] -= rows[k, j] * x[j]
+            x[k] /= rows[k, k]
+    for k in range(n):
+        if order[k] < 0:
+            own = right[k]
+            for j in range(n):
+                if order[j] >= 0:
+                    own -= rows[k, j] * x[j]
+            x[k] = own / rows[k, k]
 
 
 @part

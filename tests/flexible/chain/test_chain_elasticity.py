@@ -14,7 +14,7 @@ from flexible.chain.corotated import Rod, elastic
 from flexible.chain.rim import RimNodes, follow, rim_curvature
 from flexible.chain.ring import _Shape, chord_strains, curve_weights, dense_stiffness, in_strains, rim_matrix
 from flexible.chain.section import RodCompliance, radial, rod_compliance
-from flexible.contact.vectors import eliminate
+from flexible.contact.vectors import eliminate, solved_by
 from flexible.ring.fem import Ring
 from meshes import ring_mesh
 
@@ -337,3 +337,18 @@ def test_bordered_elimination(kept):
     found = solve(factors, frame, known, np.empty(0))[0]
     exact = np.linalg.solve(dense, np.concatenate([frame, known[1:-1].ravel()]))
     assert found == pytest.approx(exact, rel=1e-10, abs=1e-12)
+
+
+def test_unknowns_in_their_own_equations_only():
+    """Rim nodes off the floor, two by two among others: against a dense solve."""
+    rng = np.random.default_rng(7)
+    matrix, right = rng.standard_normal((20, 20)), rng.standard_normal(20)
+    alone = [9, 10, 14, 15, 19]
+    own = matrix.diagonal().copy()
+    matrix[:, alone] = 0
+    matrix[alone, alone] = own[alone]
+    factors, order = matrix.copy(), np.empty(20, np.int64)
+    eliminate(factors, order)
+    assert solved_by((factors, order), right) == pytest.approx(np.linalg.solve(matrix, right), rel=1e-10)
+    assert np.flatnonzero(order < 0).tolist() == alone
+    assert (factors[alone] == matrix[alone]).all(), "and they cost nothing"
