@@ -17,7 +17,7 @@ from ..chain.rim import follow
 from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
 from ..chain.stage import Arrays, solved
 from ..chain.touch import turned
-from ..chain.whole import energies_of, floor_forces, held, momentum_error, moved
+from ..chain.whole import energies_of, floor_forces, held, momentum_error, moved, reach
 from ..contact.points.data import Damper
 from ..contact.stage import Predictor, Stage
 from ..ring.fem import AROUND, ring_of
@@ -82,6 +82,11 @@ class ChainHoop(RimContact):
             return state.u
         u: Array = moved(self.arrays, state, window)[0]
         return u
+
+    def lowest_in(self, state: State) -> Window:
+        """See :class:`flexible.models.rim_contact.RimContact`: nodes follow their sections one by one."""
+        low, high = reach(self.arrays, state.pos)
+        return self.window(float(state.pos[2]), low, high, self.element)
 
     def stage(
         self,

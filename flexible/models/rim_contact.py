@@ -14,6 +14,7 @@ from ..contact.laws.law import Law
 from ..contact.laws.listing import LAWS
 from ..contact.points.data import Parameters
 from ..contact.points.rim import below_floor, window_around
+from .state import State
 
 Array = NDArray[np.float64]
 
@@ -118,6 +119,10 @@ class RimContact:
         """
         low, high = below_floor(self.theta, phi, height, moved)
         return float(low), float(high)
+
+    def lowest_in(self, state: State) -> tuple[int, int] | None:
+        """A window in which the rim's lowest node is, and its neighbours; None where all nodes are known at once."""
+        return None
 
     def rim_angle(self, nodes: NDArray[np.int64]) -> Array:
         """Angles of rim nodes, counted round and round from the first element's first."""

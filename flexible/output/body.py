@@ -18,6 +18,7 @@ from ..models.select import Hoop
 from ..models.state import State
 
 Array = NDArray[np.float64]
+Window = tuple[int, int]
 
 
 class Whole(NamedTuple):
@@ -67,13 +68,14 @@ def outline(hoop: Hoop, state: State) -> Array:
     return np.column_stack([x, 1 + state.pos[1] - np.cos(angle) + u_y])
 
 
-def _rim(hoop: Hoop, state: State) -> tuple[Array, Array, Array]:
-    """Angles of the rim's nodes from the bottom, and their displacement to the right and up."""
-    count = len(hoop.vertex)
-    u1, u2 = hoop.displacement(state, (0, count))[: 2 * count].T
+def _rim(hoop: Hoop, state: State, window: Window | None = None) -> tuple[Array, Array, Array]:
+    """Angles of the rim's nodes from the bottom, and their displacement to the right and up; of all, or of a window."""
+    first, count = window or (0, len(hoop.vertex))
+    nodes = np.arange(2 * first, 2 * (first + count) + (0 if window is None else 1))
+    u1, u2 = hoop.displacement(state, (first, count))[: len(nodes)].T
     phi = float(state.pos[2])
     s, c = np.sin(phi), np.cos(phi)
-    return phi + hoop.rim_angle(np.arange(2 * count)) - pi, sideways(u1, u2, s, c), upward(u1, u2, s, c)
+    return phi + hoop.rim_angle(nodes) - pi, sideways(u1, u2, s, c), upward(u1, u2, s, c)
 
 
 def lowest(hoop: Hoop, state: State) -> float:
@@ -82,11 +84,14 @@ def lowest(hoop: Hoop, state: State) -> float:
     The parabola through the lowest node and its neighbours: of a circle it misses the depth by (angle between
     nodes)^4/12, 2e-9 with 240 elements.
     """
-    angle, _, u_y = _rim(hoop, state)
+    window = hoop.lowest_in(state)
+    angle, _, u_y = _rim(hoop, state, window)
     gap = gap_at(float(state.pos[1]), angle, u_y)
     i = int(np.argmin(gap))
+    if window is not None:
+        i = min(max(i, 1), len(gap) - 2)
     near = np.array([i - 1, i, i + 1]) % len(gap)
     at = angle[near] - angle[i]
     at -= 2 * pi * np.round(at / (2 * pi))
     bend, slope, here = np.polyfit(at, gap[near], 2)
-    return float(here - slope**2 / (4 * bend)) if bend > 0 else float(gap[i])
+    return float(here - slope**2 / (4 * bend)) if bend > 0 else float(gap.min())

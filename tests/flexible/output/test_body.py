@@ -77,3 +77,15 @@ def test_the_lowest_point_of_a_circle(level, height):
     assert lowest(hoop, state) == pytest.approx(height, abs=1.5e-6)
     centre = np.array([0.0, 1 + height])
     assert np.hypot(*(outline(hoop, state) - centre).T) == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("phi", [0.3, 2.1, 3.0, 5.0])
+def test_the_lowest_point_of_a_bent_ring(phi):
+    """A chain looks for it around its lowest section: as low as the lowest of all nodes, or lower by their parabola."""
+    hoop = ChainHoop(scene_of(0.4))
+    state = state_of(hoop, phi)
+    shapes = hoop.ring.shape.shapes
+    for shape in range(6):
+        state.pos[3:] = 0.02 * shapes[:, shape]
+        node = outline(hoop, state)[:, 1].min()
+        assert node - 3e-3 < lowest(hoop, state) <= node + 1e-12
