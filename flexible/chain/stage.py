@@ -28,6 +28,7 @@ from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by,
 from .whole import balance, lacking, moved, near_floor, reach, sections, tangent
 
 GROWS = 2.0  # a step of Newton after which the forces are off by this many times as much is taken back to a half
+LATE = 12  # iterations after which it is where it leaves more at all: it goes to and fro
 SOFTER = 1e4  # times as soft as its own is the foundation from which a stage is followed that Newton lost
 ROUGHLY = 1e-4  # tolerance on the way from there
 STALE = 0.1  # a step of Newton that leaves more than this of the forces is followed by a new matrix of the chain
@@ -168,7 +169,7 @@ def solve_stage(
             lacks = _misfit(touch, moved_back(carries, damper, moved), place, (frame, force), scale)
         elif moved_before or (stands.normal == 0 and res.elastic > 0):
             last = np.inf  # of another damper; and what lands too deep comes up
-        if worst > GROWS * last and damping > 1e-9:  # beyond a bend, the damper's onset for one
+        if worst > (GROWS if iteration < LATE else 1.0) * last and damping > 1e-9:  # beyond a bend, as a damper's onset
             move(d, u, 0.5 * damping, update, update_u)
             damping *= 0.5
             foreseen = between(stands, foreseen, 0.5)
