@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
+from math import nan
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -63,6 +64,7 @@ class Ledger:
 class FlexiblePulse(Pulse):
     """A pulse as the flexible hoop goes through it, over the phi-interval of the rigid pulse.
 
+    One that a soft wall throws back leaves that interval where it came in.
     ``time_off_floor`` is the time without contact (hopping, the paper's footnote 1); the energy peaks are those of
     the ring's strain and of the contact's springs; ``phases`` is what the patch does inside.
     """
@@ -73,6 +75,12 @@ class FlexiblePulse(Pulse):
     damping_loss: Energy[float]
     numerical_loss: Energy[float]
     phases: tuple[Phase, ...]
+
+    def marked_cut(self) -> FlexiblePulse:
+        """The same as one in which the run begins or ends: it has no restitution."""
+        return dataclasses.replace(
+            self, cut=True, newton_restitution=nan, poisson_restitution=nan, energetic_restitution=nan
+        )
 
 
 @dataclass(frozen=True, slots=True, repr=False)

@@ -6,6 +6,7 @@ Everything is in the solver's units, R = m = g = 1.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterator
 from math import sqrt
 from typing import TypeVar
 
@@ -159,6 +160,10 @@ class Segment:
 
     def crossing(self, phi: float, after: float) -> float | None:
         """First time from ``after`` on at which the disk passes the angle ``phi``."""
+        return next(self.crossings(phi, after), None)
+
+    def crossings(self, phi: float, after: float = -np.inf) -> Iterator[float]:
+        """All of them."""
         t, angle, omega = self["t"], self["phi"] - phi, self["omega"]
         for i in np.nonzero((angle[:-1] * angle[1:] <= 0) & (t[1:] > after))[0]:
             start, length = float(t[i]), float(t[i + 1] - t[i])
@@ -170,8 +175,7 @@ class Segment:
             for _ in range(60):
                 middle = (low + high) / 2
                 low, high = (middle, high) if _cubic(middle, *here) * sign > 0 else (low, middle)
-            return start + length * (low + high) / 2
-        return None
+            yield start + length * (low + high) / 2
 
     def pulse(self, first: float, last: float) -> FlexiblePulse:
         """Measures between the times ``first`` and ``last``."""

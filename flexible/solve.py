@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import ceil, floor, inf, nan, pi
+from math import ceil, floor, inf, pi
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from .handover import hand_over, one_of
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
-from .motion import FlexibleMotion, FlexiblePulse
+from .motion import FlexibleMotion
 from .segment import Segment
 from .time.adaptive import MarchError
 from .time.advance import SHORTEST
@@ -39,6 +39,8 @@ Progress = Callable[[float], object]
 Fraction = Callable[[float, float], float]  # of time and angle of a step
 
 LEAD = 0.5  # a flexible segment begins this many pulse lengths before the pulse, to let its start settle
+BACK = 0.01  # of the way through a segment, by which a hoop that turned back is out where it came in
+WAITS = 10.0  # sqrt(R/g) that a hoop may take for it, beyond four pulse lengths: a swing takes a few
 
 
 class _Progress:
@@ -147,26 +149,29 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             return str(error) + _too_soft(scene)
         state = state._replace(t=builder.t, x_C=builder.x_C)
         sign = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
-        # a pulse that the end of the run cuts ends at that time, any other at the rigid one's angle
-        cut = pulse.cut and scene.run.t_end is not None and pulse.t_end == motion.t_end
-        ends = Ends(t=builder.t + (1 if cut else 4) * (pulse.t_end - start))
-        if not cut:
-            ends = ends._replace(high=pulse.phi_end) if sign > 0 else ends._replace(low=pulse.phi_end)
         span = (float(state.pos[2]), pulse.phi_end)
+        # a pulse cut by the end of the run ends then, any other at the rigid one's angle or where it came in
+        cut = pulse.cut and scene.run.t_end is not None and pulse.t_end == motion.t_end
+        ends = Ends(t=builder.t + pulse.t_end - start)
+        if not cut:
+            sides = sorted((span[0] - BACK * (span[1] - span[0]), span[1]))
+            ends = Ends(ends.t + 3 * (pulse.t_end - start) + WAITS, sides[0], sides[1])
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, _swept(span))
         state, segment, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
-        if not (trouble or cut) and sign * (float(state.pos[2]) - pulse.phi_end) < 0:
-            trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get through the pulse"
+        back = not cut and sign * (float(state.pos[2]) - pulse.phi_end) < 0
+        if not trouble and back and ends.t - state.t < SHORTEST:
+            trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get out of the pulse"
         if trouble:
             builder.completed = False
             return trouble + _too_soft(scene)
         first = segment.crossing(pulse.phi_start, segment.t_start)
-        measured = segment.pulse(segment.t_start if first is None else first, segment.t_end)
-        builder.pulses.append(_cut(measured) if pulse.cut else measured)
+        *_, leaves = segment.crossings(pulse.phi_start) if back else (segment.t_end,)
+        measured = segment.pulse(segment.t_start if first is None else first, leaves)
+        builder.pulses.append(measured.marked_cut() if pulse.cut else measured)
         done += 1
         if scene.run.until == "pulse":
-            return "the first pulse is over"
+            return "the first pulse is over" + (": the hoop turned back in it" if back else "")
         rest = _rest_of(scene.run, builder)
         if rest is None:
             return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
@@ -176,11 +181,6 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
 def _over_bottom(pulse: Pulse) -> bool:
     """Whether the disk passes its lowest point, phi = pi (mod 2 pi), in a pulse."""
     return floor((pulse.phi_start - pi) / (2 * pi)) != floor((pulse.phi_end - pi) / (2 * pi))
-
-
-def _cut(pulse: FlexiblePulse) -> FlexiblePulse:
-    """The same, marked as one in which the run begins or ends."""
-    return replace(pulse, cut=True, newton_restitution=nan, poisson_restitution=nan, energetic_restitution=nan)
 
 
 def _too_soft(scene: Scene) -> str:
@@ -297,4 +297,4 @@ def _add_pulses(builder: Builder, segment: Segment, pulses: list[Pulse], over: b
         if leaves is None or leaves <= enters:
             return
         found = segment.pulse(enters, leaves)
-        builder.pulses.append(_cut(found) if cut else found)
+        builder.pulses.append(found.marked_cut() if cut else found)
