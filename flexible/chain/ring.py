@@ -28,7 +28,6 @@ from .section import LOADED, RodCompliance, mass_radius, radial, rod_compliance
 Array = NDArray[np.float64]
 
 FINER, FADES = 3.0, 0.2  # parts at the weld, see cuts
-WITHIN = 0.05  # share of a half-plane's give under the shortest waves of the rim's nodes, see _Shape.within
 
 
 def chord_strains(one: Array, two: Array, moves: int) -> Array:
@@ -178,7 +177,7 @@ class _Shape:
         theta = self.ring.mesh.rim_theta
         loaded = np.array([int(np.argmin(np.abs(theta - angle))) for angle in LOADED])
         columns = (2 * loaded[:, None] + np.arange(2)).ravel()
-        moved = self.ring.solve_rim(columns)[0][:, columns]
+        moved = self.ring.rim_compliance[:, columns]
         turned = self.inverse @ rim_matrix(self.rod, self.still, self.nodes)[1][columns].T
         misfit = (moved - rim_matrix(self.rod, self.still, self.nodes)[1] @ turned).reshape(len(theta), 2, 6)
         clear = np.flatnonzero((np.abs(theta) > LOADED[0] / 4) & (np.abs(theta) < LOADED[0] * 0.8))
@@ -210,28 +209,17 @@ class _Shape:
         matrix = weight[:, None] * dense_stiffness(self.rod, self.still)[3:-3, 3:-3] * weight
         return np.asarray(weight[:, None] * np.linalg.eigh(matrix)[1], dtype=float)
 
-    @property
-    def within(self) -> float:
-        """What the wall gives way by under a unit pressure, nodes there or none; R at E b = 1. 0 if it is below 4 h.
-
-        A half-plane, which a thicker wall is to them, is dented by waves of pressure of length l by l/(pi E b) times
-        themselves. Nodes h apart carry none below 2 h, by which elements were sides of a polygon: a share of that.
-        """
-        h, mesh = 2 * pi / len(self.nodes.part), self.ring.mesh
-        return WITHIN * 2 * h / pi if mesh.outer - mesh.inner > 4 * h else 0.0
-
     @cached_property
     def missing(self) -> Array:
         """Static displacement of the rim under unit forces on it that the chain lacks, (2 n_rim, 2 n_rim).
 
         Right over a section the chain gives way a little more than the mesh, for a load on the rim spreads over half a
-        wall before it bends the ring. A wall does not push back: the positive part is kept, less what is ``within``.
+        wall before it bends the ring. A wall does not push back: the positive part is kept, less what the contact has.
         """
-        lacks = self.ring.rim_compliance - self.rim @ self.inverse @ self.rim.T
-        lacks -= self.within * np.kron(np.linalg.inv(self.ring.rim_products), np.eye(2))
-        values, vectors = np.linalg.eigh(lacks)
+        answer, _ = self.ring.solve_rim(np.arange(len(self.rim)))
+        values, vectors = np.linalg.eigh((answer + answer.T) / 2 - self.rim @ self.inverse @ self.rim.T)
         positive = values > 0
-        return (vectors[:, positive] * values[positive]) @ vectors[:, positive].T
+        return np.asarray((vectors[:, positive] * values[positive]) @ vectors[:, positive].T, dtype=float)
 
 
 @lru_cache(maxsize=8)
@@ -263,7 +251,7 @@ class ChainRing:
         self.shape = _shape(ring, parts)
         self.ring = ring
         self.stiffness = membrane_stiffness(scene)
-        self.within = self.shape.within / self.stiffness
+        self.within = ring.within / self.stiffness
         unit, mass = self.shape.rod, scene.hoop.mass_ratio
         rod = unit._replace(
             local=unit.local * self.stiffness,

@@ -172,7 +172,7 @@ class ReducedHoop(RimContact):
 
     def __init__(self, scene: Scene, modes: int | None = None, points: int | None = None) -> None:
         self.ring: ReducedRing = reduce(scene, modes)
-        super().__init__(scene, self.ring.vertex, points)
+        super().__init__(scene, self.ring.vertex, points, self.ring.within)
         self._blocks: dict[tuple[int, int], tuple[Array, Array]] = {}
 
     @cached_property

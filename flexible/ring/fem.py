@@ -29,6 +29,7 @@ MESH_ERROR, MESH_ORDER = 1e-4, 2.2  # with so many, of the impulses over J_N; or
 MESH_SOFT = 400.0  # bending stiffness from which on it is less, like its root
 MOST_AROUND = 1200  # the compliance of their rim is 180 MB
 LOT = 24  # of modes that are found together
+WITHIN = 0.05  # share of a half-plane's give under the shortest waves of the rim's nodes, see Ring.within
 
 
 def membrane_stiffness(scene: Scene) -> float:
@@ -122,7 +123,7 @@ class Ring:
         Returns
         -------
         compliance : (2 n_rim, 2 n_rim) array
-            Those columns of it, and whatever others were asked for before.
+            Those columns of it, but for what is ``within``, and whatever others were asked for before.
         known : array
             Which groups of ``COLUMNS`` columns these are.
         """
@@ -132,7 +133,7 @@ class Ring:
                 some = np.arange(COLUMNS * group, min(COLUMNS * (group + 1), len(compliance)))
                 load = np.zeros((len(self.free), len(some)))
                 load[self.rim_dofs[some], np.arange(len(some))] = 1.0
-                compliance[:, some] = self.solve(load)[self.rim_dofs]
+                compliance[:, some] = self.solve(load)[self.rim_dofs] - self._by_itself(some)
                 known[group] = True
         return compliance, known
 
@@ -140,20 +141,34 @@ class Ring:
     def rim_compliance(self) -> Array:
         """Displacement of the rim under unit forces on it, (2 n_rim, 2 n_rim), in the order of ``rim_dofs``."""
         every = np.arange(len(self.rim_dofs))
-        compliance, _ = self.solve_rim(every)
+        compliance = self.solve_rim(every)[0] + self._by_itself(every)
         return (compliance + compliance.T) / 2
 
     @property
-    def rim_products(self) -> Array:
+    def within(self) -> float:
+        """What the wall gives way by under a unit pressure, nodes there or none; R at E b = 1.
+
+        A half-plane, and a thin wall more than that, is dented by waves of pressure of length l by l/(pi E b) times
+        themselves. Nodes h apart carry none below 2 h, by which elements were sides of a polygon: a share of that.
+        """
+        return WITHIN * 2 * (2 * pi / len(self.mesh.rim_nodes)) / pi
+
+    def _by_itself(self, columns: NDArray[np.int64]) -> Array:
+        """What is ``within`` of the displacement of the rim's dofs, under unit forces on some of them."""
+        load = np.zeros((len(self.mesh.rim_nodes), 2, len(columns)))
+        load[columns // 2, columns % 2, np.arange(len(columns))] = self.within
+        return np.asarray(splu(self.rim_products).solve(load.reshape(len(load), -1))).reshape(-1, len(columns))
+
+    @cached_property
+    def rim_products(self) -> sp.csc_matrix:
         """Integrals of products of two nodes' shape functions along the outer rim, (n_rim, n_rim), R = 1."""
         theta = self.mesh.rim_theta
         n = len(theta)
         of_element = np.array([[4.0, 2, -1], [2, 16, 2], [-1, 2, 4]]) / 30
-        products = np.zeros((n, n))
-        for begin in range(0, n, 2):
-            nodes = np.arange(begin, begin + 3) % n
-            products[np.ix_(nodes, nodes)] += (theta[nodes[2]] - theta[begin]) % (2 * pi) * of_element
-        return products
+        nodes = (np.arange(0, n, 2)[:, None] + np.arange(3)) % n
+        products = (theta[nodes[:, 2]] - theta[nodes[:, 0]])[:, None, None] % (2 * pi) * of_element
+        rows, columns = np.broadcast_arrays(nodes[:, :, None], nodes[:, None, :])
+        return sp.csc_matrix((products.ravel(), (rows.ravel(), columns.ravel())), shape=(n, n))
 
     def modes(self, count: int) -> tuple[Array, Array]:
         """The lowest ``count`` vibration modes of the clamped ring.

@@ -1,7 +1,8 @@
 """The ring as the stepper sees it: a few fixed-interface modes, and the rest of its compliance as static.
 
 Craig-Bampton with static correction: ``u = sum q_i Phi_i + S_res f`` on the rim, where ``S_res`` is the static
-compliance minus what the modes already hold. A massless ring needs no mode: its static compliance is all of it.
+compliance minus what the modes already hold, and what is left to the contact (``Ring.within``). A massless ring needs
+no mode: its static compliance is all of it.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ class Rim(NamedTuple):
 
     shapes: Any  # (2 n_rim, n) modes
     weighted: Any  # (2 n_rim, n) the same over their squared frequencies
-    unit: Any  # (2 n_rim, 2 n_rim) static compliance of the ring for E b = 1, in columns as far as it is known
+    unit: Any  # (2 n_rim, 2 n_rim) static compliance of the ring for E b = 1, columns as far as known: Ring.solve_rim
     known: Any  # bool, of groups of COLUMNS columns
     stiffness: float  # E b
 
@@ -97,6 +98,11 @@ class ReducedRing:
     shapes: Array
     rim_shapes: Array
     vertex: Array
+
+    @property
+    def within(self) -> float:
+        """See :class:`flexible.models.rim_contact.RimContact`: the static compliance lacks it."""
+        return self.ring.within / self.stiffness
 
     @cached_property
     def rim(self) -> Rim:

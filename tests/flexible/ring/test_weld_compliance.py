@@ -58,8 +58,14 @@ def test_rim_compliance_is_symmetric_and_positive():
 
 
 def test_modes_and_residual_add_up_to_the_static_compliance():
-    """Craig-Bampton with static correction is exact at rest, whatever the number of modes."""
-    exact = ring_of(SCENE).rim_compliance / membrane_stiffness(SCENE)
+    """Craig-Bampton with static correction is exact at rest, whatever the number of modes.
+
+    To it belongs what the contact has point by point, whose answer to the nodes' loads is their shape functions' share
+    of it.
+    """
+    ring, stiffness = ring_of(SCENE), membrane_stiffness(SCENE)
+    own = reduce(SCENE, 1).within * np.kron(np.linalg.inv(ring.rim_products.toarray()), np.eye(2))
+    exact = ring.rim_compliance / stiffness - own
     for count in (1, 7, 24):
         reduced = reduce(SCENE, count)
         every = np.arange(len(exact))
