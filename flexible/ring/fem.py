@@ -29,7 +29,7 @@ MESH_ERROR, MESH_ORDER = 1e-4, 2.2  # with so many, of the impulses over J_N; or
 MESH_SOFT = 400.0  # bending stiffness from which on it is less, like its root
 MOST_AROUND = 1200  # the compliance of their rim is 180 MB
 LOT = 24  # of modes that are found together
-WITHIN = 0.05  # share of a half-plane's give under the shortest waves of the rim's nodes, see Ring.within
+WITHIN, THIN = 0.05, 2.5  # share of a half-plane's give under the shortest waves of the rim's nodes; see Ring.within
 
 
 def membrane_stiffness(scene: Scene) -> float:
@@ -146,12 +146,14 @@ class Ring:
 
     @property
     def within(self) -> float:
-        """What the wall gives way by under a unit pressure, nodes there or none; R at E b = 1.
+        """What the wall gives way by under a unit pressure, nodes there or none; R at E b = 1. 0 for a thin wall.
 
-        A half-plane, and a thin wall more than that, is dented by waves of pressure of length l by l/(pi E b) times
-        themselves. Nodes h apart carry none below 2 h, by which elements were sides of a polygon: a share of that.
+        A half-plane is dented by waves of pressure of length l by l/(pi E b) times themselves. Nodes h apart carry none
+        below 2 h, by which elements were sides of a polygon: a share of that. A wall below ``THIN`` h bends, and the
+        mesh knows of that.
         """
-        return WITHIN * 2 * (2 * pi / len(self.mesh.rim_nodes)) / pi
+        h, mesh = 2 * pi / len(self.mesh.rim_nodes), self.mesh
+        return WITHIN * 2 * h / pi if mesh.outer - mesh.inner > THIN * h else 0.0
 
     def _by_itself(self, columns: NDArray[np.int64]) -> Array:
         """What is ``within`` of the displacement of the rim's dofs, under unit forces on some of them."""
