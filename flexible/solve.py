@@ -166,7 +166,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             builder.completed = False
             return trouble + _too_soft(scene)
         first = segment.crossing(pulse.phi_start, segment.t_start)
-        *_, leaves = segment.crossings(pulse.phi_start) if back else (segment.t_end,)
+        leaves = max(segment.crossings(pulse.phi_start), default=segment.t_end) if back else segment.t_end
         measured = segment.pulse(segment.t_start if first is None else first, leaves)
         builder.pulses.append(measured.marked_cut() if pulse.cut else measured)
         done += 1
