@@ -14,7 +14,7 @@ PULSE = "hoop flexible paper-3.3-light --out first-pulse --fields"
 FILM = "hoop view first-pulse --gif first-pulse.gif --field hoop_stress --frames 90"
 ATLAS = "hoop study atlas --json --out atlas"
 HOP = (
-    "hoop study hop paper-3.3-heavier --law brush --over ring.bending_stiffness=1.82:1e4:21 "
+    "hoop study hop paper-3.3-heavier --law brush --over ring.bending_stiffness=0.5:1e4:24 "
     "--over hoop.k=0.05:0.5:12 --bisections 2 --json --out hop"
 )
 RIGID = "hoop bench rigid --peers --json --out bench"
