@@ -158,6 +158,8 @@ class Ring:
     def _by_itself(self, columns: NDArray[np.int64]) -> Array:
         """What is ``within`` of the displacement of the rim's dofs, under unit forces on some of them."""
         load = np.zeros((len(self.mesh.rim_nodes), 2, len(columns)))
+        if self.within == 0:
+            return load.reshape(-1, len(columns))
         load[columns // 2, columns % 2, np.arange(len(columns))] = self.within
         return np.asarray(splu(self.rim_products).solve(load.reshape(len(load), -1))).reshape(-1, len(columns))
 
