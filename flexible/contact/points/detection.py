@@ -33,7 +33,9 @@ def _lowest(height: float, psi_start: float, width: float, y0: float, y1: float,
         if curvature <= 0:
             lowest = 0.0 if at_start < at_end else 1.0
             break
-        lowest = min(max(lowest - slope / curvature, 0.0), 1.0)
+        last, lowest = lowest, min(max(lowest - slope / curvature, 0.0), 1.0)
+        if lowest == last:  # as a rule at an end of the element
+            break
     return lowest, base + c1 * lowest + c2 * lowest**2 + lift(psi_start + lowest * width)
 
 
