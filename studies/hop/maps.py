@@ -78,7 +78,7 @@ def map_figure(study: Mapped) -> Figure | None:
             painted = axes.pcolormesh(*_edges(study), values, rasterized=True, **how)
             figure.colorbar(painted, ax=axes, ticks=FixedLocator(range(-720, 721, 45)) if row == 0 else None)
             axes.set_title(title, fontsize=10)
-            _scales(study, axes)
+            _scales(study, axes, room=6)
             if row == 1:
                 axes.set_xlabel(SYMBOL)
         return figure
@@ -158,12 +158,12 @@ def _between(values: Array, logarithmic: bool | None = None) -> Array:
     return np.exp(edges) if even else edges
 
 
-def _scales(study: Mapped, axes: Axes) -> None:
-    """Limits, and ticks at plain numbers."""
+def _scales(study: Mapped, axes: Axes, room: int = 12) -> None:
+    """Limits, and ticks at plain numbers, of which a panel has ``room`` for so many side by side."""
     x, y = _edges(study)
     values = np.array([line.value for line in study.lines], dtype=float)
     axes.set(xscale="log", yscale="log" if _even(values) else "linear", xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
-    in_plain_numbers(axes.xaxis)
+    in_plain_numbers(axes.xaxis, (1, 3) if 2 * np.log10(x[-1] / x[0]) < room else (1,))
     if _even(values):
         in_plain_numbers(axes.yaxis, (1, 2, 3, 5))
     elif len(values) <= 6:
