@@ -102,7 +102,7 @@ class _Stressed:
         self.by, area = gauss_gradient(ring.mesh)[:2], gauss_gradient(ring.mesh)[2]
         h11, h21, h12, h22 = (by @ u[:, i] for by in self.by for i in (0, 1))
         strain = np.stack([h11, h22, h12 + h21])
-        nu = ring.poisson
+        self.poisson = nu = ring.poisson
         elastic = np.array([[1, nu, 0], [nu, 1, 0], [0, 0, (1 - nu) / 2]]) / (1 - nu**2)
         self.stress = np.einsum("ij,jgm,g->igm", elastic, strain, area.ravel())
         energy = np.einsum("iga,igb->gab", strain, self.stress)
@@ -184,5 +184,8 @@ def _section(stressed: _Stressed, cuts: Array, radius: float) -> tuple[Array, fl
     matrix, energies = np.concatenate(rows), np.concatenate(known)
     found = np.linalg.lstsq(matrix, energies, rcond=None)[0]
     nn, qq, mm, nm = found * thin
+    # a quad bends evenly where M is linear and so lacks energy of the shear force, in a thin wall all of it and more
+    # (L^2/12 of bending, L its length); no stress carries Q with less than an even one
+    qq = max(qq, 2 * (1 + stressed.poisson) / (1 - stressed.mesh.inner / stressed.mesh.outer))
     section = np.array([[nn, 0.0, nm], [0.0, qq, 0.0], [nm, 0.0, mm]])
     return section, float(np.abs(matrix @ found - energies).max() / np.abs(energies).max())

@@ -176,6 +176,7 @@ def advance(
             error, wanted = taken.error / aims.tolerance if solved else inf, care(law, before)
             if error > wanted:
                 h = shorter(asked, error / wanted, aims.power)
+                pace = pace if solved else AFRESH  # a step is not short for its error where longer ones are not solved
                 continue
             this = Pace(asked, error / care(law, seen))
             grown = min(longer(pace, this, aims.power), aims.longest)

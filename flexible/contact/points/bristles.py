@@ -16,6 +16,7 @@ from rigid.kernel.compile import jit, loop
 from .data import Bristles, Damper, Parameters, PointForces, Resultants, Slip
 from .rim import lift
 
+HELD = 1 / 64  # of the square of the points' distance: a spot of the rim less deep lets go of its bristles
 ENTERS = 1e-9  # of a step: Newton's last change to the instant of an entry, whose error is then its square
 
 
@@ -163,44 +164,69 @@ def edge_of_patch(g_in: float, g_out: float, inner: float) -> tuple[float, float
 
 
 @loop
+def _deepest(points: Any, i: int) -> int:
+    """Of the two points of a cell and their neighbours."""
+    gap, last, deepest = points.gap, points.last, i
+    if i > 0 and not last[i - 1] and gap[i - 1] < gap[deepest]:
+        deepest = i - 1
+    if gap[i + 1] < gap[deepest]:
+        deepest = i + 1
+    if i + 2 < gap.shape[0] and not last[i + 1] and gap[i + 2] < gap[deepest]:
+        deepest = i + 2
+    return deepest
+
+
+@loop
 def weigh(forces: PointForces, points: Any, carried: Any, spacing: float, curved: bool, sticks: bool) -> None:
     """Fill in the length of patch that belongs to each point, and its derivatives by the gaps of points around it.
 
     ``curved`` puts the edge on the gap's parabola; a friction that ends with the pressure ends where that does, on a
-    straight gap. Where all of the patch ``sticks``, bristles stay stretched up to where points leave.
+    straight gap. Where all of the patch ``sticks``, bristles stay stretched up to where points leave. How much of a
+    cell lies on the floor is anything where both its points are about to leave, however little they press, and
+    bristles stretched by the rest of the patch would hold it there with any force: such a spot lets go of them with
+    its depth.
     """
     weight, by = forces.weight, forces.weight_by
     gap = points.gap
     total = gap.shape[0]
+    held = HELD * spacing * spacing
     for i in range(total - 1):
         if points.last[i] or (gap[i] >= 0 and gap[i + 1] >= 0):
             continue
-        if gap[i] < 0 and gap[i + 1] < 0:
-            weight[i] += spacing / 2
-            weight[i + 1] += spacing / 2
-            continue
+        deepest, unit = i, spacing
+        if sticks:
+            deepest = _deepest(points, i)
+            unit *= min(-gap[deepest] / held, 1.0)
+        known, known_next = weight[i], weight[i + 1]
         inside, outside = (i, i + 1) if gap[i] < 0 else (i + 1, i)
         way = outside - inside
         inner = inside - way
-        if curved and 0 <= inner < total and not points.last[min(inner, inside)]:
-            f, f_in, f_out, f_inner = edge_of_patch(gap[inside], gap[outside], gap[inner])
+        if gap[i] < 0 and gap[i + 1] < 0:
+            weight[i] += unit / 2
+            weight[i + 1] += unit / 2
         else:
-            d = gap[outside] - gap[inside]
-            f, f_in, f_out, f_inner = -gap[inside] / d, -gap[outside] / d**2, gap[inside] / d**2, 0.0
-        if sticks and carried.touched[outside]:  # an edge that points leave: bristles stay stretched up to it
-            weight[inside] += spacing * (f - f * f / 2)
-            weight[outside] += spacing * f * f / 2
-            by[inside, 2] += spacing * (1 - f) * f_in
-            by[inside, 2 + way] += spacing * (1 - f) * f_out
-            by[inside, 2 - way] += spacing * (1 - f) * f_inner
-            by[outside, 2] += spacing * f * f_out
-            by[outside, 2 - way] += spacing * f * f_in
-            by[outside, 2 - 2 * way] += spacing * f * f_inner
-        else:
-            weight[inside] += spacing * f / 2
-            by[inside, 2] += spacing * f_in / 2
-            by[inside, 2 + way] += spacing * f_out / 2
-            by[inside, 2 - way] += spacing * f_inner / 2
+            if curved and 0 <= inner < total and not points.last[min(inner, inside)]:
+                f, f_in, f_out, f_inner = edge_of_patch(gap[inside], gap[outside], gap[inner])
+            else:
+                d = gap[outside] - gap[inside]
+                f, f_in, f_out, f_inner = -gap[inside] / d, -gap[outside] / d**2, gap[inside] / d**2, 0.0
+            if sticks and carried.touched[outside]:  # an edge that points leave: bristles stay stretched up to it
+                weight[inside] += unit * (f - f * f / 2)
+                weight[outside] += unit * f * f / 2
+                by[inside, 2] += unit * (1 - f) * f_in
+                by[inside, 2 + way] += unit * (1 - f) * f_out
+                by[inside, 2 - way] += unit * (1 - f) * f_inner
+                by[outside, 2] += unit * f * f_out
+                by[outside, 2 - way] += unit * f * f_in
+                by[outside, 2 - 2 * way] += unit * f * f_inner
+            else:
+                weight[inside] += unit * f / 2
+                by[inside, 2] += unit * f_in / 2
+                by[inside, 2 + way] += unit * f_out / 2
+                by[inside, 2 - way] += unit * f_inner / 2
+        if unit < spacing:
+            by[i, 2 + deepest - i] += (weight[i] - known) / gap[deepest]
+            by[i + 1, 1 + deepest - i] += (weight[i + 1] - known_next) / gap[deepest]
 
 
 @loop

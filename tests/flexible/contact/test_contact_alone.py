@@ -9,7 +9,7 @@ from kinematic import VERTEX, Floor, parameters
 from flexible.contact.forces import contact_forces
 from flexible.contact.laws.listing import LAWS
 from flexible.contact.laws.patch import SLIDE_LEFT, SLIDE_RIGHT, STICK
-from flexible.contact.points.data import UNDAMPED, Before, Rim, no_bristles
+from flexible.contact.points.data import UNDAMPED, Before, Bristles, Rim, no_bristles
 from flexible.contact.points.rim import element_at
 from rigid.elastic import LAWS as NAMES
 
@@ -161,3 +161,51 @@ def test_tangent_of_points_that_enter(name, way):
     friction = found.tangent[0]
     assert np.abs(columns - friction).max() < 1e-5 * np.abs(friction).max()
     assert np.array(columns[:3]) == pytest.approx(friction[:3], rel=1e-3)  # V, h, phi, whose entry is 1e-5 of V's
+
+
+SPOT = 2e-4  # distance of the points
+
+
+def spot(depth, tilt=0.0, stretch=1e-4):
+    """A patch that sticks, of two points on both sides of the lowest one, on bristles stretched from elsewhere.
+
+    The two are ``depth`` deep, and one ``tilt`` deeper than the other. Answers the contact by pose and nodes.
+    """
+    law = parameters("patch", SPOT, EPS, EPS)
+    phi = pi - 500.5 * SPOT + tilt / SPOT
+    rim, flat = Rim(element_at(VERTEX, pi - phi) - 2, VERTEX), np.zeros((11, 2))
+    pose = np.array([0.0, -depth - 2 * np.sin(SPOT / 4) ** 2, phi])
+    number = np.arange(498, 504)
+    held = Bristles(number, np.full(6, stretch), np.zeros(6), np.zeros(6, np.int8))
+    before = Before(pose, flat, held)
+
+    def contact(x):
+        return contact_forces(x[:3], x[3:].reshape(-1, 2), rim, law, STICK, before, UNDAMPED, True)
+
+    return contact, np.concatenate([pose, flat.ravel()])
+
+
+@pytest.mark.parametrize("tilt", [0.0, 0.9, -0.9, 1.1, -3.0])
+def test_a_spot_that_leaves_the_floor_lets_go_of_its_bristles(tilt):
+    """What share of the cell between two points lies on the floor is anything where both are about to leave: whatever
+    it is, their pull goes like their depth."""
+    pulls = []
+    for depth in (1e-6 * SPOT**2, 1e-4 * SPOT**2):
+        contact, x = spot(depth, tilt * depth)
+        res = contact(x).res
+        assert res.normal > 0
+        pulls.append(abs(res.friction) / (EPS * 1e-4 * SPOT))  # over that of a cell that sticks
+    assert 0 < pulls[0] < 1e-3
+    assert pulls[1] / pulls[0] == pytest.approx(100, rel=0.1)
+
+
+@pytest.mark.parametrize(("depth", "tilt"), [(0.004, 0.001), (0.008, -0.006), (0.002, 0.003)])
+def test_tangent_of_a_spot_that_leaves(depth, tilt):
+    """Against central differences, 1e-5 of the largest entry."""
+    contact, x = spot(depth * SPOT**2, tilt * SPOT**2)
+    step, columns = 1e-14, []
+    for e in np.eye(len(x)):
+        one, other = (contact(x + s * step * e) for s in (1, -1))
+        columns.append((one.nodal.ravel() - other.nodal.ravel()) / (2 * step))
+    tangent = contact(x).tangent[3:]
+    assert np.abs(np.array(columns).T - tangent).max() < 1e-5 * np.abs(tangent).max()

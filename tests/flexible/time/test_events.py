@@ -100,6 +100,28 @@ def test_no_step_passes_its_event_where_shorter_ones_fail(failing, monkeypatch):
     assert failing < 1 or "no step however short" in ended
 
 
+def test_a_step_that_could_be_solved_is_not_the_last_one(monkeypatch):
+    """At one instant nothing longer than 5e-13 can be: behind it steps grow again.
+
+    What they learnt from the one before, a hundred million times as long, was to be shorter still.
+    """
+    hoop, start = start_of(SLIPPING)
+    stuck: list[float] = []
+
+    def fails(model, old, h, *of):
+        if old.t > 0.05 and not stuck:
+            stuck.append(old.t)
+        return tried(model, old, h, *of)._replace(**({"ok": False} if h > 5e-13 and old.t in stuck else {}))
+
+    tried = flexible.time.advance.tried
+    monkeypatch.setattr(flexible.time.advance, "tried", fails)
+    monkeypatch.setattr(flexible.time.adaptive, "machine", lambda model: (flexible.time.advance.advance, model))
+    _, records, _, ended, _ = march(hoop, start, Ends(t=0.2), 1e-3, Limits(most=400))
+    assert stuck
+    assert not ended, ended
+    assert records[-1].t == pytest.approx(0.2)
+
+
 def test_a_number_that_is_none_is_not_passed_over():
     assert largest(np.array([1.0, -2.0])) == 2.0
     for bad in (np.nan, np.inf):
