@@ -24,12 +24,16 @@ KNOWN = 1e-9  # of 1 + N: Newton's tolerance on forces
 COARSE = 1e-3  # rtol at which a law has its number of points; their share of the error falls like its cube, and faster
 
 
-def points_to_a_patch(law: type[Law], rtol: float) -> int:
-    """Contact points by which a patch under the weight is as accurate as a tolerance asks for."""
-    return ceil(max(LEAST, law.points * (COARSE / rtol) ** (1 / 3)))
+def points_to_a_patch(law: type[Law], rtol: float, soft: bool = False) -> int:
+    """Contact points by which a patch under the weight is as accurate as a tolerance asks for.
+
+    On a ``soft`` ring, whose sections turn far, there are as many as its law has for one, if those are more.
+    """
+    number = max(law.points, law.points_of_soft) if soft else law.points
+    return ceil(max(LEAST, number * (COARSE / rtol) ** (1 / 3)))
 
 
-def contact_law(scene: Scene, elements: int, points: int | None = None, within: float = 0.0) -> Law:
+def contact_law(scene: Scene, elements: int, points: int, within: float = 0.0) -> Law:
     """The scene's friction law, with ``points`` to the patch of a rigid hoop under the disk's weight.
 
     ``within`` is what the rim's wall gives way by point by point, besides the foundation and its bristles.
@@ -40,7 +44,7 @@ def contact_law(scene: Scene, elements: int, points: int | None = None, within: 
     law = LAWS[contact.law]
     parameters = Parameters(
         law=law.code,
-        spacing=min(2 * half_width / (points or points_to_a_patch(law, scene.solve.rtol)), 2 * pi / elements / 8),
+        spacing=min(2 * half_width / points, 2 * pi / elements / 8),
         eps_n=eps,
         eps_t=1 / (1 / (contact.stiffness * contact.tangential_ratio) + within),
         mu_s=float(friction.mu_s),
@@ -94,6 +98,8 @@ class RimContact:
         self.vertex = vertex
         middle = (vertex + np.append(vertex[1:], vertex[0] + 2 * pi)) / 2
         self.theta = np.column_stack([vertex, middle]).ravel()
+        if points is None:
+            points = points_to_a_patch(LAWS[scene.contact.law], scene.solve.rtol, soft=not self.linear)
         self.law = contact_law(scene, len(vertex), points, within)
         self.element = 2 * pi / len(vertex)
         self.relaxation = relaxation_time(scene)

@@ -72,7 +72,7 @@ def effective_mu_s(mu_s: float, mu: float) -> float:
 class Brush(Law):
     """See the head of this file. It has one mode: stick and slip are each point's own."""
 
-    name, code, points = "brush", CODE, 12
+    name, code, points, points_of_soft = "brush", CODE, 12, 20
     tractions = staticmethod(tractions)
 
     def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:

@@ -48,6 +48,8 @@ class Law:
         In compiled code, one for each law.
     points : int
         To a patch under the weight, for ``rtol`` = 1e-3; a friction that ends inside the patch wants more.
+    points_of_soft : int
+        The same on a ring whose sections turn far: the fewer bristles, the more of the friction breaks with one.
     tractions : compiled function
         ``tractions(forces, points, foundation, carried, mode, load, slip, parameters) -> Tractions``: fills in the
         ``forces``, zero before (:class:`~flexible.contact.points.data.PointForces`), that pull at
@@ -59,6 +61,7 @@ class Law:
     name: ClassVar[str]
     code: ClassVar[int]
     points: ClassVar[int] = 8
+    points_of_soft: ClassVar[int] = 8
     tractions: ClassVar[Callable[..., Any]]
 
     def __init__(self, parameters: Parameters) -> None:
