@@ -11,10 +11,13 @@ from typing import Any
 import flexible
 from rigid import Scene, load_scene
 
+from .peers.scipy_ivp import installed
 from .race import Contestant, Row, race, wall_of
 from .truth import reference
 
 SCENE = "skipped"
+HEAVY = ("numba", "scipy.sparse.linalg", "skfem", "meshio", "matplotlib.figure", "pandas", "pyvista")
+"""Imports that a program waits for only where it uses them."""
 
 
 def _command(*words: str) -> list[str]:
@@ -65,7 +68,7 @@ def skipped(quick: bool) -> list[Row]:
 
 def cold_starts(repeats: int) -> list[Row]:
     """Wall time of a process that does one thing from nothing, compiled code found on disk."""
-    everything = "import numba, scipy.sparse.linalg, skfem, meshio, matplotlib.figure, pandas, pyvista"
+    everything = "import " + ", ".join(name for name in HEAVY if installed(name.partition(".")[0]))
     commands: dict[str, Sequence[str]] = {
         "cold start: python -c pass": [sys.executable, "-c", "pass"],
         "cold start: hoop rigid paper-3.1": _command("rigid", "paper-3.1", "--json"),

@@ -8,6 +8,7 @@ from math import isfinite
 import pytest
 from command_line import is_one_sentence
 
+from studies.bench import skipped
 from studies.bench.peers import scipy_ivp as peers
 from studies.bench.race import Claim, Contestant, exponent, race
 from studies.bench.rigid import scene_of, worst
@@ -83,6 +84,16 @@ def test_a_claim_holds_or_does_not():
     assert not Claim("", 80, 100).holds
     assert not Claim("", 3, 2, at_most=True).holds
     assert Claim("", float("nan"), 100, why_not="not installed").holds
+
+
+def test_what_a_plain_installation_lacks_is_not_imported(monkeypatch):
+    """pyvista comes with an extra; the benchmark ended with a traceback behind all its work."""
+    asked = []
+    monkeypatch.setattr(skipped, "installed", lambda name: name not in ("pyvista", "scipy"))
+    monkeypatch.setattr(skipped, "wall_of", lambda command: asked.append(" ".join(command)) or 1.0)
+    assert len(skipped.cold_starts(1)) == 4
+    assert any("skfem" in command for command in asked)
+    assert not any("pyvista" in command or "scipy" in command for command in asked)
 
 
 def test_bench_rigid_as_json_with_its_figure(hoop, tmp_path):
