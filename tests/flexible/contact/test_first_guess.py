@@ -9,7 +9,6 @@ from kinematic import VERTEX, Floor, parameters
 from flexible.contact.forces import contact_forces
 from flexible.contact.foreseen import Foreseen
 from flexible.contact.guess import as_deep, held_again
-from flexible.contact.newton import with_broken
 from flexible.contact.points.data import UNDAMPED, Before, Rim, no_bristles, pulling
 from flexible.contact.points.rim import element_at
 from flexible.models.stage import From
@@ -91,30 +90,3 @@ def test_a_brush_is_held_by_what_the_damper_presses_it_with():
     )
     assert found.res.normal == guess.res.normal  # Newton goes on with its own damper
     assert not u.any()
-
-
-def test_a_bristle_that_broke_is_held_by_what_slides():
-    """mu_s p held it as the step began; once Newton has seen it break it slides, as long as it is pulled by mu p."""
-    depth = 1e-6
-    law = parameters("brush", 1e-4, EPS, EPS, mu_s=0.5, mu=0.3)
-    pose, flat = np.array([0.0, -depth, PHI]), np.zeros((11, 2))
-    rim = Rim(element_at(VERTEX, np.pi - PHI) - 2, VERTEX)
-    touch = contact_forces(pose, flat, rim, law, 0, Before(pose, flat, no_bristles()), UNDAMPED, False)
-    at = touch.bristles.number * law.spacing + PHI - np.pi
-    pressure = EPS * (depth - at**2 / 2)
-    before = Before(pose, flat, touch.bristles._replace(stretch=-0.4 * pressure / EPS))
-
-    sticks = contact_forces(pose, flat, rim, law, 0, before, UNDAMPED, False)
-    assert not sticks.bristles.sliding.any()
-    broken = sticks.bristles.sliding.copy()
-    broken[3] = 1
-    seen = sticks.bristles._replace(sliding=broken)
-    assert with_broken(before, seen, 2.0, False) == (before, 2.0)
-    held, last = with_broken(before, seen, 2.0, True)
-    assert last == np.inf  # the misfit of another problem
-    assert not before.bristles.sliding.any()  # that of the state, to which a step in vain goes back
-    slides = contact_forces(pose, flat, rim, law, 0, held, UNDAMPED, False)
-    assert np.flatnonzero(slides.bristles.sliding).tolist() == [3]
-    lost = sticks.res.friction - slides.res.friction
-    assert lost == pytest.approx(0.1 * pressure[3] * law.spacing, rel=1e-3)
-    assert with_broken(held, slides.bristles, 2.0, True)[1] == 2.0
