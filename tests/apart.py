@@ -1,8 +1,8 @@
 """Each file of tests runs in a process of its own, forked from the one that collected them all, a file for each core.
 
 Compiled kernels, VTK and Mesa's compiler stay in a process until it ends: together they take more than a gigabyte, the
-dearest file alone less than half of one. It also keeps files from seeing what others left in caches. The fork begins
-with all modules imported, so it costs a second at most: to load the kernels that the file needs. Where there is no safe
+dearest file alone little more than half of one. It also keeps files from seeing what others left in caches. The fork
+begins with all modules imported and the flexible kernels loaded, so it costs next to nothing. Where there is no safe
 fork, and under a debugger, everything runs in one process.
 """
 

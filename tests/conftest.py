@@ -1,4 +1,4 @@
-"""The same examples in every run, kernels that are compiled before the first test, a process for each file.
+"""The same examples in every run, kernels that are compiled and loaded before the first test, a process for each file.
 
 HYPOTHESIS_PROFILE=explore looks for new examples, as `hoop stress --seed N` does.
 """
@@ -26,12 +26,16 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtestloop(session: pytest.Session) -> None:
-    """On a machine that has not run this code yet, compile in other processes: it takes more memory than any test."""
+    """Kernels for all files, whose processes are forked from this one: loaded once, and not by each.
+
+    On a machine that has not run this code yet others compile them: that takes more memory than any test.
+    """
     if session.config.option.collectonly or "flexible" not in sys.modules:
         return  # no test that needs the dear one was collected
-    from studies.running.solvers import LEVELS, missing
+    from studies.running.solvers import LEVELS, missing, prepare
 
     if absent := missing(LEVELS):
         programs = [f"from studies.running.solvers import prepare; prepare({name!r})" for name in ("rigid", *absent)]
         others = [subprocess.Popen([sys.executable, "-c", program], cwd=ROOT) for program in programs]
         assert [other.wait() for other in others] == [0] * len(others)
+    prepare(*LEVELS)
