@@ -28,6 +28,8 @@ from .section import LOADED, RodCompliance, mass_radius, radial, rod_compliance
 Array = NDArray[np.float64]
 
 FINER, FADES = 3.0, 0.2  # parts at the weld, see cuts
+SLENDER = 5.0  # walls to the length of a quad, from which on the rim is told nothing by it
+PRESSED = 0.4  # walls by which such a rim gives way under p/E: 13/32 beside a beam's middle, along it (1 + nu)/4
 
 
 def chord_strains(one: Array, two: Array, moves: int) -> Array:
@@ -160,7 +162,10 @@ class _Shape:
         xi = (theta - self.rod.theta[part]) / np.diff(self.rod.theta)[part]
         self.still = np.zeros((parts + 1, 3))
         self.nodes = RimNodes(np.where(inside, part, -1), np.where(inside, xi, 0.0), np.zeros((len(theta), 2, 6)))
-        self._complete()
+        #: whether quads are so long beside the wall that they know less of its bending than a rod does
+        self.slender = float(np.diff(theta)[0] % (2 * pi) * 2) > SLENDER * (1 - ring.mesh.inner / ring.mesh.outer)
+        if not self.slender:
+            self._complete()
 
     @cached_property
     def inverse(self) -> Array:
@@ -215,7 +220,13 @@ class _Shape:
 
         Right over a section the chain gives way a little more than the mesh, for a load on the rim spreads over half a
         wall before it bends the ring. A wall does not push back: the positive part is kept, less what the contact has.
+        Long quads in a thin wall are stiffer than it here and softer there, by many times what it is dented: such a one
+        is pressed as a beam is.
         """
+        if self.slender:
+            wall = 1 - self.ring.mesh.inner / self.ring.mesh.outer
+            spread = np.linalg.inv(self.ring.rim_products.toarray())
+            return np.asarray(PRESSED * wall * np.kron(spread, np.eye(2)), dtype=float)
         answer, _ = self.ring.solve_rim(np.arange(len(self.rim)))
         values, vectors = np.linalg.eigh((answer + answer.T) / 2 - self.rim @ self.inverse @ self.rim.T)
         positive = values > 0

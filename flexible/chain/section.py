@@ -26,6 +26,7 @@ from ..ring.fem import Ring
 Array = NDArray[np.float64]
 
 FADING = 3.0  # walls from a cut to the weld or to a load: what is no resultant has faded by exp(-4.2 x 3) there
+LEAST = 2  # elements of the piece at the weld: the corner's stress, which a quad smears, spoils the first cut
 LOADED = (2.1, pi, -2.1)  # angles of the rim at which the ring is pulled, in both directions
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
@@ -129,6 +130,8 @@ def _about(point: Array, forces: Array) -> Array:
 def rod_compliance(ring: Ring, end: float) -> RodCompliance:
     """Compliance of a ring as a rod; its end piece reaches ``end`` beyond the weld, or as far as Saint-Venant asks.
 
+    In a thin wall that is less than a quad's length, in which the mesh knows no more of what fades: it has two of them.
+
     Parameters
     ----------
     ring : Ring
@@ -144,7 +147,8 @@ def rod_compliance(ring: Ring, end: float) -> RodCompliance:
     inner = mesh.inner / mesh.outer
     radius, fades = mass_radius(inner), FADING * (1 - inner)
     vertex = mesh.rim_theta[::2]
-    beyond = vertex[vertex > mesh.weld_half_angle + max(end, fades) - 1e-9]
+    beyond = vertex[vertex > mesh.weld_half_angle + 1e-9][LEAST - 1 :]
+    beyond = beyond[beyond > mesh.weld_half_angle + max(end, fades) - 1e-9]
     margin = fades + 0.25 * max(LOADED[0] - mesh.weld_half_angle - 2 * fades, 0.0)
     clear = vertex[(vertex > mesh.weld_half_angle + margin) & (vertex < LOADED[0] - margin)]
     if not len(beyond) or len(clear) < 4:

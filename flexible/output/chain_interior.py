@@ -54,7 +54,8 @@ class ChainInterior(ExactInterior):
         self._depth = mesh.radius[self._moves] - self._radius
         self._circle = np.column_stack([np.cos(theta), np.sin(theta)])
         self._root = np.zeros((len(self._moves), 2, 6))
-        self._root = self._roots()
+        if not chain.shape.slender:
+            self._root = self._roots()
 
     def _roots(self) -> Array:
         """What the nodes near the weld move by the strains of the first and the last part, (n_nodes, 2, 6)."""
@@ -136,7 +137,7 @@ class ChainInterior(ExactInterior):
     def _local(self, state: State) -> Array:
         """What the contact's forces move besides, (n_nodes, 2)."""
         moved = np.zeros((len(self._moves), 2))
-        if state.res.normal == 0:
+        if state.res.normal == 0 or self.chain.shape.slender:
             return moved
         chain, q = self.chain, sections(state.pos)
         number, nodes = chain.window(*state.window)
