@@ -16,7 +16,7 @@ from rigid.kernel.compile import jit, part
 from ..contact.forces import contact_forces
 from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by, moved_damper
 from ..contact.guess import GUESSES, as_before, guess_again, held_again
-from ..contact.newton import breaks_loose, move, reached, round_off, share_before_bend, with_broken
+from ..contact.newton import breaks_loose, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Bristles, Parameters, Rim, pulling
 from ..contact.points.rim import window_around
 from ..contact.stage import Stage
@@ -136,7 +136,6 @@ def solve_stage(
         if iteration < 0:
             contact = held_again(pos[:FRAME], u, touching, contact, foreseen, asked)
         iteration, res = iteration + 1, contact.res
-        before, last = with_broken(before, contact.bristles, last, iteration >= LATE)
         moved = moved_by(damper, foreseen, res)
         moves, carries = moved.elastic != 0 or moved.held != 0, contact
         if moves:

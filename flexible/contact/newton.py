@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from rigid.kernel.compile import loop, part
 
-from .points.data import Before, Bristles, Contact, Damper, Resultants
+from .points.data import Contact, Damper, Resultants
 from .vectors import add, largest, plus, times
 
 HALVINGS = 6  # of a step of Newton that breaks a patch loose
@@ -50,27 +48,6 @@ def breaks_loose(res: Resultants, stuck: float, halved: int) -> bool:
     once: what they pull is nothing. A patch whose N the damper has taken away, or made a pull, holds nothing at all.
     """
     return bool(stuck > FEW and res.stuck == 0 and res.normal > 0 and halved < HALVINGS)
-
-
-@part
-def with_broken(before: Before, now: Bristles, last: float, late: bool) -> tuple[Before, float]:
-    """The contact before the step, of whose bristles those that slide ``now`` are held by mu p and not by mu_s p.
-
-    Where a bristle that breaks lets the floor push harder, it would hold by what is left of it: stuck it breaks, and
-    broken it sticks. As time goes on it breaks, and slides until it is pulled by less than mu p. Newton is told so only
-    when it is ``late`` and goes to and fro; of the misfit that its ``last`` matrix was made of it then knows nothing.
-    """
-    if not late:
-        return before, last
-    bristles, sliding, i, news = before.bristles, before.bristles.sliding.copy(), 0, 0
-    for k in range(now.number.shape[0]):
-        while i < sliding.shape[0] and bristles.number[i] < now.number[k]:
-            i += 1
-        if i < sliding.shape[0] and bristles.number[i] == now.number[k] and now.sliding[k] != 0:
-            news += sliding[i] == 0
-            sliding[i] = now.sliding[k]
-    held = Bristles(bristles.number, bristles.stretch, bristles.pull, sliding)
-    return Before(before.pose, before.u, held), np.inf if news > 0 else last
 
 
 @loop

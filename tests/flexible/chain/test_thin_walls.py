@@ -47,7 +47,19 @@ def test_a_wall_becomes_a_line(damping):
 def test_a_thin_soft_pulse_against_all_nodes():
     """On one mesh, of elements five walls long, at rtol = 1e-3: its steps leave 4 % in N_max."""
     thin = PULSE.replace(hoop={"r": 1.005}, solve={"rtol": 1e-3})
-    one, peak = measures(thin, elements=240, through=2)
-    other, true_peak = measures(thin, elements=240, through=2, level="exact")
+    one, peak = measures(thin, elements=240, through=1)
+    other, true_peak = measures(thin, elements=240, through=1, level="exact")
     assert one == pytest.approx(other, rel=0.01)
     assert peak == pytest.approx(true_peak, rel=0.04)
+
+
+@pytest.mark.slow
+def test_a_soft_brush_behind_a_thin_wall_is_rolled_on():
+    """A wall of a thousandth of R, E I = 2.3: the rim like rubber crawled through the pulse from break to break."""
+    scene = HOOP.replace(
+        hoop={"k": 0.0583, "r": 1.00097, "mass_ratio": 0.198}, friction={"mu_s": 1.038, "mu": 0.7943},
+        release={"phi0": 0.3806}, ring={"bending_stiffness": 2.289},
+        contact={"stiffness": 5.593e6, "damping": 1.0, "law": "brush"}, solve={"rtol": 1e-4, "level": "chain"},
+    )  # fmt: skip
+    motion = flexible.simulate(scene, most_steps=3000)
+    assert motion.completed, motion.ended

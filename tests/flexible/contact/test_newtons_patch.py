@@ -4,14 +4,12 @@ from math import sqrt
 
 import numpy as np
 import pytest
-from kinematic import VERTEX, Floor, parameters
+from kinematic import Floor, parameters
 
-from flexible.contact.forces import contact_forces
 from flexible.contact.foreseen import Foreseen, moved_back, moved_by, moved_damper
-from flexible.contact.newton import round_off, with_broken
+from flexible.contact.newton import round_off
 from flexible.contact.points.bristles import edge_of_patch
-from flexible.contact.points.data import UNDAMPED, Before, Rim, no_bristles
-from flexible.contact.points.rim import element_at
+from flexible.contact.points.data import UNDAMPED
 
 EPS = 1e6
 STIFF = 1e12  # with which a patch of DEPTH bears some weights, that Newton tells apart
@@ -121,30 +119,3 @@ def test_round_off_grows_with_what_the_damper_multiplies_by():
         normals.append(contact.res.normal)
     assert normals[1] / normals[0] == pytest.approx(1470)
     assert sizes[1] / sizes[0] == pytest.approx(1470, rel=1e-6)  # the slip's share does not grow
-
-
-def test_a_bristle_that_broke_is_held_by_what_slides():
-    """mu_s p held it as the step began; once Newton has seen it break it slides, as long as it is pulled by mu p."""
-    depth, phi = 1e-6, 2.9
-    law = parameters("brush", 1e-4, EPS, EPS, mu_s=0.5, mu=0.3)
-    pose, flat = np.array([0.0, -depth, phi]), np.zeros((11, 2))
-    rim = Rim(element_at(VERTEX, np.pi - phi) - 2, VERTEX)
-    touch = contact_forces(pose, flat, rim, law, 0, Before(pose, flat, no_bristles()), UNDAMPED, False)
-    at = touch.bristles.number * law.spacing + phi - np.pi
-    pressure = EPS * (depth - at**2 / 2)
-    before = Before(pose, flat, touch.bristles._replace(stretch=-0.4 * pressure / EPS))
-
-    sticks = contact_forces(pose, flat, rim, law, 0, before, UNDAMPED, False)
-    assert not sticks.bristles.sliding.any()
-    broken = sticks.bristles.sliding.copy()
-    broken[3] = 1
-    seen = sticks.bristles._replace(sliding=broken)
-    assert with_broken(before, seen, 2.0, False) == (before, 2.0)
-    held, last = with_broken(before, seen, 2.0, True)
-    assert last == np.inf  # the misfit of another problem
-    assert not before.bristles.sliding.any()  # that of the state, to which a step in vain goes back
-    slides = contact_forces(pose, flat, rim, law, 0, held, UNDAMPED, False)
-    assert np.flatnonzero(slides.bristles.sliding).tolist() == [3]
-    lost = sticks.res.friction - slides.res.friction
-    assert lost == pytest.approx(0.1 * pressure[3] * law.spacing, rel=1e-3)
-    assert with_broken(held, slides.bristles, 2.0, True)[1] == 2.0
