@@ -23,13 +23,12 @@ from .bordered import no_blocks
 from .corotated import Rod, elastic_tangent
 from .inertia import Body, Chain
 from .rim import RimNodes, curve_weights, follow
-from .section import LOADED, RodCompliance, mass_radius, radial, rod_compliance
+from .section import LOADED, RodCompliance, is_slender, mass_radius, radial, rod_compliance
 
 Array = NDArray[np.float64]
 
 FINER, FADES = 3.0, 0.2  # parts at the weld, see cuts
-SLENDER = 5.0  # walls to the length of a quad, from which on the rim is told nothing by it
-PRESSED = 0.4  # walls by which such a rim gives way under p/E: 13/32 beside a beam's middle, along it (1 + nu)/4
+PRESSED = 0.4  # walls by which a slender ring yields to p/E: 13/32 beside a beam's middle, along it (1 + nu)/4
 
 
 def chord_strains(one: Array, two: Array, moves: int) -> Array:
@@ -162,8 +161,7 @@ class _Shape:
         xi = (theta - self.rod.theta[part]) / np.diff(self.rod.theta)[part]
         self.still = np.zeros((parts + 1, 3))
         self.nodes = RimNodes(np.where(inside, part, -1), np.where(inside, xi, 0.0), np.zeros((len(theta), 2, 6)))
-        #: whether quads are so long beside the wall that they know less of its bending than a rod does
-        self.slender = float(np.diff(theta)[0] % (2 * pi) * 2) > SLENDER * (1 - ring.mesh.inner / ring.mesh.outer)
+        self.slender = is_slender(ring)
         if not self.slender:
             self._complete()
 

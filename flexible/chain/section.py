@@ -13,12 +13,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from math import cos, pi, sin
+from math import ceil, cos, pi, sin
 
 import numpy as np
 from numpy.typing import NDArray
 
-from meshes import gauss_gradient
+from meshes import gauss_gradient, ring_mesh
 from rigid import SceneError
 
 from ..ring.fem import Ring
@@ -27,6 +27,8 @@ Array = NDArray[np.float64]
 
 FADING = 3.0  # walls from a cut to the weld or to a load: what is no resultant has faded by exp(-4.2 x 3) there
 LEAST = 2  # elements of the piece at the weld: the corner's stress, which a quad smears, spoils the first cut
+SLENDER = 5.0  # walls to the length of a quad, from which on it knows less of the wall's bending than a rod
+FINE, MOST = 3.0, 2400  # quads that measure such a wall: walls to the length; around at most, or rounding errors tell
 LOADED = (2.1, pi, -2.1)  # angles of the rim at which the ring is pulled, in both directions
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
@@ -126,11 +128,28 @@ def _about(point: Array, forces: Array) -> Array:
     return np.stack([forces[0], forces[1], forces[2] - point[0] * forces[1] + point[1] * forces[0]])
 
 
+def is_slender(ring: Ring) -> bool:
+    """Whether a ring's quads are too long beside its wall to be measured."""
+    mesh = ring.mesh
+    return 2 * pi / len(mesh.rim_theta[::2]) > SLENDER * (1 - mesh.inner / mesh.outer)
+
+
+def _measurable(ring: Ring) -> Ring:
+    """The ring; or the same of shorter quads, which only has to bear six loads."""
+    if not is_slender(ring):
+        return ring
+    mesh = ring.mesh
+    wall = 1 - mesh.inner / mesh.outer
+    around = min(ceil(2 * pi / (FINE * wall)), MOST)
+    return Ring(ring_mesh(1 - wall, 1.0, around, len(mesh.grid) // 2, mesh.weld_half_angle), ring.poisson)
+
+
 @lru_cache(maxsize=16)
 def rod_compliance(ring: Ring, end: float) -> RodCompliance:
     """Compliance of a ring as a rod; its end piece reaches ``end`` beyond the weld, or as far as Saint-Venant asks.
 
-    In a thin wall that is less than a quad's length, in which the mesh knows no more of what fades: it has two of them.
+    In a thin wall that may be less than a quad's length, in which the mesh knows no more of what fades: it has two. A
+    wall in which quads are longer still is measured on others.
 
     Parameters
     ----------
@@ -143,6 +162,7 @@ def rod_compliance(ring: Ring, end: float) -> RodCompliance:
     SceneError
         The wall is too thick, or the weld too wide, for a rod.
     """
+    ring = _measurable(ring)
     mesh = ring.mesh
     inner = mesh.inner / mesh.outer
     radius, fades = mass_radius(inner), FADING * (1 - inner)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from functools import cached_property
-from math import ceil, pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +20,7 @@ from ..chain.touch import turned
 from ..chain.whole import energies_of, floor_forces, held, momentum_error, moved, reach
 from ..contact.points.data import Damper
 from ..contact.stage import Predictor, Stage
-from ..ring.fem import AROUND, MOST_AROUND, ring_of
+from ..ring.fem import AROUND, ring_of
 from .rim_contact import RimContact
 from .state import Energies, State
 
@@ -30,13 +29,7 @@ Window = tuple[int, int]
 
 PER_PART = 2  # rim elements to a part
 THROUGH = 2  # elements through the wall of the mesh that the chain is condensed from
-LONG = 12.0  # walls to the length of an element
 SLOW = 24  # modes of the ring by whose error steps are chosen, as many as the reduced ring has
-
-
-def elements_beside(wall: float) -> int:
-    """Elements around a chain's ring: as long as ``LONG`` walls at most, by which the piece at the weld is measured."""
-    return min(max(AROUND, ceil(2 * pi / (LONG * wall))), MOST_AROUND)
 
 
 class ChainHoop(RimContact):
@@ -59,9 +52,8 @@ class ChainHoop(RimContact):
     def __init__(
         self, scene: Scene, parts: int | None = None, points: int | None = None, through: int = THROUGH
     ) -> None:
-        around = elements_beside(scene.wall)
-        parts = (scene.solve.elements or around) // PER_PART if parts is None else parts
-        self.ring = ChainRing(scene, ring_of(scene, through, around), parts)
+        parts = (scene.solve.elements or AROUND) // PER_PART if parts is None else parts
+        self.ring = ChainRing(scene, ring_of(scene, through, AROUND), parts)
         super().__init__(scene, self.ring.vertex, points, self.ring.within)
         rod = self.ring.chain.rod
         mass = np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1].ravel()

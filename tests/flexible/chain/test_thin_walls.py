@@ -18,9 +18,9 @@ def measures(scene, **solve):
     return [pulse.normal_impulse, ratio, pulse.friction_loss], pulse.peak_normal_force
 
 
-@pytest.mark.parametrize(("r", "coarse", "fine"), [(1.001, None, 720), (1.003, 240, 360), (1.008, 240, 360)])
+@pytest.mark.parametrize(("r", "coarse", "fine"), [(1.001, 240, 720), (1.003, 240, 360), (1.008, 240, 360)])
 def test_a_pulse_of_a_thin_wall_is_that_of_a_finer_mesh(r, coarse, fine):
-    """Of 12, 9 and 3 walls to an element, and of 9, 6 and 2: 1 to 3 % of what is lost, 5 % of the peak.
+    """Of 26, 9 and 3 walls to an element, and of 9, 6 and 2: 1 to 3 % of what is lost, 5 % of the peak.
 
     Cut off one element behind the weld, and with what long quads lack taken for what a wall gives way by, N_max was 461
     and 206 at r = 1.001, and 78 and 46 at 1.008; the peak's error is that of a vibration, as in thicker walls.
@@ -45,11 +45,14 @@ def test_a_wall_becomes_a_line(damping):
 
 @pytest.mark.slow
 def test_a_thin_soft_pulse_against_all_nodes():
-    """On one mesh, of elements five walls long, at rtol = 1e-3: its steps leave 4 % in N_max."""
+    """All nodes on 480 elements, 2.6 walls long, at rtol = 1e-3, which leaves 4 % of N_max; with 240 they miss 2.5 %.
+
+    The chain has 240 in its rim.
+    """
     thin = PULSE.replace(hoop={"r": 1.005}, solve={"rtol": 1e-3})
-    one, peak = measures(thin, elements=240, through=1)
-    other, true_peak = measures(thin, elements=240, through=1, level="exact")
-    assert one == pytest.approx(other, rel=0.01)
+    one, peak = measures(thin)
+    other, true_peak = measures(thin, elements=480, level="exact")
+    assert one == pytest.approx(other, rel=0.005)
     assert peak == pytest.approx(true_peak, rel=0.04)
 
 
