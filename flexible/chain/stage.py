@@ -261,7 +261,8 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         # a soft ring bulges: in a long step another part of it may have come down
         at = plus(predictor.pos, 1.0, d)
         lower, higher = reach(arrays, at)
-        ahead, behind = beside(arrays, at, window, answer.u, contact.nodal)
+        gives = 2 * largest(facing.missing) * (abs(contact.res.normal) + abs(contact.res.friction))
+        ahead, behind = beside(arrays, at, window, answer.u, contact.nodal, gives)
         start = at[2] - np.pi + vertex_angle(vertex, window[0]) - arrays.element / 2
         if ahead < 0:
             lower = min(lower, start)
