@@ -18,14 +18,14 @@ from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by,
 from ..contact.guess import GUESSES, as_before, guess_again, held_again
 from ..contact.newton import breaks_loose, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Bristles, Parameters, Rim, pulling
-from ..contact.points.rim import window_around
+from ..contact.points.rim import vertex_angle, window_around
 from ..contact.stage import Stage
 from ..contact.vectors import eliminate, largest, plus, times
 from .bordered import FRAME, Factors, factor, nothing_factored, solve
 from .inertia import Chain
 from .rim import RimNodes, follow
 from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
-from .whole import balance, lacking, moved, near_floor, reach, sections, tangent
+from .whole import balance, beside, lacking, moved, near_floor, reach, sections, tangent
 
 GROWS = 2.0  # a step of Newton after which the forces are off by this many times as much is taken back to a half
 LATE = 12  # iterations after which it is where it leaves more at all: it goes to and fro
@@ -260,6 +260,13 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         # a soft ring bulges: in a long step another part of it may have come down
         at = plus(predictor.pos, 1.0, d)
         lower, higher = reach(arrays, at)
+        gives = 2 * largest(facing.missing) * (abs(contact.res.normal) + abs(contact.res.friction))
+        ahead, behind = beside(arrays, at, window, answer.u, contact.nodal, gives)
+        start = at[2] - np.pi + vertex_angle(vertex, window[0]) - arrays.element / 2
+        if ahead < 0:
+            lower = min(lower, start)
+        if behind < 0:
+            higher = max(higher, start + (window[1] + 1) * arrays.element)
         begin, count = window_around(vertex, at[2], lower, higher, 0.0)
         if window[0] <= begin and begin + count <= window[0] + window[1]:
             return Stage(

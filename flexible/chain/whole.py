@@ -11,6 +11,8 @@ import numpy as np
 
 from rigid.kernel.compile import jit, part
 
+from ..contact.points.data import Rim
+from ..contact.points.detection import least_gap
 from ..contact.vectors import largest, times
 from .bordered import FRAME, no_blocks, solve
 from .corotated import elastic, elastic_tangent, strain_energy
@@ -178,3 +180,31 @@ def lacks(arrays: Any, window: Any) -> bool:
 def reach(arrays: Any, pos: Any) -> tuple[float, float]:
     """Angles from the bottom between which rim nodes are below the floor; of the lowest node if none is."""
     return lowest(arrays.chain.rod, sections(pos), arrays.nodes, arrays.theta, pos[2], pos[1])
+
+
+@part
+def beside(arrays: Any, pos: Any, window: tuple[int, int], u: Any, nodal: Any, most: float) -> tuple[float, float]:
+    """The least gap of the rim in the element before a window and in the one behind it.
+
+    ``u`` and ``nodal``: displacement of the window's nodes and the forces on them, to which those beside it give way
+    too, by no more than ``most``, but less than its last one: between the two a rim may come down that by its sections
+    is off the floor.
+    """
+    rod, q = arrays.chain.rod, sections(pos)
+    gap = np.empty(2)
+    for side in range(2):
+        element, end = window[0] - 1 + side * (1 + window[1]), 2 * (1 - side)
+        here, nodes = near_floor(arrays, (element, 1))
+        rim, (own, _, turns) = Rim(element, arrays.vertex), follow(rod, q, nodes)
+        for again in range(2):
+            for a in range(2):  # to the last digit, which a sum over the compliance is not
+                own[end, a] = u[side * (u.shape[0] - 1), a]
+            gap[side] = least_gap(pos[1], pos[2], own, rim)
+            if again == 1 or gap[side] > 2 * most:  # 5/4 are the weights of a parabola at most
+                break
+            there, nodes = near_floor(arrays, window)
+            gives = turned(lacking(arrays.missing, here, there), turns, follow(rod, q, nodes)[2])
+            for i in range(gives.shape[0]):
+                for j in range(gives.shape[1]):
+                    own[i // 2, i % 2] += gives[i, j] * nodal[j // 2, j % 2]
+    return gap[0], gap[1]

@@ -110,10 +110,14 @@ def _solved(
         u_old = _moved(arrays, old, window)
         before = Before(old.pos[:3], u_old, old.bristles)
         u = near.u if near.window == window else u_old
-        start = From(u, deepest, near.elastic, near.expected, arrays.law.known)
-        answer = solve_stage(
-            arrays.frame, _near_floor(arrays, window), arrays.law, mode, before, damper, predictor, start
-        )
+        facing, elastic = _near_floor(arrays, window), near.elastic
+        while True:
+            start = From(u, deepest, elastic, near.expected, arrays.law.known)
+            answer = solve_stage(arrays.frame, facing, arrays.law, mode, before, damper, predictor, start)
+            if answer.iterations != -1 or elastic == 0:
+                break
+            # a depth foreseen to a thousandth may make a short step's damper pull: under no pressure no bristle sticks
+            elastic = 0.0
         contact = answer.contact
         found = Stage(
             answer.iterations >= 0, answer.d, answer.acc, answer.matrix, window, answer.u, contact.nodal, contact.res,

@@ -13,7 +13,7 @@ import numpy as np
 
 from rigid.kernel.compile import jit, loop, part
 
-from ..contact.laws.listing import care, free
+from ..contact.laws.listing import care, free, sticks
 from ..contact.points.data import Parameters
 from ..contact.points.rim import turned
 from ..models import reduced
@@ -52,6 +52,7 @@ from .stages import Taken, held, take
 
 SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
 SHORT = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
+FARTHEST = 1e-4  # a leap over an instant to which no step however short leads
 MOST_STALLS = 50  # events within a shortest step of each other
 SPAN = 25  # steps tried between two looks at what else the machine has to do: 0.1 s at most
 COLUMNS = len(Record._fields) + 1  # of a row: a record, and the rotation of the rim at the floor
@@ -152,13 +153,18 @@ def advance(
     """
     state, h, pace, books, attempts, turns, stalls, cut = now
     written, span, window, search, event, why = 0, attempts + SPAN, state.window, NOWHERE, NO_EVENT, 0
-    asked, tries, grown, this = h, h, h, pace
+    asked, tries, grown, this, leap = h, h, h, pace, 0.0
     if _ended(state.t, state.pos[2], turns, ends):
         why = REACHED
     while why == 0:
         if search.event == NO_EVENT:
             if not aims.alone:
                 why = _pause(written < rows.shape[0] and attempts < span, attempts < aims.most, h)
+            # a spot of a soft rim that its bristles hold to the floor may snap off it, and forces jump: there the state
+            # has no neighbour, to which a step however short would lead, but one beyond
+            if why == UNSOLVED and leap < FARTHEST:
+                why, leap = 0, max(10 * leap, SHORT)
+                h = leap
             if why != 0:
                 break
             cut = cut or h > ends.t - state.t
@@ -174,8 +180,13 @@ def advance(
         length = (state.t + tries) - state.t
         if search.event == NO_EVENT:
             error, wanted = taken.error / aims.tolerance if solved else inf, care(law, before)
+            alike = not sticks(law, state.mode) or seen.res.friction * state.res.friction > 0
+            if leap > 0 and error <= wanted and alike and passed(MODE_ENDS, law, ends, before, seen) >= 0:
+                why, h, pace = MODE_ENDED if stalls < MOST_STALLS else STALLED, SHORT, AFRESH
+                stalls += 1
+                break
             if error > wanted:
-                h = shorter(asked, error / wanted, aims.power)
+                h = shorter(asked, error / wanted, aims.power) if leap == 0 else 0.0
                 pace = pace if solved else AFRESH  # a step is not short for its error where longer ones are not solved
                 continue
             this = Pace(asked, error / care(law, seen))
@@ -211,7 +222,7 @@ def advance(
             why = STALLED
         elif event == MODE_ENDS:
             why, h, pace = MODE_ENDED, max(min(asked, grown) / 8, SHORT), AFRESH
-        search, event = NOWHERE, NO_EVENT
+        search, event, leap = NOWHERE, NO_EVENT, 0.0
     return Advanced(Standing(state, h, pace, books, attempts, turns, stalls, cut), written, why, window)
 
 
