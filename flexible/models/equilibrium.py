@@ -79,6 +79,7 @@ class RestingNodes:
     def __init__(self, ring: Any, inertia: sp.csc_matrix, load: Array) -> None:
         self.ring, self.inertia, self.load = ring, inertia, load
         self.coordinates = np.zeros(ring.size)
+        self.noise = 3e-11 / (1 - ring.ring.mesh.inner) ** 2  # a wall stretches h^-2 times as hard as it bends
 
     def linearise(self, share: float) -> None:
         u = self.coordinates
@@ -101,9 +102,8 @@ class RestingNodes:
 
     def move(self, window: Window, force: Array) -> float:
         moved = self.base + self._answer(window) @ force
-        change = largest(moved - self.coordinates) / max(largest(moved), 1e-300)
-        self.coordinates = moved
-        return change
+        change, self.coordinates = largest(moved - self.coordinates) / max(largest(moved), 1e-300), moved
+        return change if change > self.noise else 0.0
 
 
 class Patch:

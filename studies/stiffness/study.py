@@ -108,7 +108,9 @@ def stiffness_study(
     # 4. rate and limit of the first pulse's measures over the rungs that came through
     through = [rung for rung in rungs if not rung.outcome.failure]
     if not through:
-        raise StudyError(f"No rung of the ladder came through; the stiffest says: {rungs[-1].outcome.failure}.")
+        raise StudyError(
+            f"No rung of the ladder came through; the stiffest says: {rungs[-1].outcome.failure.rstrip('.')}."
+        )
     rates: tuple[float, ...] | None = None if exponent is None else (exponent,)
     holds = 0.0
     # of a ring with a mass the vibrations of the ring itself come between: its rate is fitted

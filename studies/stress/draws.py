@@ -8,6 +8,7 @@ from math import log10, pi, radians
 from rigid import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, Solve
 from rigid.elastic import LAWS
 
+THIN = 1.001  # r; a thinner wall is refused (flexible.ring.fem.THINNEST)
 RIGID_NUMBERS, HOSTILE_NUMBERS, FLEXIBLE_NUMBERS, SOFT_NUMBERS = 10, 8, 14, 9
 
 
@@ -64,7 +65,7 @@ def rigid_scene(x: list[float]) -> Scene:
 def flexible_scene(x: list[float]) -> Scene:
     """An elastic hoop within the range of its model, through its first pulse.
 
-    k 0.01 to 0.9, r 1 to 1.5, m_h/m 0 to 1, mu 0.05 to 1, mu_s/mu 1 to 2, released at 2 to 60 degrees from rest or not;
+    k 0.01 to 0.9, r 1.001 to 1.5, m_h/m 0 to 1, mu 0.05 to 1, mu_s/mu 1 to 2, released at 2 to 60 degrees or moving;
     foundation 1e6 to 1e13, where the weight sinks in by less than 1e-3 R or so; bending from 13/k, ten times that from
     which on the wall does not give way inside the pulse, to 1e4 times as much; 48 to 480 elements, tolerance 1e-2 to
     1e-5, damping 0 to 2.
@@ -74,7 +75,7 @@ def flexible_scene(x: list[float]) -> Scene:
     mass = _beyond(x[2], 0.3)
     omega, damping = _beyond(x[6], 0.6), _beyond(x[10], 0.3)
     return Scene(
-        Hoop(k, 1.0 + 0.5 * x[1] ** 2, 0.0 if mass is None else _power(mass, 1e-3, 1.0)),
+        Hoop(k, max(1.0 + 0.5 * x[1] ** 2, THIN), 0.0 if mass is None else _power(mass, 1e-3, 1.0)),
         Friction(mu * (1.0 + (_beyond(x[4], 0.2) or 0.0)), mu),
         Release(radians(2 + 58 * x[5]), 0.0 if omega is None else 2 * omega),
         Run(until="pulse"),
@@ -96,12 +97,12 @@ def flexible_scene(x: list[float]) -> Scene:
 def soft_scene(x: list[float]) -> Scene:
     """A damped hoop of any stiffness through its first pulse, at the default level and tolerance.
 
-    k 0.03 to 0.6, r 1 to 1.2, m_h/m 0 to 0.3, mu 0.05 to 0.8, mu_s/mu 1 to 1.5, released at rest at 2 to 60 degrees;
+    k 0.03 to 0.6, r 1.001 to 1.2, m_h/m 0 to 0.3, mu 0.05 to 0.8, mu_s/mu 1 to 1.5, at rest at 2 to 60 degrees;
     foundation 1e6 to 1e12, bending 1 to 1e7, the two laws that stick.
     """
     mu, mass = _power(x[3], 0.05, 0.8), _beyond(x[2], 0.2)
     return Scene(
-        Hoop(_power(x[0], 0.03, 0.6), 1.0 + 0.2 * x[1], 0.0 if mass is None else 0.3 * mass),
+        Hoop(_power(x[0], 0.03, 0.6), max(1.0 + 0.2 * x[1], THIN), 0.0 if mass is None else 0.3 * mass),
         Friction(mu * (1.0 + 0.5 * x[4]), mu),
         Release(radians(2 + 58 * x[5])),
         Run(until="pulse"),

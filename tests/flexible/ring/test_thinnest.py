@@ -1,0 +1,41 @@
+"""How thin a wall the mesh knows: quads stretch h^-2 times as hard as they bend."""
+
+from math import radians
+
+import numpy as np
+import pytest
+
+import flexible
+from flexible.ring.fem import THINNEST, Ring, ring_of
+from meshes import ring_mesh
+from rigid import Friction, Hoop, Release, Scene, SceneError
+from rigid import Ring as Elastic
+
+
+def frequencies(wall, around):
+    """Three lowest, of an inextensible line in sqrt(E I/(m_h rho^3)) as h goes to 0: E I = E b h^3/12."""
+    ring = Ring(ring_mesh(1 - wall, 1.0, around, 1, radians(3)), 0.3)
+    squared = 12 * ring.modes(3)[0] / wall**3 * (1 - wall / 2) ** 3
+    return np.sqrt(np.maximum(squared, 0.0))
+
+
+def test_the_thinnest_wall_vibrates_as_a_line():
+    """Quads 29 walls long are stiffer than the line, by 2 % (3e-4 of a pulse's J_N), and by the fourth power of that.
+
+    A tenth of it is known by no number of quads: of the first frequencies rounding leaves no digit.
+    """
+    line = frequencies(0.01, 480)
+    off = np.array([frequencies(THINNEST, around) / line - 1 for around in (240, 480)])
+    assert off[0] == pytest.approx(0, abs=0.025)
+    assert off[1] == pytest.approx(0, abs=0.005)  # of these 0.003 are the wall of 0.01
+    for around in (240, 480):
+        assert not np.abs(frequencies(THINNEST / 10, around) / line - 1).max() < 0.1
+
+
+@pytest.mark.parametrize("level", ["auto", "reduced", "chain", "exact", "full"])
+def test_a_thinner_one_is_refused(level):
+    scene = Scene(Hoop(k=0.1, r=1.0008), Friction(0.35, 0.3), Release(1.0), ring=Elastic(bending_stiffness=100.0))
+    scene = scene.replace(solve={"level": level})
+    with pytest.raises(SceneError, match="too thin for the quads"):
+        flexible.simulate(scene)
+    assert ring_of(scene.replace(hoop={"r": 1.0}, ring={"thickness": 0.001})).mesh.grid.shape[1] > 0, "as it says"
