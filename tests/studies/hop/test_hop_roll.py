@@ -148,42 +148,41 @@ def test_the_units_of_a_scene_are_those_of_its_flights(soft):
 
 
 ROD = {
-    30.0: [(6.6424, 4.0557, 0.0394, 6.1e-4), (6.7878, 4.2850, 0.0958, 2.12e-3), (6.9816, 4.5292, 0.1150, 2.78e-3)],
-    10.0: [(6.5337, 3.9250, 0.0201, 5.8e-4), (6.5919, 4.0557, 0.0336, 1.32e-3), (6.8121, 4.3843, 0.0837, 2.78e-3)],
-    3.0: [(6.5604, 4.1567, 0.1986, 2.65e-2), (6.7986, 4.4706, 0.1410, 2.84e-2), (7.0083, 4.6701, 0.1713, 4.32e-2)],
-}
-"""(t, phi, duration, height of the lowest node) of the first flights longer than LONG of a discrete elastic rod written
-apart from this code: 120 nodes joined by springs and bending angles on the rim's own circle, the disk rigid over three
-of them, a penalty floor of 1e7 with a bristle on each of 16 points between nodes, mu_s = mu = 0.3, no damping, the
-symplectic Euler rule with steps of 4e-6 (6e-6 for 10 and 3), from the equilibrium at 10 degrees. The key is
-E I/(m g R^2)."""
-
-LONG = {30.0: 0.02, 10.0: 0.02, 3.0: 0.1}
-"""At 3 the rod's shorter flights are others with 240 nodes."""
+    30.0: [(11.4058, 4.0529, 0.0437, 4.5e-4), (11.5568, 4.2922, 0.0930, 2.13e-3), (11.7558, 4.5433, 0.0977, 2.21e-3)],
+    10.0: [
+        (11.3260, 3.9258, 0.0225, 6.4e-4), (11.3829, 4.0556, 0.0300, 1.02e-3), (11.6006, 4.3805, 0.0863, 2.56e-3),
+        (11.8904, 4.7155, 0.1439, 6.04e-3), (12.0564, 4.8582, 0.0626, 2.79e-3),
+    ],
+    3.0: [(11.4315, 4.1652, 0.1776, 2.38e-2), (11.6761, 4.4995, 0.1234, 2.35e-2), (11.8821, 4.6990, 0.1623, 3.80e-2)],
+}  # fmt: skip
+"""(t, phi, duration, height of the lowest node) of flights of a discrete elastic rod written apart from this code: 360
+nodes joined by springs and bending angles on the rim's own circle, the disk rigid over five of them, a penalty floor of
+1e7 with a bristle on each of 16 points between nodes, mu_s = mu = 0.3, no damping, the symplectic Euler rule with steps
+of 8e-7, E A = 1e6. It is let go of at one degree where it hangs, held, on a frictionless floor: the jerk of that at ten
+rings through the whole roll. The key is E I/(m g R^2). Told are those longer than 0.02 that last as long with 120 nodes
+to a sixth; at 3 up to phi = 4.7, from where on this code's own are others at a third of the tolerance."""
 
 RODS_RING = {"thickness": 0.004, "weld_half_angle": radians(1.5)}
 """The rod's line runs on the rim; and the bending angle at the last node of its weld stands for half an element to
-either side, so that of the three degrees between that node and the middle the half is rigid."""
+either side, so that of the two degrees between that node and the middle a quarter is not rigid."""
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("bending_stiffness", "rtol"), [(30.0, RTOL), (10.0, RTOL), (3.0, RTOL / 6)])
-def test_hops_are_those_of_a_discrete_rod(bending_stiffness, rtol):
-    """First hops and the time between them, two codes with nothing in common.
+@pytest.mark.parametrize("bending_stiffness", [30.0, 10.0, 3.0])
+def test_hops_are_those_of_a_discrete_rod(bending_stiffness):
+    """Hop by hop, two codes with nothing in common; by as much as the rod's flights change with 120 nodes.
 
-    With 240 nodes (and half the weld) the rod's flights are apart from this code's by 0.005 in angle, a quarter in
-    duration and a third in height, as they are with 120: so far a penalty floor at nodes is from a patch. The start of
-    the roll is a hyperbola's: times of the two may be apart, from one flight to the next they are not. At 3 the
-    second flight begins at 4.49 by a tolerance of 1e-4 or more, at 4.484 from half of that on.
+    The start of the roll is a hyperbola's: times of the two may be apart, from one flight to the next they are not.
     """
-    flights = roll(scene_of(bending_stiffness, 7.45).replace(ring=RODS_RING, solve={"rtol": rtol})).flights
-    ours = [flight for flight in flights if flight.duration > LONG[bending_stiffness]][:3]
+    scene = scene_of(bending_stiffness, 12.4).replace(release=Release(radians(1)), ring=RODS_RING, solve={"rtol": 1e-4})
+    flights = [flight for flight in roll(scene).flights if flight.duration > 0.015]
+    ours = [min(flights, key=lambda f: abs(f.phi - phi)) for _, phi, _, _ in ROD[bending_stiffness]]
     for flight, (_, phi, duration, height) in zip(ours, ROD[bending_stiffness], strict=True):
-        assert flight.phi == pytest.approx(phi, abs=0.015)
-        assert flight.duration == pytest.approx(duration, rel=0.3)
-        assert flight.height == pytest.approx(height, rel=0.4)
+        assert flight.phi == pytest.approx(phi, abs=0.01)
+        assert flight.duration == pytest.approx(duration, rel=0.15)
+        assert flight.height == pytest.approx(height, rel=0.25)
     between = np.diff([flight.t for flight in ours])
-    assert between == pytest.approx(np.diff([row[0] for row in ROD[bending_stiffness]]), rel=0.06)
+    assert between == pytest.approx(np.diff([row[0] for row in ROD[bending_stiffness]]), rel=0.03)
 
 
 CABLES = {
