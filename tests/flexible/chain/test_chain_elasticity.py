@@ -80,11 +80,11 @@ def test_a_thin_ring_has_no_part_that_pushes_back(r):
 def test_clamped_ring_in_closed_form():
     """Radial and tangential compliance at an angle from the weld, in a^3/(E I) of a clamped thin ring: printed digits.
 
-    180 degrees is the ring pinched by two opposite forces P, (pi/4 - 2/pi) P a^3/(E I), and the one pulled along its rim,
-    (3 pi/4 - 4/pi): by Castigliano, where the halves share the pull and the shear -2P/pi keeps them level. To both comes
-    a stretch s of the two resultants, each of which turns along a half but keeps its size: s pi/2 and s (pi/2 + 8/pi). A
-    load is met at a section, where the parts are exact however few they are; rounding leaves 1e-8 of a matrix
-    conditioned 2e9, whose bound is 5e-7.
+    180 degrees is the ring pinched by two opposite forces P, (pi/4 - 2/pi) P a^3/(E I), and the one pulled along its
+    rim, (3 pi/4 - 4/pi): by Castigliano, where the halves share the pull and the shear -2P/pi keeps them level. To both
+    comes a stretch s of the two resultants, each of which turns along a half but keeps its size: s pi/2 and
+    s (pi/2 + 8/pi). A load is met at a section, where the parts are exact however few they are; rounding leaves 1e-8
+    of a matrix conditioned 2e9, whose bound is 5e-7.
     """
     stretch = 1e-6
     rod = closed(72, stretch)
