@@ -24,7 +24,7 @@ from .contact.points.rim import lift, sideways, upward
 from .models.equilibrium import Patch, settle
 from .models.select import Hoop
 from .models.state import State, Touching, in_motion
-from .time.adaptive import MarchError, restart
+from .time.adaptive import MarchError, compile_steps, restart
 
 Array = NDArray[np.float64]
 
@@ -149,8 +149,8 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
     return in_motion(t, x_C, (pos, zero, zero), mode, rim, pose.slip_velocity)
 
 
-def undeformed(hoop: Hoop, pose: Pose) -> State:
-    """The unstrained ring touching the floor with one point, moving as the rigid hoop does."""
+def _unstrained(hoop: Hoop, pose: Pose) -> State:
+    """The unstrained ring touching the floor with one point, before its accelerations are known."""
     n = hoop.coordinates
     window = hoop.window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
     u = np.zeros((2 * window[1] + 1, 2))
@@ -161,8 +161,18 @@ def undeformed(hoop: Hoop, pose: Pose) -> State:
     kind = Kind.FLIGHT if pose.slip_velocity == 0 else Kind.SKID if pose.slip_velocity > 0 else Kind.SPIN
     mode = hoop.law.start(kind)
     rim = Touching(window, u, np.zeros_like(u), NOTHING, no_bristles())
-    state = in_motion(0.0, 0.0, (pos, vel, np.zeros(3 + n)), mode, rim, pose.slip_velocity)
-    return restart(hoop, state, mode)
+    return in_motion(0.0, 0.0, (pos, vel, np.zeros(3 + n)), mode, rim, pose.slip_velocity)
+
+
+def undeformed(hoop: Hoop, pose: Pose) -> State:
+    """The unstrained ring touching the floor with one point, moving as the rigid hoop does."""
+    state = _unstrained(hoop, pose)
+    return restart(hoop, state, state.mode)
+
+
+def compile_ahead(hoop: Hoop) -> None:
+    """Have the steps of a hoop's level compiled, see :func:`flexible.time.adaptive.compile_steps`."""
+    compile_steps(hoop, _unstrained(hoop, Pose(pi, 1.0, 0.0, 0.0, 0.0, Kind.ROLL)))
 
 
 def hand_over(hoop: Hoop, motion: Motion, t: float, there: States | None = None) -> State:

@@ -4,9 +4,7 @@ HYPOTHESIS_PROFILE=explore looks for new examples, as `hoop stress --seed N` doe
 """
 
 import os
-import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 from apart import Apart, can_fork
@@ -15,8 +13,6 @@ from hypothesis import settings
 settings.register_profile("same", derandomize=True, database=None)
 settings.register_profile("explore")
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
-
-ROOT = Path(__file__).parent.parent
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -32,10 +28,13 @@ def pytest_runtestloop(session: pytest.Session) -> None:
     """
     if session.config.option.collectonly or "flexible" not in sys.modules:
         return  # no test that needs the dear one was collected
-    from studies.running.solvers import LEVELS, missing, prepare
+    from studies.machine.processes import Processes, cores
+    from studies.running.solvers import LEVELS, compile_side_by_side, missing, prepare
 
     if absent := missing(LEVELS):
-        programs = [f"from studies.running.solvers import prepare; prepare({name!r})" for name in ("rigid", *absent)]
-        others = [subprocess.Popen([sys.executable, "-c", program], cwd=ROOT) for program in programs]
-        assert [other.wait() for other in others] == [0] * len(others)
+        processes = Processes(cores())
+        try:
+            compile_side_by_side(("rigid", *absent), processes.submit)
+        finally:
+            processes.stop()
     prepare(*LEVELS)

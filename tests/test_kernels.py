@@ -18,7 +18,8 @@ import pytest
 import flexible
 import rigid
 from rigid.kernel import announce, store
-from rigid.kernel.compile import Patience, _as_part
+from rigid.kernel.compile import Patience
+from rigid.kernel.insides.parts import as_part
 
 ROOT = Path(__file__).parent.parent
 CALLEE = "flexible/contact/points/normal.py"
@@ -125,7 +126,7 @@ def test_a_changed_callee_is_never_served_from_the_cache(tmp_path, warm):
     assert run(installation, cache)[:2] == (-3.0, True)
 
 
-@pytest.mark.skipif("pipeline_class" not in _as_part(), reason="a numba whose insides are not known")
+@pytest.mark.skipif("pipeline_class" not in as_part(), reason="a numba whose insides are not known")
 def test_machine_code_is_made_of_what_python_calls(tmp_path):
     """And of no part of that by itself, which has it made again in each function that calls it."""
     installation = copy_of_the_packages(tmp_path / "installation")
@@ -134,7 +135,7 @@ def test_machine_code_is_made_of_what_python_calls(tmp_path):
 
 def test_a_numba_whose_insides_are_not_known_compiles_in_its_own_way(tmp_path):
     installation = copy_of_the_packages(tmp_path / "installation")
-    newer = "import rigid.kernel.compile as compile\ncompile._NEXT = compile._OLDEST\n"
+    newer = "import rigid.kernel.insides.parts as parts\nparts._NEXT = parts._OLDEST\n"
     assert run(installation, tmp_path / "cache", newer + PROGRAM)[:2] == (-1.5, True)
 
 
@@ -248,11 +249,13 @@ def test_the_environment_says_where(monkeypatch, tmp_path, variable):
         assert store.NAME in store._wanted_cache().parts
 
 
-def test_one_worker_compiles_for_all_what_the_cases_need(monkeypatch):
-    from rigid.kernel import store
-    from studies.running import workers
+def test_workers_compile_once_for_all_what_the_cases_need(monkeypatch):
+    """The contact beside the steps of the level asked for first; the rest by one of them, when both are there."""
+    from studies.running import solvers, workers
     from studies.running.case import Case
-    from studies.running.solvers import prepare
+    from studies.running.solvers import CONTACT, LEVELS, compile_alone, prepare
+
+    cold = {CONTACT, *LEVELS.values()}
 
     asked = []
 
@@ -261,12 +264,14 @@ def test_one_worker_compiles_for_all_what_the_cases_need(monkeypatch):
             pass
 
         def submit(self, function, *arguments):
-            asked.append((function, *arguments) if function is prepare else function)
+            asked.append((function, *arguments) if function in (prepare, compile_alone) else function)
+            if function is compile_alone:
+                cold.discard(LEVELS.get(arguments[0], CONTACT))
             future = Future()
             future.set_result(None)
             return future
 
-    monkeypatch.setattr(store, "is_cold", lambda package: True)
+    monkeypatch.setattr(solvers, "is_cold", cold.__contains__)
     monkeypatch.setattr(workers, "Processes", Processes)
     place = workers.Machine(2)
     scene = rigid.load_scene("paper-3.3-massless")
@@ -276,7 +281,8 @@ def test_one_worker_compiles_for_all_what_the_cases_need(monkeypatch):
     run = workers.run_case
     first, *then = asked
     assert first == workers._awake  # both processes load, while this one is still busy with what they shall do
-    assert then == [first, run, (prepare, "reduced"), run, run, (prepare, "chain"), run]
+    linear = [(compile_alone, "reduced", False), (compile_alone, CONTACT, True), (prepare, "reduced")]
+    assert then == [first, run, *linear, run, run, (compile_alone, "chain", False), (prepare, "chain"), run]
 
 
 def test_each_level_is_known_to_be_compiled_by_its_own_step(monkeypatch):

@@ -276,4 +276,4 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
     return found
 
 
-solved, solved_in_step = jit(_solved), part(_solved)
+solved, solved_in_step = jit(_solved, needs=(contact_forces,)), part(_solved)

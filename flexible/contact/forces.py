@@ -23,12 +23,24 @@ from typing import Any
 
 import numpy as np
 
-from rigid.kernel.compile import jit, loop
+from rigid.kernel.compile import apart, loop
 
 from .assembly import X, Y, add_outer, add_spread, direct, gather, share_out, spread, tangents
 from .laws.listing import tractions
 from .points.bristles import carry
-from .points.data import Before, Bristles, Contact, Damper, Load, Parameters, Resultants, Rim, Slip
+from .points.data import (
+    NOTHING,
+    UNDAMPED,
+    Before,
+    Bristles,
+    Contact,
+    Damper,
+    Load,
+    Parameters,
+    Resultants,
+    Rim,
+    Slip,
+)
 from .points.detection import find, place
 from .points.normal import force_by_gaps, press, sum_by_gaps
 from .points.rim import gap_at, lift, sideways, upward, vertex_angle
@@ -226,7 +238,16 @@ def _touch(
     return res, outside, kept
 
 
-@jit
+def _example() -> tuple[tuple[Any, ...], Contact]:
+    """Arguments and a result, of the types that compiled code has."""
+    count, number, row, table = np.empty(0, np.int64), 0, np.empty(0), np.empty((0, 2))
+    bristles = Bristles(count, row, row, np.empty(0, np.int8))
+    law = Parameters(number, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    contact = Contact(row, table, table, NOTHING, bristles, False, row, row)
+    return (row, table, Rim(number, row), law, number, Before(row, table, bristles), UNDAMPED, False), contact
+
+
+@apart(_example)
 def contact_forces(
     pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper, differentiates: bool
 ) -> Contact:  # fmt: skip

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from rigid import Scene
 from rigid.kernel.compile import jit, loop, part
 
+from ..contact.forces import contact_forces
 from ..contact.points.data import Before, Damper, Parameters
 from ..contact.points.data import Rim as NearFloor
 from ..contact.points.detection import least_gap
@@ -129,7 +130,7 @@ def _solved(
     return found
 
 
-solved, solved_in_step = jit(_solved), part(_solved)
+solved, solved_in_step = jit(_solved, needs=(contact_forces,)), part(_solved)
 
 
 @part

@@ -66,6 +66,20 @@ def machine(model: Model) -> tuple[Callable[..., Advanced], Any]:
     return advance_chain, model.arrays
 
 
+def compile_steps(model: Model, state: State) -> None:
+    """Have a model's steps from a state compiled, or taken from the cache, without one.
+
+    The forces of the floor, which they call by address, are not waited for.
+    """
+    of: Any
+    run: Any
+    run, of = machine(model)
+    aims = Aims(1.0, 1.0, 1.0, 1, model.relaxation)
+    run.compile_for(
+        of, model.law.parameters, ESDIRK3.table, beginning(state, 1.0), Ends(t=1.0), aims, np.empty((1, COLUMNS))
+    )
+
+
 def _advanced(
     model: Model, table: Table, now: Standing, ends: Ends, aims: Aims, rows: Array
 ) -> tuple[Standing, int, int]:

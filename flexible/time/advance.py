@@ -13,6 +13,7 @@ import numpy as np
 
 from rigid.kernel.compile import jit, loop, part
 
+from ..contact.forces import contact_forces
 from ..contact.laws.listing import care, free, sticks
 from ..contact.points.data import Parameters
 from ..contact.points.rim import turned
@@ -232,5 +233,6 @@ take_reduced = part(
     momentum_error=reduced.momentum_error,
 )  # fmt: skip
 advance_reduced = jit(
-    advance, tried=take_reduced, held=reduced.held, energies_of=reduced.energies_of, lacks=reduced.lacks
+    advance, needs=(contact_forces,), tried=take_reduced, held=reduced.held, energies_of=reduced.energies_of,
+    lacks=reduced.lacks,
 )  # fmt: skip

@@ -9,6 +9,7 @@ from __future__ import annotations
 from rigid.kernel.compile import jit, part
 
 from ..chain import stage, whole
+from ..contact.forces import contact_forces
 from .advance import advance
 from .stages import take
 
@@ -17,5 +18,6 @@ take_chain = part(
     momentum_error=whole.momentum_error,
 )  # fmt: skip
 advance_chain = jit(
-    advance, module=__name__, tried=take_chain, held=whole.held_by, energies_of=whole.energies_of, lacks=whole.lacks
+    advance, module=__name__, needs=(contact_forces,), tried=take_chain, held=whole.held_by,
+    energies_of=whole.energies_of, lacks=whole.lacks,
 )  # fmt: skip

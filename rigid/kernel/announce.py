@@ -42,6 +42,11 @@ def tell() -> None:
     event.register("numba:compile", Listener())
 
 
+def is_told(package: str) -> None:
+    """That this package is being compiled is told by another process."""
+    _told.add(package)
+
+
 def _begin(package: str) -> None:
     """A function is being compiled, perhaps as a part of another one."""
     depth = getattr(_thread, "depth", 0)

@@ -17,14 +17,14 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any, TypeVar
 
+from .insides.address import called_by_address, once_loaded
+from .insides.parts import as_part
+
 F = TypeVar("F", bound=Callable[..., Any])
 
 #: no function gets an entry for C, which nothing calls and which takes as long to compile as one for Python
 _OPTIONS: dict[str, Any] = {"error_model": "numpy", "no_cfunc_wrapper": True, "_nrt": True}
 _REGISTER: dict[str, FunctionType] = {}
-
-_OLDEST, _NEXT = (0, 61), (0, 69)
-"""numba from and before which :func:`_compiler_of_parts` knows its insides; others compile longer, to the same code."""
 
 
 def kernel(function: F) -> F:
@@ -124,20 +124,36 @@ def compiled() -> dict[str, Callable[..., Any]]:
         entry = name.startswith("entry_")
         # the kernels make no arrays: without counted references, which cost a third of their time
         options = {"nogil": True, "_nrt": False}
-        twins[name] = _compiler(twin, True, **options) if entry else _compiler(twin, False, **_as_part(), **options)
+        twins[name] = _compiler(twin, True, **options) if entry else _compiler(twin, False, **as_part(), **options)
     for scope in scopes:
         scope.update(twins)
     return twins
 
 
-def jit(function: F, module: str = "", **instead: Any) -> F:
+def jit(function: F, module: str = "", needs: tuple[Any, ...] = (), **instead: Any) -> F:
     """Mark a function for compilation at its first call, with a cache on disk.
 
     Compiled code takes what is given by name ``instead`` of the functions that have these names where it is written, so
     that one text serves Python and compiled code. It is kept under the name of the ``module`` that asks, by default the
-    function's own, whose file must import the modules of both.
+    function's own, whose file must import the modules of both. ``needs`` are functions marked :func:`apart` that it
+    calls, itself or through others; it is called from Python alone then.
     """
-    return _compiler(_at_home(function, module, instead), keep=True)
+    compiler = _compiler(_at_home(function, module, instead), keep=True)
+    entry: F = once_loaded(compiler, needs) if needs else compiler
+    return entry
+
+
+def apart(example: Callable[[], tuple[tuple[Any, ...], Any]]) -> Callable[[F], F]:
+    """Mark a function that is compiled by itself and called by its address, see :mod:`rigid.kernel.insides.address`.
+
+    ``example`` returns arguments and a result of the types that compiled code calls it with.
+    """
+
+    def mark(function: F) -> F:
+        marked: F = called_by_address(_compiler(_at_home(function, "", {}), keep=True), example)
+        return marked
+
+    return mark
 
 
 def part(function: F, module: str = "", **instead: Any) -> F:
@@ -150,7 +166,7 @@ def part(function: F, module: str = "", **instead: Any) -> F:
     from numba.extending import register_jitable
 
     text: Any = _at_home(function, module, instead) if instead else function
-    marked: F = register_jitable(**_OPTIONS, **_as_part())(text)
+    marked: F = register_jitable(**_OPTIONS, **as_part())(text)
     return marked
 
 
@@ -162,7 +178,7 @@ def loop(function: F) -> F:
     """
     from numba.extending import register_jitable
 
-    marked: F = register_jitable(**{**_OPTIONS, "_nrt": False}, **_as_part())(function)
+    marked: F = register_jitable(**{**_OPTIONS, "_nrt": False}, **as_part())(function)
     return marked
 
 
@@ -174,80 +190,11 @@ def in_loops(text: Callable[..., Any], **options: bool) -> Callable[[F], F]:
     from numba.extending import overload
 
     def mark(function: F) -> F:
-        jit_options: Any = {**_OPTIONS, **_as_part(), **options}
+        jit_options: Any = {**_OPTIONS, **as_part(), **options}
         overload(function, jit_options=jit_options, strict=False)(lambda *_: text)
         return function
 
     return mark
-
-
-def _as_part() -> dict[str, Any]:
-    """Options of a function that compiled code alone calls."""
-    options: dict[str, Any] = {"no_cpython_wrapper": True}
-    from numba import version_info
-
-    if _OLDEST <= version_info.short < _NEXT:
-        options["pipeline_class"] = _compiler_of_parts()
-    return options
-
-
-@cache
-def _compiler_of_parts() -> type:
-    """numba's compiler, but of a part its intermediate code is all that is made.
-
-    numba optimises each function by itself, with all that it calls, and makes machine code of it. Nothing runs that
-    where the function is only called by compiled ones: they take its intermediate code and do both again. With
-    functions that call each other eight deep that is half of LLVM's work.
-    """
-    from numba._dynfunc import make_function
-    from numba.core.codegen import JITCodeLibrary
-    from numba.core.compiler import CompilerBase, DefaultPassBuilder, _LowerResult
-    from numba.core.compiler_machinery import register_pass
-    from numba.core.typed_passes import NativeLowering
-
-    class Code(JITCodeLibrary):
-        """For callers to link and to optimise; the engine that runs machine code never sees it."""
-
-        def _optimize_final_module(self) -> None:
-            pass
-
-        def _finalize_final_module(self) -> None:
-            self._finalize_dynamic_globals()
-            self._verify_declare_only_symbols()
-            self._finalized = True
-
-    @register_pass(mutates_CFG=True, analysis_only=False)
-    class Lowering(NativeLowering):
-        """To such code, of which callers are told."""
-
-        _name = "native_lowering_of_a_part"
-
-        def run_pass(self, state: Any) -> bool:
-            code = state.library = Code(state.targetctx.codegen(), state.func_id.func_qualname)
-            code.enable_object_caching()
-            state.flags.no_compile = True
-            super().run_pass(state)
-            code.finalize()
-            made, described = state.cr, state.cr.fndesc
-            # what callers know the part by: an entry without an address
-            entry = make_function(described.lookup_module(), state.func_id.func_name, "", 0, made.env, (code,))
-            state.targetctx.insert_user_function(entry, described, [code])
-            if hasattr(code, "_reload_init"):
-                state.reload_init.extend(code._reload_init)
-            state.cr = _LowerResult(described, made.call_helper, cfunc=entry, env=made.env)
-            return True
-
-    class Parts(CompilerBase):
-        """numba's passes, the last of them as above."""
-
-        def define_pipelines(self) -> list[Any]:
-            passes = DefaultPassBuilder.define_nopython_pipeline(self.state, "a part")
-            place = [each for each, _ in passes.passes].index(NativeLowering)
-            passes.passes[place] = (Lowering, "to intermediate code")
-            passes.finalize()
-            return [passes]
-
-    return Parts
 
 
 def _at_home(function: Callable[..., Any], module: str, instead: dict[str, Any]) -> FunctionType:

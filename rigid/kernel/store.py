@@ -179,17 +179,22 @@ def is_cold(package: str) -> bool:
 
 
 def _copy(ready: Path, place: Path) -> None:
-    """Copy the files of a folder that ``place`` does not have, each of them whole or not at all."""
+    """Copy the files of a folder that ``place`` does not have, each of them whole or not at all.
+
+    With their times, by which some versions of numba know a source again.
+    """
     for file in sorted(ready.rglob("*")):  # code before the index that names it
         copy = place / file.relative_to(ready)
         if file.is_file() and not copy.exists():
-            _write(copy, file.read_bytes())
+            _write(copy, file.read_bytes(), file.stat().st_mtime_ns)
 
 
-def _write(file: Path, content: bytes) -> None:
+def _write(file: Path, content: bytes, changed: int | None = None) -> None:
     file.parent.mkdir(parents=True, exist_ok=True)
     part = file.with_name(f"{file.name}.{os.getpid()}.part")
     part.write_bytes(content)
+    if changed is not None:
+        os.utime(part, ns=(changed, changed))
     os.replace(part, file)
 
 

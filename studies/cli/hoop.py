@@ -153,8 +153,14 @@ def compile_(shared: bool) -> None:
     """Compile both solvers for this machine now, not at their first use."""
     from rigid.kernel.store import share
 
-    from ..running.solvers import LEVELS, prepare
+    from ..machine.processes import Processes, cores
+    from ..running.solvers import LEVELS, compile_side_by_side, prepare
 
+    processes = Processes(min(cores(), len(LEVELS) + 2))
+    try:
+        compile_side_by_side(("rigid", *LEVELS), processes.submit)
+    finally:
+        processes.stop()
     place = prepare("rigid", *LEVELS)
     click.echo(f"Both solvers are compiled, in {share() if shared else place}.")
 

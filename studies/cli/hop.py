@@ -12,7 +12,7 @@ from rigid import Run, Scene, SceneError, load_scene
 from rigid.elastic import LAWS
 
 from ..running.files import to_json, write_text
-from ..running.solvers import levels_of, missing, prepare
+from ..running.solvers import compile_side_by_side, levels_of, prepare
 from .shared.options import SceneKey, SceneName, as_json, out_folder, results_folder, scheduler, workers
 
 if TYPE_CHECKING:
@@ -104,7 +104,7 @@ def hop(
     say(f"{asked.count} rolls{more}.")
     with bar(f"{asked.count} rolls") as progress, pool(workers, scheduler) as place:
         if scheduler is None:
-            prepare(*missing(levels_of(_ends_of(asked))))  # one process for all workers
+            prepare(*compile_side_by_side(levels_of(_ends_of(asked)), place.beside))  # once for all workers
         found = hop_study(asked, pool=place, out=target, progress=progress, say=say)
     if target is not None:
         _write(found, target, ctx.obj)

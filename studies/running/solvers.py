@@ -11,13 +11,15 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Iterable
+from concurrent.futures import Future
 from functools import cache
 from importlib import import_module, metadata
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 from rigid import Motion, Scene
+from rigid.kernel.store import is_cold
 from rigid.output.file import version
 
 from .files import StudyError
@@ -49,6 +51,8 @@ def flexible(scene: Scene, *, history: bool = False, progress: Progress | None =
 LEVELS = {"reduced": "flexible.time.advance", "chain": "flexible.time.chain_step"}
 """Levels of the flexible solver that have compiled code of their own, and the module whose code is compiled last."""
 
+CONTACT = "flexible.contact.forces"  # whose code they share
+
 
 def levels_of(scenes: Iterable[Scene]) -> list[str]:
     """Those that the flexible solver needs for these scenes."""
@@ -60,14 +64,19 @@ def levels_of(scenes: Iterable[Scene]) -> list[str]:
 
 def missing(levels: Iterable[str]) -> list[str]:
     """Those of the levels for which this machine has no compiled code yet."""
-    from rigid.kernel.store import is_cold
-
     found = []
     for level in levels:
         import_module(LEVELS[level])  # which knows where its kernels are
         if is_cold(LEVELS[level]):
             found.append(level)
     return found
+
+
+def _short() -> Scene:
+    """A scene that is soon over."""
+    import rigid
+
+    return rigid.load_scene("paper-3.3-light").replace(solve={"rtol": 1e-2}, run=rigid.Run(until="pulse"))
 
 
 def prepare(*names: str) -> Path:
@@ -83,7 +92,7 @@ def prepare(*names: str) -> Path:
     from rigid.kernel.store import user_cache
 
     assert set(names) <= {"rigid", *LEVELS}
-    scene = rigid.load_scene("paper-3.3-light").replace(solve={"rtol": 1e-2}, run=rigid.Run(until="pulse"))
+    scene = _short()
     if "rigid" in names:
         rigid.simulate_batch([scene], workers=1)
         patience.renew(0)
@@ -92,6 +101,48 @@ def prepare(*names: str) -> Path:
         if level in names:
             flexible(scene.replace(solve={"level": level}))
     return user_cache()[0]
+
+
+def compile_alone(name: str, told: bool) -> None:
+    """Compile the contact, or a level's steps without it, and nothing else.
+
+    What others have ``told`` of is not told again.
+    """
+    from rigid.kernel.announce import is_told
+
+    if told:
+        is_told("flexible")
+    if name == CONTACT:
+        from flexible.contact.forces import contact_forces
+
+        contact: Any = contact_forces
+        contact.load()
+        return
+    from flexible.handover import compile_ahead
+    from flexible.models.select import hoop_of
+
+    compile_ahead(hoop_of(_short().replace(solve={"level": name}).to_dimensionless()))
+
+
+def compile_side_by_side(names: Iterable[str], submit: Callable[..., Future[Any]]) -> list[str]:
+    """Compile the dear parts of what :func:`prepare` does, in the processes that ``submit`` has call functions.
+
+    Returns
+    -------
+    list of str
+        The names for which this machine had no compiled code: the rest is left to ``prepare``.
+    """
+    names = list(names)
+    levels = missing(level for level in LEVELS if level in names)
+    parts = levels[::-1]  # the dearest first
+    if levels and is_cold(CONTACT):
+        parts.append(CONTACT)
+    waiting = [submit(compile_alone, part, part != parts[0]) for part in parts]
+    cold = [name for name in names if name == "rigid"]
+    waiting += [submit(prepare, name) for name in cold]
+    for future in waiting:
+        future.result()
+    return cold + levels
 
 
 NAMED = {"rigid": f"{__name__}:rigid", "flexible": f"{__name__}:flexible"}

@@ -13,7 +13,7 @@ from rigid import scene_to_dict
 from ..machine.processes import Processes, WorkerDied, cores
 from .case import Case, OtherBuild, Outcome, run_case
 from .files import StudyError, plain
-from .solvers import levels_of, missing, prepare, version
+from .solvers import compile_side_by_side, levels_of, prepare, version
 
 T = TypeVar("T")
 
@@ -78,7 +78,7 @@ class Machine:
     def submit(self, case: Case) -> Future[Outcome]:
         if case.solver == "flexible":
             levels = [level for level in levels_of([case.scene]) if level not in self._ready]
-            if absent := missing(levels):  # one process compiles for all
+            if absent := compile_side_by_side(levels, self._processes.submit):  # once for all workers
                 self._processes.submit(prepare, *absent).result()
             self._ready.update(levels)
         return self._processes.submit(run_case, case)

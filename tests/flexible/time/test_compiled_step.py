@@ -1,14 +1,16 @@
 """The step that compiled code takes is the one that Python takes on the same hoop: one text, two machines."""
 
+import numba
 import numpy as np
 import pytest
 from scenes import HOOP, flying
 
 import rigid
-from flexible.handover import hand_over
+from flexible.handover import compile_ahead, hand_over
 from flexible.models.chain import ChainHoop
 from flexible.models.reduced import ReducedHoop
 from flexible.ring.fem import COLUMNS
+from flexible.time import adaptive
 from flexible.time.adaptive import attempt, machine
 from flexible.time.advance import COLUMNS as OF_A_ROW
 from flexible.time.advance import Aims, advance
@@ -116,3 +118,24 @@ def test_what_is_known_of_the_ring_is_no_part_of_a_step():
     assert (found.u == again.u).all()
     columns = hoop.ring.dofs(*state.window)
     assert np.array_equal(compliance[:, columns], kept[:, columns])
+
+
+@pytest.mark.parametrize("level", [ReducedHoop, ChainHoop])
+@pytest.mark.parametrize("mass_ratio", [0.0, 0.1])
+def test_steps_are_compiled_ahead_for_what_they_are_called_with(monkeypatch, level, mass_ratio):
+    """By the types of numba: of others the march would be compiled once more, behind the first one."""
+    run, types = adaptive.machine(level(HOOP.replace(hoop={"mass_ratio": mass_ratio})))[0], []
+
+    def take(*arguments):
+        types.append([numba.typeof(argument) for argument in arguments])
+        return run(*arguments)
+
+    take.compile_for = lambda *arguments: types.append([numba.typeof(argument) for argument in arguments])
+    monkeypatch.setattr(adaptive, "machine", lambda model: (take, model.arrays))
+    scene = HOOP.replace(hoop={"mass_ratio": mass_ratio})
+    compile_ahead(level(scene))
+    hoop, state = rolling(scene, level)
+    adaptive.march(hoop, state, Ends(t=state.t + 1e-4), 1e-3)
+    first, *later = types
+    assert len(later) > 1
+    assert all(each == first for each in later)
