@@ -139,6 +139,17 @@ def test_a_numba_whose_insides_are_not_known_compiles_in_its_own_way(tmp_path):
     assert run(installation, tmp_path / "cache", newer + PROGRAM)[:2] == (-1.5, True)
 
 
+def test_copied_kernels_keep_their_times(tmp_path):
+    """By which, and by its size, numba 0.61 knows the source of what it has compiled again."""
+    source = tmp_path / "shared" / "kernel.py"
+    source.parent.mkdir()
+    source.write_text("pass")
+    os.utime(source, ns=(10**18, 10**18 + 10**6))
+    store._copy(source.parent, tmp_path / "own")
+    copy = tmp_path / "own" / "kernel.py"
+    assert (copy.read_text(), copy.stat().st_mtime_ns) == ("pass", 10**18 + 10**6)
+
+
 def test_kernels_beside_a_shared_installation_are_used(tmp_path, warm):
     """By a user whose own cache cannot be written either: a file stands where the folder should be."""
     installation = copy_of_the_packages(tmp_path / "shared")
