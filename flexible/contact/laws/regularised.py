@@ -19,6 +19,7 @@ from ..points.data import Bristles, Resultants, Shared, Tractions
 from .law import Law, PatchState, Rolling
 
 CODE = 2
+ANSWERS = 22.0  # times v_s, where F is a thousandth short of mu N
 _MOST = 0.999  # of mu N that a creep is sought for: the rest is sliding
 
 
@@ -27,19 +28,25 @@ def tractions(
     forces: Any, points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any
 ) -> Any:  # fmt: skip
     """See :class:`flexible.contact.laws.law.Law`."""
+    # a patch counts as one that sticks to Newton's guesses while its friction answers to the velocity
+    direction = 0 if abs(slip.velocity) < ANSWERS * law.slip_scale else -1 if slip.velocity > 0 else 1
     for i in range(carried.stretch.shape[0]):
-        carried.stretch[i] = 0.0
+        carried.stretch[i], carried.sliding[i] = 0.0, direction
     keep_touching(forces.keeps, points.gap)
     speed = sqrt(slip.velocity**2 + law.slip_scale**2)
     coefficient = -law.mu * slip.velocity / speed
     by_velocity = -law.mu * law.slip_scale**2 / speed**3
+    # a damper pulls on the way of Newton alone: friction turned round with N would drive the patch on
+    normal, by_elastic = 0.0, 0.0
+    if load.eta > 0:
+        normal, by_elastic = load.eta * load.elastic, load.eta + load.eta_rate * load.elastic
     shared = Shared(
         load.elastic > 0,
-        coefficient * load.eta * load.elastic,
-        by_velocity * slip.rate * load.eta * load.elastic,
-        coefficient * (load.eta + load.eta_rate * load.elastic),
+        coefficient * normal,
+        by_velocity * slip.rate * normal,
+        coefficient * by_elastic,
         0.0,
-        speed / slip.rate if slip.rate > 0 else inf,
+        speed / slip.rate if slip.rate > 0 and load.eta > 0 else inf,
     )
     stuck = foundation.length if abs(slip.velocity) < law.slip_scale else 0.0
     return Tractions(shared, 0.0, stuck, 0.0)

@@ -60,3 +60,53 @@ def test_the_static_coefficient_has_no_part_in_it():
     )
     ends = [flexible.simulate(scene.replace(friction={"mu_s": mu_s})).at(0.5) for mu_s in (0.3, 0.5)]
     assert ends[0] == ends[1]
+
+
+#: a small disk on a thick wall: its rim gives way by 1e-3 R, and has no inertia
+THICK = rigid.Scene(
+    rigid.Hoop(0.06, 1.47),
+    rigid.Friction(0.64, 0.64),
+    rigid.Release(0.8),
+    rigid.Run(until="pulse"),
+    ring=rigid.Ring(bending_stiffness=3e3),
+    contact=rigid.Contact("regularised", stiffness=8e11, damping=0.13),
+    solve=rigid.Solve(rtol=8e-3, level="reduced", elements=240),
+)
+
+
+@pytest.mark.parametrize("damping", [0.13, 1.0])
+def test_a_creeping_patch_is_followed_by_steps_as_long_as_any(damping):
+    """Rolling along with v_s/5 on a ring without inertia, whose guessed slip is hundreds of times as large.
+
+    From there friction no longer answers to the velocity, and Newton went away: steps of 1e-7 for a pulse of 0.1. The
+    ratio is held to that of ten times the tolerance less.
+    """
+    motion, fine = (
+        flexible.simulate(THICK.replace(contact={"damping": damping}, solve={"rtol": rtol}), most_steps=3000)
+        for rtol in (8e-3, 8e-4)
+    )
+    assert motion.completed
+    assert fine.completed
+    assert motion.pulses[0].impulse_ratio == pytest.approx(fine.pulses[0].impulse_ratio, abs=8e-3)
+
+
+def test_a_patch_that_the_damper_lets_go_of_has_no_friction():
+    """It opens faster than its springs would: N = 0, though they are still pressed, and the disk flies.
+
+    Newton solves such a stage with a damper that may pull first. A friction turned round with N drove the patch on,
+    without an answer on a ring that has no inertia, and the steps were 1e-10 ever after.
+    """
+    scene = THICK.replace(
+        hoop={"k": 0.0733, "r": 1.213},
+        friction={"mu_s": 0.18, "mu": 0.18},
+        release=rigid.Release(0.685),
+        ring={"bending_stiffness": 1.84e3},
+        contact={"stiffness": 1.6e12, "damping": 2.0},
+        solve={"rtol": 6e-5, "elements": 50},
+    )
+    motion = flexible.simulate(scene, history=True, most_steps=3000)
+    assert motion.completed
+    flies = motion.history.normal_force == 0
+    assert flies.any()
+    assert np.abs(motion.history.friction_force[flies]).max() == 0
+    assert np.abs(motion.history.alpha[flies]).max() < 1e-4  # the ring has no mass: nothing turns the disk
