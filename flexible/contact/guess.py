@@ -115,26 +115,21 @@ def guess_again(
         if raised != 0:
             _shift(u, pose[2], 0.0, raised)
             return guesses - 1
-    if contact.res.reach == np.inf and _slides_on(before, contact):
+    slides = contact.res.elastic > 0 and _sticking(contact.bristles) == 0
+    if slides and _sticking(before.bristles) > 0:
         _shift(u, pose[2], damper.way_0 - contact.res.way, 0.0)
         return 0
     return -1
 
 
 @loop
-def _slides_on(before: Before, contact: Contact) -> bool:
-    """Whether a patch of which some points stuck slides by the guess."""
-    return bool(contact.res.elastic > 0 and _sticking(contact.bristles) == 0 and _sticking(before.bristles) > 0)
+def without_slip(pose: Any, u: Any, before: Before, damper: Damper, contact: Contact) -> bool:
+    """Move a rim of smoothed friction, in a stage that was lost once, to where its patch has no slip; whether it was.
 
-
-@loop
-def creeps_again(pose: Any, u: Any, before: Before, damper: Damper, contact: Contact) -> bool:
-    """Move a rim whose friction is smoothed, and slides by the guess where it crept, to where it has no slip.
-
-    Whether it was moved. From the guess Newton mostly knows the way, and sooner to where the patch does slide; but on a
-    soft ring it may follow a friction that no longer answers far from where it does.
+    From the guess Newton mostly knows the way, and sooner to where a patch does slide. But where it creeps on a ring
+    without inertia the guess slides hundreds of v_s fast, and there friction no longer answers to the velocity.
     """
-    moves = contact.res.reach < np.inf and _slides_on(before, contact)
+    moves = contact.res.reach < np.inf and contact.res.elastic > 0 and before.bristles.number.shape[0] > 0
     if moves:
         _shift(u, pose[2], damper.way_0 - contact.res.way, 0.0)
     return bool(moves)
@@ -166,8 +161,7 @@ def held_again(pose: Any, u: Any, of: Any, contact: Contact, foreseen: Foreseen,
     """
     rim, law, mode, before, damper = of
     stuck = _sticking(before.bristles)
-    smoothed = contact.res.reach < np.inf
-    if smoothed or contact.res.elastic == 0 or 2 * _sticking(contact.bristles) >= stuck:
+    if contact.res.elastic == 0 or 2 * _sticking(contact.bristles) >= stuck:
         return contact
     pressed = Moved(moved_by(damper, foreseen, contact.res).elastic, 0.0)
     carrying, carries = moved_damper(damper, pressed), contact

@@ -12,7 +12,7 @@ import numpy as np
 from rigid.kernel.compile import loop, part
 
 from ..contact.forces import contact_forces
-from ..contact.guess import GUESSES, as_deep, creeps_again, guess_again
+from ..contact.guess import GUESSES, as_deep, guess_again, without_slip
 from ..contact.newton import breaks_loose, left_by_kept, left_by_newton, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
 from ..contact.stage import Predictor
@@ -149,7 +149,7 @@ def solve_stage(
             if guesses >= 0:
                 continue
             # a stage that was lost from the foreseen depth
-            if start.elastic == 0 and creeps_again(pos[:3], u, before, damper, contact):
+            if start.elastic == 0 and without_slip(pos[:3], u, before, damper, contact):
                 guesses = 0
                 continue
         iteration += 1

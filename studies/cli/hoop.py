@@ -10,6 +10,7 @@ import errno
 import os
 import shlex
 import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -156,13 +157,15 @@ def compile_(shared: bool) -> None:
     from ..machine.processes import Processes, cores
     from ..running.solvers import LEVELS, compile_side_by_side, prepare
 
+    start = time.perf_counter()
     processes = Processes(min(cores(), len(LEVELS) + 2))
     try:
         compile_side_by_side(("rigid", *LEVELS), processes.submit)
     finally:
         processes.stop()
     place = prepare("rigid", *LEVELS)
-    click.echo(f"Both solvers are compiled, in {share() if shared else place}.")
+    kept = share() if shared else place
+    click.echo(f"Both solvers are compiled, in {kept}: it took {time.perf_counter() - start:.0f} s.")
 
 
 study.add_command(limit)

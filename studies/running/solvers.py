@@ -131,7 +131,7 @@ def compile_side_by_side(names: Iterable[str], submit: Callable[..., Future[Any]
     Returns
     -------
     list of str
-        The names for which this machine had no compiled code: the rest is left to ``prepare``.
+        What is left to ``prepare``: the levels of which this machine had no compiled code, and "rigid" if it is named.
     """
     names = list(names)
     levels = missing(level for level in LEVELS if level in names)

@@ -1,5 +1,6 @@
 """Functions that compiled code calls by their address."""
 
+import sys
 from typing import NamedTuple
 
 import numpy as np
@@ -57,8 +58,10 @@ def test_callers_are_compiled_without_what_they_call():
 def test_arrays_come_back_whole():
     """As they do from any other function, and the caller's own are let go of as often as they were taken."""
     values = np.arange(1000.0)
+    users = sys.getrefcount(values)
     for _ in range(100):
         _, parts = summed(values, 3.0)
+    assert sys.getrefcount(values) == users
     assert np.array_equal(parts.whole, values // 3)
     assert parts.rest == pytest.approx(np.sum(values % 3))
     assert np.array_equal(values, np.arange(1000.0))

@@ -19,7 +19,6 @@ from ..points.data import Bristles, Resultants, Shared, Tractions
 from .law import Law, PatchState, Rolling
 
 CODE = 2
-ANSWERS = 22.0  # times v_s, where F is a thousandth short of mu N
 _MOST = 0.999  # of mu N that a creep is sought for: the rest is sliding
 
 
@@ -28,10 +27,8 @@ def tractions(
     forces: Any, points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any
 ) -> Any:  # fmt: skip
     """See :class:`flexible.contact.laws.law.Law`."""
-    # a patch counts as one that sticks to Newton's guesses while its friction answers to the velocity
-    direction = 0 if abs(slip.velocity) < ANSWERS * law.slip_scale else -1 if slip.velocity > 0 else 1
     for i in range(carried.stretch.shape[0]):
-        carried.stretch[i], carried.sliding[i] = 0.0, direction
+        carried.stretch[i] = 0.0
     keep_touching(forces.keeps, points.gap)
     speed = sqrt(slip.velocity**2 + law.slip_scale**2)
     coefficient = -law.mu * slip.velocity / speed
