@@ -137,6 +137,8 @@ def test_a_numba_whose_insides_are_not_known_compiles_in_its_own_way(tmp_path):
     installation = copy_of_the_packages(tmp_path / "installation")
     newer = "import rigid.kernel.insides.parts as parts\nparts._NEXT = parts._OLDEST\n"
     assert run(installation, tmp_path / "cache", newer + PROGRAM)[:2] == (-1.5, True)
+    linked = "from flexible.contact.forces import contact_forces as f\nf.load()\nassert not f.overloads\n"
+    assert run(installation, tmp_path / "cache", newer + linked + PROGRAM)[0] == -1.5
 
 
 def test_copied_kernels_keep_their_times(tmp_path):

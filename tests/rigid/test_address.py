@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 
 from rigid.kernel.compile import apart, jit
+from rigid.kernel.insides.parts import are_known
+
+pytestmark = pytest.mark.skipif(not are_known(), reason="a numba whose insides are not known")
 
 
 class Parts(NamedTuple):

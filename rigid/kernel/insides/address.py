@@ -13,6 +13,8 @@ from collections.abc import Callable
 from functools import cached_property, wraps
 from typing import Any
 
+from .parts import are_known
+
 
 class Apart:
     """A function compiled by itself.
@@ -86,8 +88,14 @@ class Apart:
 
 
 def called_by_address(compiler: Any, example: Callable[[], tuple[tuple[Any, ...], Any]]) -> Any:
-    """The function for Python and for compiled code: ``load`` it before compiled code that calls it runs."""
+    """The function for Python and for compiled code: ``load`` it before compiled code that calls it runs.
+
+    Where numba's insides are not known it becomes a part of what calls it, and there is nothing to load.
+    """
     apart = Apart(compiler, example)
+    if not are_known():
+        vars(compiler).update(load=lambda: None)
+        return compiler
 
     @wraps(compiler.py_func)
     def function(*arguments: Any) -> Any:

@@ -6,15 +6,20 @@ from functools import cache
 from typing import Any
 
 _OLDEST, _NEXT = (0, 61), (0, 69)
-"""numba from and before which :func:`_compiler_of_parts` knows its insides; others compile longer, to the same code."""
+"""numba from and before which its insides are known here; others compile longer, to the same code."""
+
+
+def are_known() -> bool:
+    """Whether numba's insides are."""
+    from numba import version_info
+
+    return bool(_OLDEST <= version_info.short < _NEXT)
 
 
 def as_part() -> dict[str, Any]:
     """Options of a function that compiled code alone calls."""
     options: dict[str, Any] = {"no_cpython_wrapper": True}
-    from numba import version_info
-
-    if _OLDEST <= version_info.short < _NEXT:
+    if are_known():
         options["pipeline_class"] = _compiler_of_parts()
     return options
 
