@@ -10,7 +10,7 @@ A :class:`rigid.Scene` goes in, a :class:`FlexibleMotion` comes out::
 
 In the order in which they build on each other:
 
-``ring``      its elasticity and inertia, from the mesh to modes and static compliance
+``ring``      which scenes have none; its elasticity and inertia, from the mesh to modes and static compliance
 ``chain``     the same as parts between rigid sections that turn and move far
 ``contact``   points of the rim near the floor, the foundation under them, friction along it: a law is one file of
               ``contact.laws``, which also says which rigid hoop the flexible one becomes as its stiffness grows
@@ -18,13 +18,14 @@ In the order in which they build on each other:
 ``time``      one implicit step; adaptive steps with located events
 ``handover``  where a flexible segment begins: in the equilibrium of a rigid motion
 ``solve``     simulate(scene); ``builder`` what a motion is put together from, ``segment`` records read as phases and
-              pulses, ``units``, ``motion`` what comes back, ``saved`` from a file
+              pulses, ``motion`` what comes back, ``saved`` from a file and ``packed`` into one
 ``output``    displacement and stress, all fields as a series on disk, the hoop as a whole (not loaded here)
 """
 
 from typing import TYPE_CHECKING
 
 from .motion import FlexibleMotion, FlexiblePulse, History, Ledger
+from .ring.possible import ensure_possible
 from .saved import load_motion
 from .solve import simulate
 
@@ -61,6 +62,7 @@ __all__ = [
     "History",
     "Ledger",
     "__version__",
+    "ensure_possible",
     "load_motion",
     "rigid_limit",
     "simulate",

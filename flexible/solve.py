@@ -30,6 +30,7 @@ from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
 from .motion import FlexibleMotion
+from .ring.possible import ensure_possible
 from .segment import Segment
 from .time.adaptive import MarchError
 from .time.advance import SHORTEST
@@ -96,15 +97,12 @@ def simulate(
     Raises
     ------
     SceneError
-        No such scene, one that cannot be, or a point mass without inertia, which cannot ride on a flexible hoop.
+        No such scene, one that cannot be, or one of which there is no flexible hoop (:func:`flexible.ensure_possible`).
     ValueError
         A motion to resume that is of another scene, or whose states are asked for and were not kept.
     """
     scene = rigid.as_scene(scene)
-    if scene.hoop.k == 0 and scene.hoop.mass_ratio == 0:
-        raise rigid.SceneError(
-            "hoop.k = 0 is not possible here: the flexible hoop needs a disk with a radius, or a hoop with a mass."
-        )
+    ensure_possible(scene)
     inner = scene.to_dimensionless()
     hoop = hoop_of(inner)
     builder = Builder(inner)

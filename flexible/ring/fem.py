@@ -19,7 +19,9 @@ from skfem import Basis, BilinearForm
 from skfem.helpers import ddot, dot, sym_grad, trace
 
 from meshes import RingMesh, ring_mesh
-from rigid import Scene, SceneError
+from rigid import Scene
+
+from .possible import ensure_thick
 
 Array = NDArray[np.float64]
 
@@ -29,7 +31,6 @@ MESH_ERROR, MESH_ORDER = 1e-4, 2.2  # with so many, of the impulses over J_N; or
 MESH_SOFT = 400.0  # bending stiffness from which on it is less, like its root
 MOST_AROUND = 1200  # the compliance of their rim is 180 MB
 LOT = 24  # of modes that are found together
-THINNEST = 9e-4  # wall over R: quads are too long for a thinner one, and rounding errors of their stretching too large
 WITHIN, THIN = 0.05, 2.5  # share of a half-plane's give under the shortest waves of the rim's nodes; see Ring.within
 
 
@@ -257,12 +258,7 @@ def ring_of(scene: Scene, through: int = 1, around: int | None = None) -> Ring:
     SceneError
         The wall is too thin for quads.
     """
-    if scene.wall < THINNEST:
-        raise SceneError(
-            f"the wall is {scene.wall:.2g} R, too thin for the quads of the flexible ring: from {THINNEST:g} R on its "
-            "bending is known; with hoop.r = 1 and ring.thickness = 0.001 it is the same line, of the same "
-            "ring.bending_stiffness."
-        )
+    ensure_thick(scene.wall)
     around = scene.solve.elements or around or elements_around(scene.solve.rtol, scene.ring.bending_stiffness)
     if scene.solve.through is not None:
         through = scene.solve.through

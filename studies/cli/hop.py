@@ -12,7 +12,7 @@ from rigid import Run, Scene, SceneError, load_scene
 from rigid.elastic import LAWS
 
 from ..running.files import to_json, write_text
-from ..running.solvers import compile_side_by_side, levels_of, prepare
+from ..running.solvers import compile_side_by_side, ensure_accepts, levels_of, prepare
 from .shared.options import SceneKey, SceneName, as_json, out_folder, results_folder, scheduler, workers
 
 if TYPE_CHECKING:
@@ -187,7 +187,8 @@ def map_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> HopMap:
     Raises
     ------
     SceneError
-        A key that no scene has, a value it cannot take, or more than one key besides the bending stiffness.
+        A key that no scene has, a value it cannot take, more than one key besides the bending stiffness, or hoops of
+        which the flexible solver takes none.
     """
     import numpy as np
 
@@ -201,7 +202,19 @@ def map_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> HopMap:
     other = next(((key, values) for key, values in ranges if key != STIFFNESS), (None, (None,)))
     for value in stiffness:
         scene.replace(ring={"bending_stiffness": value})
-    return HopMap(scene, stiffness, other[0], other[1], **settings)
+    asked = HopMap(scene, stiffness, other[0], other[1], **settings)
+    refused = [error for line in asked.scenes if (error := _refusal(line)) is not None]
+    if len(refused) == len(asked.scenes):
+        raise refused[0]
+    return asked
+
+
+def _refusal(scene: Scene) -> SceneError | None:
+    try:
+        ensure_accepts("flexible", scene)
+    except SceneError as error:
+        return error
+    return None
 
 
 def _write(found: HopStudy, target: Path, line: str) -> None:

@@ -84,7 +84,7 @@ def stiffness(
 ) -> None:
     """The flexible hoop against the rigid one as stiffness grows."""
     from ..running.progress import bar
-    from ..running.solvers import solver
+    from ..running.solvers import ensure_accepts
     from ..running.workers import pool
     from ..stiffness.ladder import Ladder
     from ..stiffness.study import stiffness_study
@@ -93,7 +93,7 @@ def stiffness(
     contact = {"law": law, "damping": damping}
     described = described.replace(contact={key: value for key, value in contact.items() if value is not None})
     ladder = Ladder.around(described, along, low, high, count)
-    solver(solver_name)
+    ensure_accepts(solver_name, described)
     target = results_folder(out)
     with pool(workers, scheduler) as place:
         with bar(f"{ladder.count} cases") as progress:

@@ -179,6 +179,25 @@ def solver(name: str) -> Solver:
     return chosen
 
 
+def ensure_accepts(name: str, scene: Scene) -> None:
+    """Before anything is run or written: that there is a solver of that name, and that it takes the scene.
+
+    A solver of one's own is asked when it runs.
+
+    Raises
+    ------
+    StudyError
+        There is no such solver.
+    SceneError
+        The flexible hoop cannot be of that scene.
+    """
+    solver(name)
+    if name == "flexible":
+        from flexible import ensure_possible
+
+        ensure_possible(scene)
+
+
 @cache
 def build(name: str = "rigid") -> str:
     """Version and a digest of the sources, a solver's own module among them: results of a checkout that has changed

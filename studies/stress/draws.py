@@ -8,7 +8,7 @@ from math import log10, pi, radians
 from rigid import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, Solve
 from rigid.elastic import LAWS
 
-THIN = 1.001  # r; a thinner wall is refused (flexible.ring.fem.THINNEST)
+THIN = 1.001  # r; a thinner wall is refused (flexible.ring.possible.THINNEST)
 RIGID_NUMBERS, HOSTILE_NUMBERS, FLEXIBLE_NUMBERS, SOFT_NUMBERS = 10, 8, 14, 9
 
 

@@ -128,6 +128,7 @@ def write_mesh(scene: Scene, path: Path) -> str:
         raise StudyError(trouble(error, path)) from None
     quality = ring.quality()
     return (
-        f"{path}: {quality.elements} nine-node quads, {quality.nodes} nodes; area off by {quality.area_error:.1e}, "
-        f"outer length by {quality.outer_length_error:.1e}; elements up to {quality.aspect:.2f} times longer than wide."
+        f"{path}: {quality.elements} nine-node quads, {quality.nodes} nodes.\n"
+        f"Area off by {quality.area_error:.1e}, outer length by {quality.outer_length_error:.1e}; "
+        f"elements up to {quality.aspect:.2f} times longer than wide."
     )

@@ -51,7 +51,7 @@ def suddenness(scene: Scene) -> float:
     omega_1 goes with the root of the bending stiffness. 0 for a ring without mass, which does not vibrate.
     """
     period = slowest_period(scene.to_dimensionless().replace(ring={"bending_stiffness": 1.0}))
-    return (period / (2 * pi * pulse_time(scene))) ** 2
+    return (period / (2 * pi * pulse_time(scene))) ** 2 if period > 0 else 0.0
 
 
 @cache

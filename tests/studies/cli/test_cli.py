@@ -103,6 +103,17 @@ def test_a_bad_scene_is_one_sentence(hoop, tmp_path, mistake, verb):
     assert told in err
 
 
+@pytest.mark.parametrize("verb", [("flexible",), ("study", "stiffness"), ("study", "hop")])
+@pytest.mark.parametrize("mistake", [("r = 1.02", "r = 1.0002"), ("k = 0.1\nr = 1.02", "k = 0")])
+def test_a_hoop_that_cannot_be_flexible_is_one_sentence_and_leaves_nothing(hoop, tmp_path, mistake, verb):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE.format(k=0.1).replace(*mistake))
+    status, out, err = hoop(*verb, scene, "--json", "--out", tmp_path / "out")
+    assert (status, out) == (2, "")
+    assert is_one_sentence(err)
+    assert not [*(tmp_path / "out").glob("*")]
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [

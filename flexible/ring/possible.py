@@ -1,0 +1,38 @@
+"""Which scenes the flexible hoop cannot be: said before anything is built, run or written."""
+
+from __future__ import annotations
+
+from rigid import Scene, SceneError
+
+THINNEST = 9e-4  # wall over R: quads are too long for a thinner one, and rounding errors of their stretching too large
+
+
+def ensure_possible(scene: Scene) -> None:
+    """Of a scene in any units.
+
+    Raises
+    ------
+    SceneError
+        A point mass without inertia, which cannot ride on a flexible hoop, or a wall too thin for quads.
+    """
+    if scene.hoop.k == 0 and scene.hoop.mass_ratio == 0:
+        raise SceneError(
+            "hoop.k = 0 is not possible here: the flexible hoop needs a disk with a radius, or a hoop with a mass."
+        )
+    ensure_thick(scene.to_dimensionless().wall)
+
+
+def ensure_thick(wall: float) -> None:
+    """Of a wall, its thickness over R.
+
+    Raises
+    ------
+    SceneError
+        It is too thin for quads.
+    """
+    if wall < THINNEST:
+        raise SceneError(
+            f"the wall is {wall:.2g} R, too thin for the quads of the flexible ring: from {THINNEST:g} R on its "
+            "bending is known; with hoop.r = 1 and ring.thickness = 0.001 it is the same line, of the same "
+            "ring.bending_stiffness."
+        )
