@@ -1,6 +1,7 @@
 """The ring as a mesh, fields in time as files, and pictures of both.
 
 ``ring``     the annulus: curved quads, grading, named boundaries, quality
+``corner``   its columns about an end of the weld, cut finer
 ``gradient`` gradients of nodal fields at the nodes and the Gauss points
 ``placing``  from the disk's frame to the world; von Mises, hoop and bending stress
 ``times``    which instants become frames

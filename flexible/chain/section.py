@@ -110,10 +110,13 @@ class _Stressed:
         self.stress = np.einsum("ij,jgm,g->igm", elastic, strain, area.ravel())
         energy = np.einsum("iga,igb->gab", strain, self.stress)
         self.energy = energy.reshape(len(area), 9, 6, 6).sum(axis=1)
+        moved = np.zeros((ring.basis.N, 6))
+        moved[ring.mesh.node_dofs] = u
+        self.corners = moved.T @ (ring.corners.stiffness(ring.basis.N) @ moved)
         self.theta = ring.mesh.theta[ring.mesh.quad9[:, 8]]
 
     def cut(self, low: float, high: float, at: float) -> Array:
-        """Force and moment about C, (3, 6), on the elements from ``low`` to ``high`` through their end ``at``."""
+        """Force and moment about C, (3, 6), that the elements from ``low`` to ``high`` bear at their end ``at``."""
         mesh = self.mesh
         s11, s22, s12 = self.stress * np.repeat((low < self.theta) & (self.theta < high), 9)[:, None]
         first, second = self.by[0].T @ s11 + self.by[1].T @ s12, self.by[0].T @ s12 + self.by[1].T @ s22
@@ -121,6 +124,11 @@ class _Stressed:
         y = mesh.points[nodes]
         moment = y[:, :1] * second[nodes] - y[:, 1:] * first[nodes]
         return np.stack([first[nodes].sum(axis=0), second[nodes].sum(axis=0), moment.sum(axis=0)])
+
+
+def _beyond(stressed: _Stressed, sign: int, low: float, high: float) -> Array:
+    """What the elements between two angles to one side of the weld bear at their end toward it."""
+    return stressed.cut(*sorted((sign * low, sign * high)), sign * low)
 
 
 def _about(point: Array, forces: Array) -> Array:
@@ -176,10 +184,11 @@ def rod_compliance(ring: Ring, end: float) -> RodCompliance:
     stressed = _Stressed(ring)
 
     section, misfit = _section(stressed, clear, radius)
-    last = float(beyond[0])
-    both = [_about(radius * radial(at), stressed.cut(-last, last, at)) for at in (last, -last)]
+    last, next_one = beyond[0].item(), vertex[vertex > beyond[0]][0].item()
+    # what the elements behind the cut bear, turned round: those before it may be the corner's, of another stiffness
+    both = [_about(radius * radial(sign * last), -_beyond(stressed, sign, last, next_one)) for sign in (1, -1)]
     inverse = np.linalg.inv(np.concatenate(both))
-    inside = stressed.energy[np.abs(stressed.theta) < last].sum(axis=0)
+    inside = stressed.energy[np.abs(stressed.theta) < last].sum(axis=0) + stressed.corners
     whole = inverse.T @ inside @ inverse
     return RodCompliance(radius, section, last, (whole + whole.T) / 2, misfit)
 

@@ -100,11 +100,36 @@ class Interior:
         return self._cauchy(gradient, stress), (strain * stress).sum(axis=1) / 2
 
     def element_energy(self, u: Array) -> Array:
-        """Strain energy of every element, (n_elements, n_states); the sum is the ledger's ring strain."""
+        """Strain energy of every element, (n_elements, n_states); the sum is the ledger's ring strain.
+
+        What the corners of the weld yield besides is shared among their elements in proportion to what these have.
+        """
         by_y1, by_y2, area = self._at_gauss
         strain = self._strain(_gradient(by_y1, by_y2, u))
         density = (strain * self._elastic(strain)).sum(axis=1) / 2
-        return (density.reshape(*area.shape, -1) * area[:, :, None]).sum(axis=1)
+        energy = (density.reshape(*area.shape, -1) * area[:, :, None]).sum(axis=1)
+        by_element = strain.reshape(*area.shape, *strain.shape[1:])
+        for elements, form in self._corners:
+            here = by_element[elements].reshape(len(form), -1)
+            besides = self.young / 2 * (here * (form @ here)).sum(axis=0)
+            whole = energy[elements].sum(axis=0)
+            energy[elements] *= 1 + np.divide(besides, whole, out=np.zeros_like(whole), where=whole > 0)
+        return energy
+
+    @cached_property
+    def _corners(self) -> list[tuple[NDArray[np.int64], Array]]:
+        """Elements about either corner of the weld, and the form of their strains at the Gauss points."""
+        corners, (by_y1, by_y2, area) = self.ring.corners, self._at_gauss
+        found = []
+        for which, (elements, dofs) in enumerate(zip(corners.elements, corners.dofs, strict=True)):
+            nodes = dofs[::2] // 2
+            points = (area.shape[1] * elements[:, None] + np.arange(area.shape[1])).ravel()
+            first, second = (by[points][:, nodes].toarray() for by in (by_y1, by_y2))
+            strains = np.zeros((len(points), 3, len(nodes), 2))
+            strains[:, 0, :, 0], strains[:, 1, :, 1] = first, second
+            strains[:, 2, :, 0], strains[:, 2, :, 1] = second, first
+            found.append((elements, corners.by_strain(which, strains.reshape(3 * len(points), -1))))
+        return found
 
     def _elastic(self, strain: Array) -> Array:
         """Plane stress of a strain (11, 22, 2 x 12)."""

@@ -1,6 +1,7 @@
 """The ring by itself: elasticity and inertia, from the mesh to modes.
 
 ``possible``   which scenes have none
+``corners``    what the wall yields besides at the corners of the weld
 ``fem``        stiffness, mass, static compliance of the rim, vibration modes, stress, by scikit-fem
 ``reduction``  fixed-interface modes, and the rest of the compliance as static
 ``frame``      inertia of disk and modes in axes that float on the disk

@@ -21,13 +21,15 @@ from skfem.helpers import ddot, dot, sym_grad, trace
 from meshes import RingMesh, ring_mesh
 from rigid import Scene
 
+from .corners import corners
 from .possible import ensure_thick
 
 Array = NDArray[np.float64]
 
 COLUMNS = 64  # of the rim's compliance are solved for together
 AROUND = 240  # elements where no tolerance asks for more
-MESH_ERROR, MESH_ORDER = 1e-4, 2.2  # with so many, of the impulses over J_N; order with which it falls
+MESH_ERROR, MESH_ORDER = 3e-5, 3.4  # with so many, of the impulses over J_N; order with which it falls
+MESH_WALL, MESH_THIN = 0.02, 1.75  # wall over R at which it is that, power with which it grows as the wall gets thinner
 MESH_SOFT = 400.0  # bending stiffness from which on it is less, like its root
 MOST_AROUND = 1200  # the compliance of their rim is 180 MB
 LOT = 24  # of modes that are found together
@@ -52,7 +54,9 @@ class Ring:
     Attributes
     ----------
     stiffness, mass : (n_dofs, n_dofs) sparse
-        Of the free ring, in scikit-fem's numbering.
+        Of the free ring's quads, in scikit-fem's numbering.
+    corners : Corners
+        What the wall yields besides where it is welded.
     free : (n_free,) int array
         Degrees of freedom that the weld leaves.
     """
@@ -74,6 +78,7 @@ class Ring:
         def mass(u: Any, v: Any, w: Any) -> Any:
             return dot(u, v)
 
+        self.corners = corners(mesh, stiffness)
         self.stiffness: sp.csr_matrix = stiffness.assemble(self.basis).tocsr()
         self.area = float(self.basis.dx.sum())
         self.mass: sp.csr_matrix = mass.assemble(self.basis).tocsr() / self.area
@@ -93,8 +98,9 @@ class Ring:
 
     @cached_property
     def free_stiffness(self) -> sp.csc_matrix:
-        """Stiffness of the clamped ring."""
-        return self.stiffness[self.free][:, self.free].tocsc()
+        """Stiffness of the clamped ring, its corners in it."""
+        matrix = self.stiffness + self.corners.stiffness(self.basis.N)
+        return matrix[self.free][:, self.free].tocsc()
 
     @cached_property
     def free_mass(self) -> sp.csc_matrix:
@@ -229,21 +235,22 @@ def _shared_ring(wall: float, elements: int, through: int, weld_half_angle: floa
     return Ring(ring_mesh(1 - wall, 1.0, elements, through, weld_half_angle), poisson)
 
 
-def elements_through(wall: float) -> int:
-    """Elements through a wall, its thickness over R, with which the ring is good to 0.1 %.
+def elements_through(wall: float, rtol: float = 1e-4) -> int:
+    """Elements through a wall, its thickness over R, with which the ring is good to 0.1 %, and better below rtol = 1e-4.
 
     With t of them the frequencies n = 2...4 of a free ring, and its compliances to outer tractions cos n theta, are off
-    by at most 1.2 wall^2/t^4 (README.md, section 2).
+    by at most 1.2 wall^2/t^4; that is ten times rtol, of which a pulse of a thin ring knows a fortieth (README.md,
+    section 2).
     """
-    return max(1, ceil((1200 * wall**2) ** 0.25))
+    return max(1, ceil((1.2 * wall**2 / min(1e-3, 10 * rtol)) ** 0.25))
 
 
-def elements_around(rtol: float, bending_stiffness: float) -> int:
+def elements_around(rtol: float, bending_stiffness: float, wall: float) -> int:
     """Elements around a ring whose mesh leaves no more than a third of ``rtol`` in the impulses of a pulse.
 
-    Found where it leaves most, at an undamped brush under a ring of E I = 65 with mass (README.md, section 5).
+    Found where it leaves most, at an undamped brush under a ring of E I = 65 with mass (README.md, section 2).
     """
-    error = MESH_ERROR * min(1.0, sqrt(MESH_SOFT / bending_stiffness))
+    error = MESH_ERROR * (MESH_WALL / wall) ** MESH_THIN * min(1.0, sqrt(MESH_SOFT / bending_stiffness))
     return min(max(AROUND, ceil(AROUND * (3 * error / rtol) ** (1 / MESH_ORDER))), MOST_AROUND)
 
 
@@ -251,7 +258,7 @@ def ring_of(scene: Scene, through: int = 1, around: int | None = None) -> Ring:
     """The ring of a scene; one is built per shape, and shared by all stiffnesses, masses and contacts.
 
     ``through`` is the least number of elements through the wall, ``around`` the number around the ring, unless the
-    scene says how many; by default its tolerance does.
+    scene says how many; by default its tolerance says both.
 
     Raises
     ------
@@ -259,9 +266,12 @@ def ring_of(scene: Scene, through: int = 1, around: int | None = None) -> Ring:
         The wall is too thin for quads.
     """
     ensure_thick(scene.wall)
-    around = scene.solve.elements or around or elements_around(scene.solve.rtol, scene.ring.bending_stiffness)
     if scene.solve.through is not None:
         through = scene.solve.through
+    elif around is None:
+        through = max(through, elements_through(scene.wall, scene.solve.rtol))
     else:
         through = max(through, elements_through(scene.wall))
+    rtol, bending = scene.solve.rtol, scene.ring.bending_stiffness
+    around = scene.solve.elements or around or elements_around(rtol, bending, scene.wall)
     return _shared_ring(scene.wall, around, through, scene.ring.weld_half_angle, scene.ring.poisson)
