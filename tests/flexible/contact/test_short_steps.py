@@ -9,7 +9,7 @@ import flexible
 SCENE = HOOP.replace(
     hoop={"k": 0.03273, "r": 1.124, "mass_ratio": 0.0}, friction={"mu_s": 0.17125, "mu": 0.1301},
     release={"phi0": 0.98237}, ring={"bending_stiffness": 2269.4},
-    contact={"law": "brush", "stiffness": 5.939e11, "damping": 1.0}, solve={"elements": 240},
+    contact={"law": "brush", "stiffness": 5.939e11, "damping": 1.0}, solve={"elements": 240, "through": 2},
 )  # fmt: skip
 
 
