@@ -128,7 +128,7 @@ class _Stressed:
 
 def _beyond(stressed: _Stressed, sign: int, low: float, high: float) -> Array:
     """What the elements between two angles to one side of the weld bear at their end toward it."""
-    return stressed.cut(*sorted((sign * low, sign * high)), sign * low)
+    return stressed.cut(min(sign * low, sign * high), max(sign * low, sign * high), sign * low)
 
 
 def _about(point: Array, forces: Array) -> Array:

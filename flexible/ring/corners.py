@@ -5,8 +5,8 @@ the two columns of quads to either side of a corner are cut finer and finer towa
 finer nodes are condensed: their equilibrium under what the mesh's own nodes do. Mesh, rim and inertia stay as they are,
 and so does the price of a step.
 
-What that changes is a quadratic form of the nodes' displacements, and since no rigid motion feels it, one of the strains
-at the quads' Gauss points. So it is taken where a ring turns far, with Green's strains.
+What that changes is a quadratic form of the nodes' displacements, and since no rigid motion feels it, one of the
+strains at the quads' Gauss points. So it is taken where a ring turns far, with Green's strains.
 """
 
 from __future__ import annotations

@@ -236,7 +236,7 @@ def _shared_ring(wall: float, elements: int, through: int, weld_half_angle: floa
 
 
 def elements_through(wall: float, rtol: float = 1e-4) -> int:
-    """Elements through a wall, its thickness over R, with which the ring is good to 0.1 %, and better below rtol = 1e-4.
+    """Elements through a wall, its thickness over R, by which the ring is good to 0.1 %; to less below rtol = 1e-4.
 
     With t of them the frequencies n = 2...4 of a free ring, and its compliances to outer tractions cos n theta, are off
     by at most 1.2 wall^2/t^4; that is ten times rtol, of which a pulse of a thin ring knows a fortieth (README.md,

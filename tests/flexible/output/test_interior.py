@@ -56,7 +56,7 @@ def test_stress_of_a_rotating_ring_converges_to_lames():
 
 
 def test_energy_of_a_field_is_half_its_work():
-    """u K u / 2 from the elements, and of the quads its density at the nodes integrates to it within the recovery's error.
+    """u K u / 2 from the elements; its density at the nodes integrates to that of the quads as well as it is recovered.
 
     The corners of the weld, cut finer, are in the elements' energies and have no density.
     """

@@ -50,7 +50,7 @@ def test_the_error_of_the_mesh_is_what_elements_are_chosen_by():
 
 @pytest.mark.parametrize("r", [1.002, 1.005, 1.01])
 def test_long_quads_leave_more(r):
-    """Of walls 13 to 3 times as thin as the quads are long what the power of the wall says, or less: a half at least."""
+    """Of walls 13 to 3 times as thin as the quads are long what the power of the wall says, or down to half of it."""
     stated = MESH_ERROR * (MESH_WALL / (1 - 1 / r)) ** MESH_THIN
     assert 0.5 * stated < error(impulses(240, 1, r=r), impulses(720, 1, r=r)) < 1.2 * stated
 
