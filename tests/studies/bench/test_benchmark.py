@@ -54,7 +54,7 @@ def test_the_peer_converges_to_the_reference():
 @pytest.mark.slow
 def test_all_nodes_are_found_again():
     """One entry of the flexible reference, to the digits that another processor leaves."""
-    key = (120, 1e-4, 24)
+    key = (240, 1, 1e-4, 24)
     again = reference.run_all_nodes(*key)
     error, peak = reference.errors(again, reference.ALL_NODES[key])
     assert error < 1e-4
