@@ -31,7 +31,7 @@ AROUND = 240  # elements where no tolerance asks for more
 MESH_ERROR, MESH_ORDER = 3e-5, 3.4  # with so many, of the impulses over J_N; order with which it falls
 MESH_WALL, MESH_THIN = 0.02, 1.75  # wall over R at which it is that, power with which it grows as the wall gets thinner
 MESH_SOFT = 400.0  # bending stiffness from which on it is less, like its root
-MOST_AROUND = 1200  # the compliance of their rim is 180 MB
+MOST_AROUND, MOST_THROUGH = 1200, 6  # the compliance of so long a rim is 180 MB
 LOT = 24  # of modes that are found together
 WITHIN, THIN = 0.05, 2.5  # share of a half-plane's give under the shortest waves of the rim's nodes; see Ring.within
 
@@ -240,9 +240,9 @@ def elements_through(wall: float, rtol: float = 1e-4) -> int:
 
     With t of them the frequencies n = 2...4 of a free ring, and its compliances to outer tractions cos n theta, are off
     by at most 1.2 wall^2/t^4; that is ten times rtol, of which a pulse of a thin ring knows a fortieth (README.md,
-    section 2).
+    section 2). No more than ``MOST_THROUGH``: of a solid disk 0.1 % takes as many.
     """
-    return max(1, ceil((1.2 * wall**2 / min(1e-3, 10 * rtol)) ** 0.25))
+    return max(1, min(MOST_THROUGH, ceil((1.2 * wall**2 / min(1e-3, 10 * rtol)) ** 0.25)))
 
 
 def elements_around(rtol: float, bending_stiffness: float, wall: float) -> int:
