@@ -17,6 +17,8 @@ import numpy as np
 
 C = TypeVar("C")
 
+_LINE = 60  # characters of a value that a sentence shows
+
 _MEANT = {
     "mu_k": "mu", "mu_d": "mu", "mu_kinetic": "mu", "mu_dynamic": "mu", "mu_static": "mu_s", "mu_0": "mu_s",
     "radius": "R", "mass": "m", "gravity": "g", "nu": "poisson", "omega": "omega0", "slip": "slip0", "tol": "rtol",
@@ -40,7 +42,7 @@ def unknown(kind: str, name: str, known: Sequence[str]) -> SceneError:
 def in_radians(key: str, value: Any) -> float:
     """An angle given in degrees."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise SceneError(f"{key} = {value!r} is not possible: it must be a number, in degrees.")
+        raise SceneError(f"{key} = {shown(value)} is not possible: it must be a number, in degrees.")
     try:
         return radians(value)
     except OverflowError:
@@ -52,7 +54,7 @@ def plain(key: str, value: Any) -> Any:
     if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
         value = value.item()
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-        raise SceneError(f"{key} = {value!r} is not possible: it must be a number or a word.")
+        raise SceneError(f"{key} = {shown(value)} is not possible: it must be a number or a word.")
     return value
 
 
@@ -124,16 +126,17 @@ def require(
 
 
 def shown(value: Any) -> str:
-    """A value as a sentence can show it: a whole number that no float holds by its power of ten."""
+    """A value as a sentence can show it: a whole number that no float holds by its power of ten, of others a line."""
     if isinstance(value, int) and abs(value) > sys.float_info.max:
         return f"{'-' if value < 0 else ''}10^{round(value.bit_length() * log10(2))} or so"
-    return repr(value)
+    text = " ".join(repr(value).split())
+    return text if len(text) <= _LINE else f"{text[: _LINE - 3]}..."
 
 
 def require_choice(key: str, value: Any, choices: tuple[str, ...]) -> None:
     """Refuse a word that is none of the choices."""
     if value not in choices:
-        raise SceneError(f"{key} = {value!r} is not possible: it must be one of {', '.join(map(repr, choices))}.")
+        raise SceneError(f"{key} = {shown(value)} is not possible: it must be one of {', '.join(map(repr, choices))}.")
 
 
 def require_whole(key: str, value: Any, low: int, high: int) -> None:

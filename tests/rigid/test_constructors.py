@@ -138,3 +138,11 @@ def test_a_solver_takes_a_name_a_path_a_dict_or_a_scene(tmp_path):
     assert said(simulate, 3).endswith("it must be a Scene, a name, the path of a file, or a dict.")
     assert "paper-3.1" in said(simulate, "paper3.1")
     assert said(simulate, {"hoop": {"k": 0.1}}).endswith("is missing: a scene needs it.")
+
+
+def test_a_value_that_is_no_number_is_shown_in_a_line():
+    """A mesh in the place of a stiffness was printed whole, hundreds of lines of it."""
+    with pytest.raises(SceneError) as refused:
+        Ring(bending_stiffness=list(range(1000)))
+    assert len(str(refused.value)) < 150
+    assert "\n" not in str(refused.value)
