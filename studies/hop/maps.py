@@ -29,7 +29,7 @@ HEIGHTS = (1e-4, 1e-1)
 """Of a hop over R, between which colours run."""
 
 TIMES_DURATION = 12.0
-"""E I tau^2 that is drawn, see :mod:`.rolling.scaling`: thresholds anywhere have it within a factor of 1.6."""
+"""E I tau^2 that is drawn, see :mod:`.rolling.scaling`: thresholds anywhere have it within a factor of 1.7."""
 
 PLACES = {
     "bottom": ("at φ = π, the contact under the disk", "#D55E00"),

@@ -76,7 +76,7 @@ def relief(scene: Scene) -> float | None:
 def foreseen(scene: Scene) -> float | None:
     """E I/(m g R^2) below which the pulse leaves the ring ringing so that the hoop leaves the floor behind it.
 
-    None without a pulse or without a mass. Up to k = 0.18 it is off by a sixth at most; from 0.2 on stiffer hoops hop
+    None without a pulse or without a mass. Up to k = 0.18 it is off by a fifth at most; from 0.2 on stiffer hoops hop
     too, see studies/README.md.
     """
     sudden, ratio = suddenness(scene), relief(scene)
