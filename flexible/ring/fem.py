@@ -235,16 +235,14 @@ def _shared_ring(wall: float, elements: int, through: int, weld_half_angle: floa
     return Ring(ring_mesh(1 - wall, 1.0, elements, through, weld_half_angle), poisson)
 
 
-def elements_through(wall: float, rtol: float = 1e-4, bending_stiffness: float = MESH_SOFT) -> int:
+def elements_through(wall: float, rtol: float = 1e-4) -> int:
     """Elements through a wall, its thickness over R, by which the ring is good to 0.1 %; to less below rtol = 1e-4.
 
     With t of them the frequencies n = 2...4 of a free ring, and its compliances to outer tractions cos n theta, are off
-    by at most 1.2 wall^2/t^4; that is ten times rtol, of which a pulse of a thin ring knows a fortieth, and the less
-    the stiffer it is in bending (README.md, section 2). No more than ``MOST_THROUGH``: of a solid disk 0.1 % takes as
-    many.
+    by at most 1.2 wall^2/t^4; that is ten times rtol, of which a pulse of a thin ring knows a fortieth (README.md,
+    section 2). No more than ``MOST_THROUGH``: of a solid disk 0.1 % takes as many.
     """
-    allowed = min(1e-3, 10 * rtol / min(1.0, sqrt(MESH_SOFT / bending_stiffness)))
-    return max(1, min(MOST_THROUGH, ceil((1.2 * wall**2 / allowed) ** 0.25)))
+    return max(1, min(MOST_THROUGH, ceil((1.2 * wall**2 / min(1e-3, 10 * rtol)) ** 0.25)))
 
 
 def elements_around(rtol: float, bending_stiffness: float, wall: float) -> int:
@@ -268,12 +266,12 @@ def ring_of(scene: Scene, through: int = 1, around: int | None = None) -> Ring:
         The wall is too thin for quads.
     """
     ensure_thick(scene.wall)
-    rtol, bending = scene.solve.rtol, scene.ring.bending_stiffness
     if scene.solve.through is not None:
         through = scene.solve.through
     elif around is None:
-        through = max(through, elements_through(scene.wall, rtol, bending))
+        through = max(through, elements_through(scene.wall, scene.solve.rtol))
     else:
         through = max(through, elements_through(scene.wall))
+    rtol, bending = scene.solve.rtol, scene.ring.bending_stiffness
     around = scene.solve.elements or around or elements_around(rtol, bending, scene.wall)
     return _shared_ring(scene.wall, around, through, scene.ring.weld_half_angle, scene.ring.poisson)
