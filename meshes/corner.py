@@ -14,7 +14,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from skfem import MeshQuad2
 
-from .ring import RingMesh
+from .ring import RingMesh, quads
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -72,9 +72,10 @@ def corner(ring: RingMesh) -> Corner:
     nodes = ring.grid[:, columns]
     opposite = int(np.argmin(np.abs(theta + weld)))
     mirrored = ring.grid[:, (opposite - (columns - at)) % (2 * ring.around)]
-    mesh, number = _mesh(shapes @ ring.points[nodes.ravel()], (len(depth), len(angle)))
+    grid = np.arange(shapes.shape[0]).reshape(len(depth), len(angle))
+    mesh, number = quads((shapes @ ring.points[nodes.ravel()]).T, grid)
 
-    bound = np.zeros((len(depth), len(angle)), dtype=bool)
+    bound = np.zeros(grid.shape, dtype=bool)
     bound[:, [0, -1]] = bound[-1] = True
     bound[0, angle <= inside] = True
     same = np.ix_(_halves(depth), _halves(angle))
@@ -85,7 +86,7 @@ def corner(ring: RingMesh) -> Corner:
         nodes=nodes.ravel(),
         mirrored=mirrored.ravel(),
         shapes=shapes[order],
-        same=number.reshape(bound.shape)[same].ravel(),
+        same=number.reshape(grid.shape)[same].ravel(),
         bound=bound.ravel()[order],
     )
 
@@ -123,16 +124,3 @@ def _quadratic(at: Array, count: int) -> sp.csr_matrix:
     columns = 2 * element[:, None] + np.arange(3)
     rows = np.broadcast_to(np.arange(len(at))[:, None], columns.shape)
     return sp.csr_matrix((values.ravel(), (rows.ravel(), columns.ravel())), shape=(len(at), 2 * count + 1))
-
-
-def _mesh(points: Array, shape: tuple[int, int]) -> tuple[MeshQuad2, Indices]:
-    """Nine-node quads on a grid of points by layer and angle, and the number of every point among the mesh's dofs."""
-    node = np.arange(len(points)).reshape(shape)
-    low, half, high = slice(0, -1, 2), slice(1, None, 2), slice(2, None, 2)
-    places = [(low, low), (high, low), (high, high), (low, high)]
-    places += [(half, low), (high, half), (half, high), (low, half), (half, half)]
-    elements = np.stack([node[place].ravel() for place in places])
-    mesh = MeshQuad2(np.ascontiguousarray(points.T), elements)
-    number = np.empty(len(points), dtype=np.int64)
-    number[elements] = mesh.dofs.element_dofs
-    return mesh, number

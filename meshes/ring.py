@@ -175,18 +175,10 @@ def ring_mesh(
     sin = np.where(np.abs(theta) == pi, 0.0, np.sin(theta))
     unit = np.stack([np.cos(theta), sin])
 
-    # a grid of layers from inside out, each going round; its numbers are translated to scikit-fem's below
+    # a grid of layers from inside out, each going round
     node = np.arange(radii.size * theta.size).reshape(radii.size, theta.size)
-    here, mid, there = node[:, ::2], node[:, 1::2], np.roll(node[:, ::2], -1, axis=1)
-    low, half, high = slice(0, -1, 2), slice(1, None, 2), slice(2, None, 2)
-    # corners counter-clockwise from (inner, theta_i); their four sides; the centre
-    parts = [here[low], here[high], there[high], there[low]]
-    parts += [here[half], mid[high], there[half], mid[low], mid[half]]
-    elements = np.stack([part.ravel() for part in parts])
-    mesh = MeshQuad2((radii[None, :, None] * unit[:, None, :]).reshape(2, -1), elements)
-
-    number = np.empty(node.size, dtype=np.int64)
-    number[elements] = mesh.dofs.element_dofs
+    closed = np.concatenate([node, node[:, :1]], axis=1)
+    mesh, number = quads((radii[None, :, None] * unit[:, None, :]).reshape(2, -1), closed)
     grid = number.reshape(node.shape)
     sides = mesh.t2f.reshape(4, through, around).astype(np.int64)
     outer_facets, inner_facets = sides[1, -1], sides[3, 0]
@@ -215,6 +207,33 @@ def ring_mesh(
         inner_facets=inner_facets,
         weld_facets=boundaries["weld"],
     )
+
+
+def quads(points: Array, grid: Indices) -> tuple[MeshQuad2, Indices]:
+    """Nine-node quads between the layers of a grid of points.
+
+    Parameters
+    ----------
+    points : (2, n) array
+    grid : (2 layers + 1, 2 columns + 1) array
+        Numbers of the points, by layer from inside out and by angle.
+
+    Returns
+    -------
+    mesh : skfem.MeshQuad2
+        Element by element round a layer, then the next one.
+    number : (n,) array
+        Of every point among the mesh's dofs: scikit-fem has numbers of its own.
+    """
+    low, half, high = slice(0, -1, 2), slice(1, None, 2), slice(2, None, 2)
+    # corners counter-clockwise from (inner, theta_i); their four sides; the centre
+    places = [(low, low), (high, low), (high, high), (low, high)]
+    places += [(half, low), (high, half), (half, high), (low, half), (half, half)]
+    elements = np.stack([grid[place].ravel() for place in places])
+    mesh = MeshQuad2(np.ascontiguousarray(points), elements)
+    number = np.empty(points.shape[1], dtype=np.int64)
+    number[elements] = mesh.dofs.element_dofs
+    return mesh, number
 
 
 def _density(grading: float | Density, weld: float) -> Density:

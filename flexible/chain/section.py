@@ -86,14 +86,14 @@ def _resultants(radius: float, loaded: float, theta: float) -> Array:
 
 
 def _loaded(ring: Ring) -> Array:
-    """Displacement (y1, y2) of the nodes, (n_nodes, 2, 6), under six unit forces on the rim."""
+    """Displacement of all dofs, (n_dofs, 6), under six unit forces on the rim."""
     mesh = ring.mesh
     rim = [int(np.argmin(np.abs(mesh.rim_theta - theta))) for theta in LOADED]
     load = np.zeros((len(ring.free), 6))
     load[ring.rim_dofs.reshape(-1, 2)[rim].ravel(), np.arange(6)] = 1.0
     full = np.zeros((ring.basis.N, 6))
     full[ring.free] = ring.solve(load)
-    return full[mesh.node_dofs]
+    return full
 
 
 class _Stressed:
@@ -101,8 +101,9 @@ class _Stressed:
 
     def __init__(self, ring: Ring) -> None:
         self.mesh = ring.mesh
-        u = _loaded(ring)
-        self.by, area = gauss_gradient(ring.mesh)[:2], gauss_gradient(ring.mesh)[2]
+        moved = _loaded(ring)
+        u = moved[ring.mesh.node_dofs]
+        *self.by, area = gauss_gradient(ring.mesh)
         h11, h21, h12, h22 = (by @ u[:, i] for by in self.by for i in (0, 1))
         strain = np.stack([h11, h22, h12 + h21])
         self.poisson = nu = ring.poisson
@@ -110,8 +111,6 @@ class _Stressed:
         self.stress = np.einsum("ij,jgm,g->igm", elastic, strain, area.ravel())
         energy = np.einsum("iga,igb->gab", strain, self.stress)
         self.energy = energy.reshape(len(area), 9, 6, 6).sum(axis=1)
-        moved = np.zeros((ring.basis.N, 6))
-        moved[ring.mesh.node_dofs] = u
         self.corners = moved.T @ (ring.corners.stiffness(ring.basis.N) @ moved)
         self.theta = ring.mesh.theta[ring.mesh.quad9[:, 8]]
 
@@ -124,11 +123,6 @@ class _Stressed:
         y = mesh.points[nodes]
         moment = y[:, :1] * second[nodes] - y[:, 1:] * first[nodes]
         return np.stack([first[nodes].sum(axis=0), second[nodes].sum(axis=0), moment.sum(axis=0)])
-
-
-def _beyond(stressed: _Stressed, sign: int, low: float, high: float) -> Array:
-    """What the elements between two angles to one side of the weld bear at their end toward it."""
-    return stressed.cut(min(sign * low, sign * high), max(sign * low, sign * high), sign * low)
 
 
 def _about(point: Array, forces: Array) -> Array:
@@ -179,14 +173,15 @@ def rod_compliance(ring: Ring, end: float) -> RodCompliance:
     beyond = beyond[beyond > mesh.weld_half_angle + max(end, fades) - 1e-9]
     margin = fades + 0.25 * max(LOADED[0] - mesh.weld_half_angle - 2 * fades, 0.0)
     clear = vertex[(vertex > mesh.weld_half_angle + margin) & (vertex < LOADED[0] - margin)]
-    if not len(beyond) or len(clear) < 4:
+    if len(beyond) < 2 or len(clear) < 4:
         raise SceneError("the ring is no rod: its wall is too thick, or its weld too wide, for solve.level = 'chain'.")
     stressed = _Stressed(ring)
 
     section, misfit = _section(stressed, clear, radius)
-    last, next_one = beyond[0].item(), vertex[vertex > beyond[0]][0].item()
+    last, behind = beyond[:2].tolist()
     # what the elements behind the cut bear, turned round: those before it may be the corner's, of another stiffness
-    both = [_about(radius * radial(sign * last), -_beyond(stressed, sign, last, next_one)) for sign in (1, -1)]
+    cuts = [(last, stressed.cut(last, behind, last)), (-last, stressed.cut(-behind, -last, -last))]
+    both = [_about(radius * radial(at), -borne) for at, borne in cuts]
     inverse = np.linalg.inv(np.concatenate(both))
     inside = stressed.energy[np.abs(stressed.theta) < last].sum(axis=0) + stressed.corners
     whole = inverse.T @ inside @ inverse

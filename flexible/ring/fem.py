@@ -8,7 +8,7 @@ Plane stress; the weld (a short arc of the inner rim) is clamped to the disk's f
 from __future__ import annotations
 
 from functools import cached_property, lru_cache
-from math import ceil, pi, sqrt
+from math import ceil, inf, pi, sqrt
 from typing import Any
 
 import numpy as np
@@ -235,7 +235,7 @@ def _shared_ring(wall: float, elements: int, through: int, weld_half_angle: floa
     return Ring(ring_mesh(1 - wall, 1.0, elements, through, weld_half_angle), poisson)
 
 
-def elements_through(wall: float, rtol: float = 1e-4) -> int:
+def elements_through(wall: float, rtol: float = inf) -> int:
     """Elements through a wall, its thickness over R, by which the ring is good to 0.1 %; to less below rtol = 1e-4.
 
     With t of them the frequencies n = 2...4 of a free ring, and its compliances to outer tractions cos n theta, are off
@@ -266,12 +266,7 @@ def ring_of(scene: Scene, through: int = 1, around: int | None = None) -> Ring:
         The wall is too thin for quads.
     """
     ensure_thick(scene.wall)
-    if scene.solve.through is not None:
-        through = scene.solve.through
-    elif around is None:
-        through = max(through, elements_through(scene.wall, scene.solve.rtol))
-    else:
-        through = max(through, elements_through(scene.wall))
-    rtol, bending = scene.solve.rtol, scene.ring.bending_stiffness
-    around = scene.solve.elements or around or elements_around(rtol, bending, scene.wall)
+    rtol = scene.solve.rtol if around is None else inf
+    through = scene.solve.through or max(through, elements_through(scene.wall, rtol))
+    around = scene.solve.elements or around or elements_around(rtol, scene.ring.bending_stiffness, scene.wall)
     return _shared_ring(scene.wall, around, through, scene.ring.weld_half_angle, scene.ring.poisson)
