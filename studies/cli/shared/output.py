@@ -129,6 +129,6 @@ def write_mesh(scene: Scene, path: Path) -> str:
     quality = ring.quality()
     return (
         f"{path}: {quality.elements} nine-node quads, {quality.nodes} nodes.\n"
-        f"Area off by {quality.area_error:.1e}, outer length by {quality.outer_length_error:.1e}; "
-        f"elements up to {quality.aspect:.2f} times longer than wide."
+        f"Area off by {quality.area_error:.1e}, outer length by {quality.outer_length_error:.1e}.\n"
+        f"Elements up to {quality.aspect:.2f} times longer than wide."
     )
