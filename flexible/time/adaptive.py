@@ -18,7 +18,8 @@ from rigid.kernel.interrupts import answer
 from ..contact.laws.listing import free, sticks, successor
 from ..models import reduced
 from ..models.state import Energies, Model, Record, State
-from .advance import COLUMNS, SPAN, Aims, advance, advance_reduced, write
+from .advance import COLUMNS, SHORT, SPAN, Aims, advance, advance_reduced, write
+from .control import AFRESH
 from .course import (
     CAPPED,
     LACKS,
@@ -26,6 +27,7 @@ from .course import (
     PAUSED,
     REACHED,
     STALLED,
+    UNSOLVED,
     Advanced,
     Course,
     Marched,
@@ -127,11 +129,23 @@ def _in_its_next_mode(model: Model, state: State, before: Record) -> tuple[State
     """
     law = model.law.parameters
     mode = successor(law, state)
-    if sticks(law, mode):  # to the last digit, which a step that was cut short may not have
+    if sticks(law, mode) and state.res.elastic > 0:  # to the last digit, which a step that was cut short may not have
         state = state._replace(slip_velocity=0.0)
     behind = restart(model, state, mode)
     energies, spring = model.energies(behind), behind.res.normal_energy + behind.res.bristle_energy
     return behind, energies, before.ring_strain + before.contact_spring - energies[2] - spring
+
+
+def _is_caught(model: Model, now: Standing, why: int) -> bool:
+    """Whether a patch that slides cannot slide on, and is to be tried sticking.
+
+    Beside the weld of a thick ring the rim gives way under friction as much as under pressure. Where
+    mu C_nt > C_nn, of its static compliances, more pressure lifts a sliding spot of a ring without inertia less than
+    its friction pulls it down: no N balances it, and the floor catches the spot in an instant, as it does a rigid body
+    in Painleve's paradox. Whether it then sticks is for the law to say.
+    """
+    law, state = model.law.parameters, now.state
+    return why == UNSOLVED and not sticks(law, state.mode) and sticks(law, successor(law, state))
 
 
 def march(
@@ -176,14 +190,17 @@ def march(
             keep(now.state)
         if progress is not None:
             progress(rows[:written])
-        if why == MODE_ENDED:
+        caught = _is_caught(model, now, why)
+        if why == MODE_ENDED or caught:
             try:
                 state, energies, released = _in_its_next_mode(model, now.state, records[-1])
             except MarchError as trouble:
-                ended = str(trouble)
+                ended = "" if caught else str(trouble)
                 break
             books = now.books._replace(friction_loss=now.books.friction_loss + released)
             now = now._replace(state=state, books=books)
+            if caught:
+                now, why = now._replace(step=SHORT, pace=AFRESH), MODE_ENDED
             write(rows[0], state, energies, books, 0.0)
             records += _records(rows[:1])
             if keep is not None:
