@@ -238,7 +238,7 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         before = Before(old.pos[:FRAME], u_old, old.bristles)
         u = follow(arrays.chain.rod, sections(expected), nodes)[0]
         move(expected, u, 1.0, nothing, beyond.ravel())
-        begins = predictor.guess, u, Foreseen(old.res.normal, old.res.friction), arrays.law.known
+        begins = predictor.guess, u, Foreseen(old.res.normal, old.res.friction), near.known
         answer = solve_stage(arrays.chain, facing, arrays.law, mode, before, damper, predictor, begins)
         if answer.iterations == -1 and old.res.elastic > 0:
             as_before(expected, u, facing.rim, before)

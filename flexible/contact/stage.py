@@ -26,6 +26,7 @@ class Near(NamedTuple):
     pos: Any
     elastic: float  # N_el there
     expected: float  # N_el here
+    known: float  # share of 1 + N to which forces are to be found
 
 
 class Stage(NamedTuple):

@@ -16,7 +16,7 @@ from rigid import Scene
 
 from ..contact.forces import contact_forces
 from ..contact.points.data import MOST_ITERATIONS, Before, Damper, Rim, pulling
-from ..contact.stage import Predictor, Stage
+from ..contact.stage import Near, Predictor, Stage
 from ..contact.vectors import largest
 from ..ring.fem import AROUND, Ring, ring_of
 from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
@@ -136,7 +136,7 @@ class FullHoop(RimContact):
         mode: int,
         damper: Damper,
         predictor: Predictor,
-        near: tuple[Window, Array],
+        near: Near,
         first: bool,
     ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
@@ -151,14 +151,14 @@ class FullHoop(RimContact):
         margin = 0.3 * (high - low) + 0.1 * self.element
         for _ in range(4):
             window = self.window(float(expected[2]), low, high, margin)
-            solved, outside = self._newton(old, mode, damper, predictor, window)
+            solved, outside = self._newton(old, mode, damper, predictor, window, near.known)
             if not outside:
                 break
             margin = 2 * margin + self.element
         return solved
 
     def _newton(
-        self, old: State, mode: int, damper: Damper, predictor: Predictor, window: Window
+        self, old: State, mode: int, damper: Damper, predictor: Predictor, window: Window, known: float
     ) -> tuple[Stage, bool]:
         """The stage in one window, and whether the patch left it."""
         pos_pred, vel_pred, beta, guess = predictor
@@ -187,7 +187,7 @@ class FullHoop(RimContact):
             worst = max(largest(frame), largest(ring))
             if not isfinite(worst):
                 return Stage(False), False
-            small = self.law.parameters.known * (1 + abs(res.normal))
+            small = known * (1 + abs(res.normal))
             if worst > small:
                 depth = abs(pos[1]) + np.abs(u).max()
                 small += 4e-16 * (law.eps_n + law.eps_t) * res.length * depth * (damper.relaxation + 1)

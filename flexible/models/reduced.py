@@ -113,7 +113,7 @@ def _solved(
         u = near.u if near.window == window else u_old
         facing, elastic = _near_floor(arrays, window), near.elastic
         while True:
-            start = From(u, deepest, elastic, near.expected, arrays.law.known)
+            start = From(u, deepest, elastic, near.expected, near.known)
             answer = solve_stage(arrays.frame, facing, arrays.law, mode, before, damper, predictor, start)
             if answer.iterations != -1 or elastic == 0:
                 break

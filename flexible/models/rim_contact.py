@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 LEAST = 8  # points to a patch: with fewer the force of a patch that moves is noise
-KNOWN = 1e-9  # of 1 + N: Newton's tolerance on forces
+KNOWN = 1e-9, 1e-4  # of 1 + N: Newton's least and largest tolerance on the forces of a step
 COARSE = 1e-3  # rtol at which a law has its number of points; their share of the error falls like its cube, and faster
 
 
@@ -31,6 +31,16 @@ def points_to_a_patch(law: type[Law], rtol: float, soft: bool = False) -> int:
     """
     number = max(law.points, law.points_of_soft) if soft else law.points
     return ceil(max(LEAST, number * (COARSE / rtol) ** (1 / 3)))
+
+
+def known_to(rtol: float) -> float:
+    """Share of 1 + N to which Newton finds the forces of a step: what is left falls faster than the tolerance.
+
+    A thirtieth of it at 1e-3, where all else errs as much as it may; a thousandth at 1e-6, where limits of stiff
+    floors are drawn from the differences of pulses.
+    """
+    least, most = KNOWN
+    return min(max(least, rtol**1.5), most)
 
 
 def contact_law(scene: Scene, elements: int, points: int, within: float = 0.0) -> Law:
@@ -50,7 +60,7 @@ def contact_law(scene: Scene, elements: int, points: int, within: float = 0.0) -
         mu_s=float(friction.mu_s),
         mu=float(friction.mu),
         slip_scale=float(contact.slip_velocity_scale),
-        known=KNOWN,
+        known=known_to(scene.solve.rtol),
     )
     return law(parameters)
 

@@ -33,6 +33,7 @@ from .course import (
     Standing,
 )
 from .events import (
+    FORCE,
     HIGH_END,
     MODE_ENDS,
     NO_EVENT,
@@ -70,10 +71,10 @@ class Aims(NamedTuple):
     alone: bool = False  # a single step, whatever its error and its events
 
 
-def tried(model: Any, old: State, h: float, table: Table, damping: Any) -> Taken:
+def tried(model: Any, old: State, h: float, table: Table, damping: Any, known_to: float) -> Taken:
     """A step of a hoop in Python; what its sparse matrices raise is a step that could not be solved."""
     try:
-        return take(model, old, h, table, damping)
+        return take(model, old, h, table, damping, known_to)
     except np.linalg.LinAlgError:
         nothing: dict[str, Any] = {name: getattr(old, name, 0.0) for name in Taken._fields}
         return Taken(**{**nothing, "ok": False})
@@ -171,7 +172,10 @@ def advance(
             cut = cut or h > ends.t - state.t
             asked = tries = min(h, ends.t - state.t)
             attempts += 1
-        taken = tried(model, state, tries, table, (aims.relaxation, aims.relaxation * law.eps_t * state.res.length))
+        # the forces of an instant by itself, and those by which it is found, are known as well as they can be
+        known_to = FORCE if aims.alone or search.event != NO_EVENT else law.known
+        damping = (aims.relaxation, aims.relaxation * law.eps_t * state.res.length)
+        taken = tried(model, state, tries, table, damping, known_to)
         solved, lacking = taken.ok and isfinite(taken.error), not taken.ok and lacks(model, taken.window)
         if lacking or (aims.alone and not solved):
             why, window, attempts = LACKS if lacking else NO_FORCES, taken.window, attempts - 1

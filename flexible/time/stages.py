@@ -209,7 +209,7 @@ def _at_once(old: Any, known: _Known) -> tuple[Predictor, Damper]:
     return Predictor(known.pos[0].copy(), known.vel[0].copy(), INSTANT, times(INSTANT**2, known.acc[0])), damper
 
 
-def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
+def take(model: Any, old: Any, h: float, table: Table, damping: Any, known_to: float) -> Taken:
     """A step of length ``h`` of a model from ``old``; of no length, a single stage that brings forces up to date.
 
     Parameters
@@ -220,6 +220,8 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
     table : Table
     damping : (float, float)
         The normal damper's time, and the coefficient of the sticking patch against slip.
+    known_to : float
+        Share of 1 + N to which forces are found.
     """
     stages = table.c.shape[0]
     end = stages - 1 if h > 0 else 1
@@ -238,7 +240,7 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any) -> Taken:
         if not np.isfinite(begins + damper.turning_0 + damper.drag + damper.eta_0 + damper.velocity_0):
             ok = False
             break
-        near = Near(window, u, pose, carried, _carries(table, known, i, old, h, damper))
+        near = Near(window, u, pose, carried, _carries(table, known, i, old, h, damper), known_to)
         found = solved(model, old, old.mode, damper, predictor, near, i == 1)
         window = found.window
         if not found.ok:

@@ -23,7 +23,7 @@ class Parameters(NamedTuple):
     mu_s: float
     mu: float
     slip_scale: float  # slip velocity by which a regularised friction is smooth
-    known: float  # to what share of 1 + N Newton finds the forces
+    known: float  # to what share of 1 + N Newton finds the forces of a step
 
 
 class Rim(NamedTuple):
