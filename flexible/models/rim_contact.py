@@ -33,20 +33,22 @@ def points_to_a_patch(law: type[Law], rtol: float, soft: bool = False) -> int:
     return ceil(max(LEAST, number * (COARSE / rtol) ** (1 / 3)))
 
 
-def known_to(rtol: float) -> float:
+def known_to(rtol: float, soft: bool = False) -> float:
     """Share of 1 + N to which Newton finds the forces of a step: what is left falls faster than the tolerance.
 
     A thirtieth of it at 1e-3, where all else errs as much as it may; a thousandth at 1e-6, where limits of stiff
-    floors are drawn from the differences of pulses.
+    floors are drawn from the differences of pulses. On a ``soft`` ring it is the least at any tolerance: there Newton
+    has its steps from bristles that break loose, and saves next to none.
     """
     least, most = KNOWN
-    return min(max(least, rtol**1.5), most)
+    return least if soft else min(max(least, rtol**1.5), most)
 
 
-def contact_law(scene: Scene, elements: int, points: int, within: float = 0.0) -> Law:
+def contact_law(scene: Scene, elements: int, points: int, within: float = 0.0, soft: bool = False) -> Law:
     """The scene's friction law, with ``points`` to the patch of a rigid hoop under the disk's weight.
 
-    ``within`` is what the rim's wall gives way by point by point, besides the foundation and its bristles.
+    ``within`` is what the rim's wall gives way by point by point, besides the foundation and its bristles; ``soft`` is
+    a ring whose sections turn far.
     """
     contact, friction = scene.contact, scene.friction
     eps = 1 / (1 / contact.stiffness + within)
@@ -60,7 +62,7 @@ def contact_law(scene: Scene, elements: int, points: int, within: float = 0.0) -
         mu_s=float(friction.mu_s),
         mu=float(friction.mu),
         slip_scale=float(contact.slip_velocity_scale),
-        known=known_to(scene.solve.rtol),
+        known=known_to(scene.solve.rtol, soft),
     )
     return law(parameters)
 
@@ -110,7 +112,7 @@ class RimContact:
         self.theta = np.column_stack([vertex, middle]).ravel()
         if points is None:
             points = points_to_a_patch(LAWS[scene.contact.law], scene.solve.rtol, soft=not self.linear)
-        self.law = contact_law(scene, len(vertex), points, within)
+        self.law = contact_law(scene, len(vertex), points, within, soft=not self.linear)
         self.element = 2 * pi / len(vertex)
         self.relaxation = relaxation_time(scene)
 
