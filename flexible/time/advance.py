@@ -55,6 +55,7 @@ from .stages import Taken, held, take
 SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
 SHORT = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
 FARTHEST = 1e-4  # a leap over an instant to which no step however short leads
+DARING = 3.0  # times its tolerance a leap may err: it is that, or the end of the run
 MOST_STALLS = 50  # events within a shortest step of each other
 SPAN = 25  # steps tried between two looks at what else the machine has to do: 0.1 s at most
 COLUMNS = len(Record._fields) + 1  # of a row: a record, and the rotation of the rim at the floor
@@ -186,6 +187,8 @@ def advance(
         if search.event == NO_EVENT:
             error, wanted = taken.error / aims.tolerance if solved else inf, care(law, before)
             alike = not sticks(law, state.mode) or seen.res.friction * state.res.friction > 0
+            if leap > 0:
+                wanted *= DARING
             if leap > 0 and error <= wanted and alike and passed(MODE_ENDS, law, ends, before, seen) >= 0:
                 why, h, pace = MODE_ENDED if stalls < MOST_STALLS else STALLED, SHORT, AFRESH
                 stalls += 1
@@ -206,7 +209,10 @@ def advance(
                 h, pace, search = asked / 4, AFRESH, NOWHERE
                 continue
             event = NO_EVENT if is_lost(search) else search.event
-        while not (is_open(search) or aims.alone) and search.event < HIGH_END:
+        # inside a leap nothing can be found: what happens there happens at its end
+        if leap > 0 and passed(TURN, law, ends, before, seen) >= 0:
+            event = TURN
+        while not (is_open(search) or aims.alone or leap > 0) and search.event < HIGH_END:
             search = next_event(search, law, ends, before, seen, length)
             if search.past >= 0 and not is_open(search):
                 event = search.event

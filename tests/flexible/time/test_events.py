@@ -122,6 +122,27 @@ def test_a_step_that_could_be_solved_is_not_the_last_one(monkeypatch):
     assert records[-1].t == pytest.approx(0.2)
 
 
+def test_a_turn_inside_a_leap_is_counted(monkeypatch):
+    """Nowhere with |phidot| < 1e-6 can a step be solved: it is leapt over, and the turn is there."""
+    scene = HOOP.replace(
+        release={"phi0": 1.0, "omega0": -0.01}, hoop={"mass_ratio": 0.0}, friction={"mu_s": 2, "mu": 2}
+    )
+    hoop, start = start_of(scene)
+
+    def fails(model, old, h, *of):
+        trial = tried(model, old, h, *of)
+        return trial._replace(**({"ok": False} if abs(trial.vel[2]) < 1e-6 else {}))
+
+    tried = flexible.time.advance.tried
+    monkeypatch.setattr(flexible.time.advance, "tried", fails)
+    monkeypatch.setattr(flexible.time.adaptive, "machine", lambda model: (flexible.time.advance.advance, model))
+    _, records, _, ended, _ = march(hoop, start, Ends(t=1.0, turns=1), 1e-3, Limits(most=400))
+    assert not ended, ended
+    before, behind = records[-2:]
+    assert before.omega < 0 < behind.omega
+    assert behind.t - before.t <= flexible.time.advance.FARTHEST
+
+
 def test_a_number_that_is_none_is_not_passed_over():
     assert largest(np.array([1.0, -2.0])) == 2.0
     for bad in (np.nan, np.inf):
