@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from rigid.kernel.interrupts import answer
 
-from ..contact.laws.listing import free, sticks, successor
+from ..contact.laws.listing import free, may_end, sticks, successor
 from ..models import reduced
 from ..models.state import Energies, Model, Record, State
 from .advance import COLUMNS, SHORT, SPAN, Aims, advance, advance_reduced, write
@@ -123,12 +123,11 @@ def restart(model: Model, state: State, mode: int) -> State:
     )  # fmt: skip
 
 
-def _in_its_next_mode(model: Model, state: State, before: Record) -> tuple[State, Energies, float]:
-    """The state behind the end of its mode, its energies, and what ring and patch let go of in the jump of the friction
+def _in_mode(model: Model, state: State, mode: int, before: Record) -> tuple[State, Energies, float]:
+    """The state in the mode that follows, its energies, and what ring and patch let go of in the jump of the friction
     force: that is lost to friction.
     """
     law = model.law.parameters
-    mode = successor(law, state)
     if sticks(law, mode) and state.res.elastic > 0:  # to the last digit, which a step that was cut short may not have
         state = state._replace(slip_velocity=0.0)
     behind = restart(model, state, mode)
@@ -136,16 +135,24 @@ def _in_its_next_mode(model: Model, state: State, before: Record) -> tuple[State
     return behind, energies, before.ring_strain + before.contact_spring - energies[2] - spring
 
 
-def _is_caught(model: Model, now: Standing, why: int) -> bool:
-    """Whether a patch that slides cannot slide on, and is to be tried sticking.
+def _instead(model: Model, state: State, why: int) -> int | None:
+    """The mode to go on in where a patch can neither stay in its own nor pass to the next; None if there is none.
 
     Beside the weld of a thick ring the rim gives way under friction as much as under pressure. Where
     mu C_nt > C_nn, of its static compliances, more pressure lifts a sliding spot of a ring without inertia less than
     its friction pulls it down: no N balances it, and the floor catches the spot in an instant, as it does a rigid body
-    in Painleve's paradox. Whether it then sticks is for the law to say.
+    in Painleve's paradox. It is tried sticking. And where N falls, such a spot that breaks loose is not slowed down by
+    the friction that held it, but driven against it: stick and slip follow each other without end. It snaps off, and is
+    tried sliding under the opposite one.
     """
-    law, state = model.law.parameters, now.state
-    return why == UNSOLVED and not sticks(law, state.mode) and sticks(law, successor(law, state))
+    law = model.law.parameters
+    if not may_end(law):
+        return None
+    if why == UNSOLVED and not sticks(law, state.mode):
+        return successor(law, state)
+    if why == STALLED:
+        return -successor(law, state) if sticks(law, state.mode) else -state.mode
+    return None
 
 
 def march(
@@ -176,7 +183,7 @@ def march(
             keep(now.state)
     aims = Aims(method.tolerance(rtol), 1 / method.estimates, float(limits.longest), limits.most, model.relaxation)
     ends = Ends(float(ends.t), float(ends.low), float(ends.high), ends.turns)
-    why, stood, behind, ended = PAUSED, now, len(records), ""
+    why, stood, behind, ended, lost = PAUSED, now, len(records), "", -np.inf
     while why in (PAUSED, LACKS, MODE_ENDED):
         if not now.cut:
             stood, behind = now, len(records)
@@ -190,17 +197,17 @@ def march(
             keep(now.state)
         if progress is not None:
             progress(rows[:written])
-        caught = _is_caught(model, now, why)
-        if why == MODE_ENDED or caught:
+        mode = successor(model.law.parameters, now.state) if why == MODE_ENDED else _instead(model, now.state, why)
+        if mode is not None and (why == MODE_ENDED or now.state.t > lost):
             try:
-                state, energies, released = _in_its_next_mode(model, now.state, records[-1])
+                state, energies, released = _in_mode(model, now.state, mode, records[-1])
             except MarchError as trouble:
-                ended = "" if caught else str(trouble)
+                ended = str(trouble) if why == MODE_ENDED else ""
                 break
             books = now.books._replace(friction_loss=now.books.friction_loss + released)
             now = now._replace(state=state, books=books)
-            if caught:
-                now, why = now._replace(step=SHORT, pace=AFRESH), MODE_ENDED
+            if why != MODE_ENDED:
+                lost, now, why = state.t + SHORT, now._replace(step=SHORT, pace=AFRESH, stalls=0), MODE_ENDED
             write(rows[0], state, energies, books, 0.0)
             records += _records(rows[:1])
             if keep is not None:

@@ -147,6 +147,18 @@ def _ended(t: float, phi: float, turns: int, ends: Ends) -> bool:
     return bool(turns >= ends.turns > 0 or phi <= ends.low or phi >= ends.high or ends.t - t < SHORTEST)
 
 
+@loop
+def _daring(leap: float) -> float:
+    """Times its tolerance a step may err."""
+    return DARING if leap > 0 else 1.0
+
+
+@loop
+def _damping(aims: Aims, law: Parameters, state: State) -> tuple[float, float]:
+    """The normal damper's time, and the coefficient of the sticking patch against slip."""
+    return aims.relaxation, aims.relaxation * law.eps_t * state.res.length
+
+
 def advance(
     model: Any, law: Parameters, table: Table, now: Standing, ends: Ends, aims: Aims, rows: Any
 ) -> Advanced:  # fmt: skip
@@ -175,8 +187,7 @@ def advance(
             attempts += 1
         # the forces of an instant by itself, and those by which it is found, are known as well as they can be
         known_to = FORCE if aims.alone or search.event != NO_EVENT else law.known
-        damping = (aims.relaxation, aims.relaxation * law.eps_t * state.res.length)
-        taken = tried(model, state, tries, table, damping, known_to)
+        taken = tried(model, state, tries, table, _damping(aims, law, state), known_to)
         solved, lacking = taken.ok and isfinite(taken.error), not taken.ok and lacks(model, taken.window)
         if lacking or (aims.alone and not solved):
             why, window, attempts = LACKS if lacking else NO_FORCES, taken.window, attempts - 1
@@ -185,10 +196,8 @@ def advance(
         seen = Sight(state.mode, taken.pos[2], taken.vel[2], taken.res, taken.slip_velocity, taken.feet_velocity)
         length = (state.t + tries) - state.t
         if search.event == NO_EVENT:
-            error, wanted = taken.error / aims.tolerance if solved else inf, care(law, before)
+            error, wanted = taken.error / aims.tolerance if solved else inf, care(law, before) * _daring(leap)
             alike = not sticks(law, state.mode) or seen.res.friction * state.res.friction > 0
-            if leap > 0:
-                wanted *= DARING
             if leap > 0 and error <= wanted and alike and passed(MODE_ENDS, law, ends, before, seen) >= 0:
                 why, h, pace = MODE_ENDED if stalls < MOST_STALLS else STALLED, SHORT, AFRESH
                 stalls += 1
@@ -209,9 +218,8 @@ def advance(
                 h, pace, search = asked / 4, AFRESH, NOWHERE
                 continue
             event = NO_EVENT if is_lost(search) else search.event
-        # inside a leap nothing can be found: what happens there happens at its end
         if leap > 0 and passed(TURN, law, ends, before, seen) >= 0:
-            event = TURN
+            event = TURN  # inside a leap nothing can be found: what happens there happens at its end
         while not (is_open(search) or aims.alone or leap > 0) and search.event < HIGH_END:
             search = next_event(search, law, ends, before, seen, length)
             if search.past >= 0 and not is_open(search):

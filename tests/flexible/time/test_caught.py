@@ -1,5 +1,6 @@
 """Where a spot of the rim without inertia cannot slide, the floor catches it."""
 
+import itertools
 from math import cos, pi, sin
 
 import numpy as np
@@ -33,15 +34,15 @@ def compliance(hoop, theta):
     return up @ block @ up, along @ block @ up
 
 
-def landed(model, scene, side):
+def landed(model, scene, side, beside=BESIDE, end=1e-3):
     """A hoop that comes down on the spot, slipping to the ``side`` away from the weld; its records."""
     hoop = model(scene)
-    phi = pi + side * BESIDE
+    phi = pi + side * beside
     pos, vel = np.zeros(3 + hoop.coordinates), np.zeros(3 + hoop.coordinates)
     pos[1:3] = 1e-6, phi
     vel[:3] = side * 0.02, -0.1, 0.0
     start = flying(hoop, pos, vel)._replace(slip_velocity=side * 0.02)
-    _, records, _, ended, _ = march(hoop, start, Ends(t=1e-3), scene.solve.rtol)
+    _, records, _, ended, _ = march(hoop, start, Ends(t=end), scene.solve.rtol)
     assert not ended, ended
     return [record for record in records if record.normal_force > 0], records
 
@@ -64,6 +65,35 @@ def test_a_spot_that_friction_pulls_down_as_much_as_pressure_lifts_it_lands_stic
     lost = end.friction_loss + end.damping_loss + end.numerical_loss
     assert energy(begin) - energy(end) == pytest.approx(lost, abs=scene.solve.rtol * begin.kinetic)
     assert abs(end.numerical_loss) < 30 * scene.solve.rtol * begin.kinetic
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("beside", [0.06, 0.07, 0.1, 0.11])
+def test_a_spot_that_breaks_loose_where_friction_drives_it_on_snaps_off(beside, side):
+    """Where N falls to nothing the friction that held the spot would push it the way it then slips: it turns round.
+
+    With mu_s = mu there is no jump but that; before and behind it friction is within its bound, behind it against the
+    slip, and it is the last of the contact.
+    """
+    scene = THICK.replace(friction={"mu_s": 0.6, "mu": 0.6})
+    _, records = landed(ReducedHoop, scene, side, beside, 3e-3)
+    snaps = [
+        (old, new) for old, new in itertools.pairwise(records)
+        if new.t == old.t and old.friction_force * new.friction_force < 0
+    ]  # fmt: skip
+    assert len(snaps) == 1
+    old, new = snaps[0]
+    assert old.friction_force * side < 0 < new.friction_force * side
+    most = max(record.normal_force for record in records)
+    assert new.normal_force < old.normal_force < 0.01 * most
+    # an event at which forces jump is located in time alone; as in the stress test
+    assert all(abs(r.friction_force) <= 0.6 * r.normal_force + 1e-6 * most for r in records)
+    after = records[records.index(new) + 1 :]
+    assert all(r.slip_velocity * side < 0 for r in after if r.normal_force > 0)
+    assert after[-1].normal_force == 0
+    begin, end = records[0], records[-1]
+    lost = end.friction_loss + end.damping_loss + end.numerical_loss
+    assert energy(begin) - energy(end) == pytest.approx(lost, abs=scene.solve.rtol * begin.kinetic)
 
 
 @pytest.mark.slow
