@@ -12,7 +12,7 @@ from rigid import Scene
 
 from ..contact.laws.law import Law
 from ..contact.laws.listing import LAWS
-from ..contact.points.data import Parameters
+from ..contact.points.data import EXACTLY, Parameters
 from ..contact.points.rim import below_floor, window_around
 from .state import State
 
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 LEAST = 8  # points to a patch: with fewer the force of a patch that moves is noise
-KNOWN = 1e-9, 1e-4  # of 1 + N: Newton's least and largest tolerance on the forces of a step
+KNOWN = EXACTLY, 1e-4  # of 1 + N: Newton's least and largest tolerance on the forces of a step
 COARSE = 1e-3  # rtol at which a law has its number of points; their share of the error falls like its cube, and faster
 
 

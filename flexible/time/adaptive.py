@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from rigid.kernel.interrupts import answer
 
-from ..contact.laws.listing import free, may_end, sticks, successor
+from ..contact.laws.listing import free, may_end, opposite, sticks, successor
 from ..models import reduced
 from ..models.state import Energies, Model, Record, State
 from .advance import COLUMNS, SHORT, SPAN, Aims, advance, advance_reduced, write
@@ -146,13 +146,9 @@ def _instead(model: Model, state: State, why: int) -> int | None:
     tried sliding under the opposite one.
     """
     law = model.law.parameters
-    if not may_end(law):
-        return None
-    if why == UNSOLVED and not sticks(law, state.mode):
+    if why == UNSOLVED and may_end(law) and not sticks(law, state.mode):
         return successor(law, state)
-    if why == STALLED:
-        return -successor(law, state) if sticks(law, state.mode) else -state.mode
-    return None
+    return opposite(law, state) if why == STALLED else None
 
 
 def march(

@@ -15,7 +15,7 @@ from rigid.kernel.compile import jit, loop, part
 
 from ..contact.forces import contact_forces
 from ..contact.laws.listing import care, free, sticks
-from ..contact.points.data import Parameters
+from ..contact.points.data import EXACTLY, Parameters
 from ..contact.points.rim import turned
 from ..models import reduced
 from ..models.state import Books, Energies, Record, State
@@ -33,7 +33,6 @@ from .course import (
     Standing,
 )
 from .events import (
-    FORCE,
     HIGH_END,
     MODE_ENDS,
     NO_EVENT,
@@ -186,7 +185,7 @@ def advance(
             asked = tries = min(h, ends.t - state.t)
             attempts += 1
         # the forces of an instant by itself, and those by which it is found, are known as well as they can be
-        known_to = FORCE if aims.alone or search.event != NO_EVENT else law.known
+        known_to = EXACTLY if aims.alone or search.event != NO_EVENT else law.known
         taken = tried(model, state, tries, table, _damping(aims, law, state), known_to)
         solved, lacking = taken.ok and isfinite(taken.error), not taken.ok and lacks(model, taken.window)
         if lacking or (aims.alone and not solved):

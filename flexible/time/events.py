@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from rigid.kernel.compile import loop
 
 from ..contact.laws.listing import excess, may_end
-from ..contact.points.data import Resultants
+from ..contact.points.data import EXACTLY, Resultants
 
 NO_EVENT, MODE_ENDS, TURN, LOW_END, HIGH_END = range(-1, 4)
 
@@ -33,7 +33,6 @@ class Ends(NamedTuple):
 # How far past its zero an event may be taken (R = m = g = 1), and how short a bracket of it in time. A step that is cut
 # short has the noise of its slip, some 1e-15 of R by its length: events whose step comes out very short are told by the
 # bracket alone, and so are those at which a function jumps.
-FORCE = 1e-9  # of 1 + N, the friction beyond mu_s N: as well as Newton finds it, three digits below the least rtol
 VELOCITY = 1e-9  # of sqrt(gR): the slip of a step of 1e-6, whose ends are known to 1e-15
 ANGLE = 1e-9  # of the end of a pulse, where N is about M g: 1e-9 of its impulse
 RATE = 1e-9  # of phidot at a turn, whose energy is then below 1e-18 m g R
@@ -59,7 +58,7 @@ def passed(event: int, law: Any, ends: Ends, before: Sight, now: Sight) -> float
     -inf for an event that this step does not have.
     """
     if event == MODE_ENDS and may_end(law):
-        return float(excess(law, now, FORCE, VELOCITY))
+        return float(excess(law, now, EXACTLY, VELOCITY))
     if event == TURN and before.omega != 0:
         return (-now.omega if before.omega > 0 else now.omega) / RATE
     if event == LOW_END and ends.low > -inf:

@@ -54,6 +54,11 @@ def successor(law: Any, state: Any) -> int:
     return patch.successor(state) if law.law == patch.CODE else state.mode
 
 
+def opposite(law: Any, state: Any) -> int | None:
+    """The other way of sliding than a patch slides in, or would break loose into; None of a law with one mode."""
+    return patch.opposite(state) if law.law == patch.CODE else None
+
+
 @loop
 def care(law: Any, state: Any) -> float:
     """What share of its tolerance a step may take here, where the end of a mode magnifies errors."""
@@ -79,5 +84,6 @@ def rigid_limit(scene: Scene) -> Scene:
 
 
 __all__ = [
-    "LAWS", "care", "excess", "free", "may_end", "rigid_limit", "sharing", "sticks", "successor", "tractions",
+    "LAWS", "care", "excess", "free", "may_end", "opposite", "rigid_limit", "sharing", "sticks", "successor",
+    "tractions",
 ]  # fmt: skip

@@ -114,6 +114,11 @@ def successor(state: Any) -> int:
     return SLIDE_RIGHT if state.res.friction > 0 else SLIDE_LEFT
 
 
+def opposite(state: Any) -> int:
+    """The other way of sliding than that in which a patch slides, or would break loose."""
+    return -(successor(state) if state.mode == STICK else state.mode)
+
+
 @loop
 def care(law: Parameters, state: Any) -> float:
     """A tenth before a stick breaks.

@@ -51,6 +51,7 @@ class Before(NamedTuple):
 
 
 MOST_ITERATIONS = 40  # of Newton in a stage
+EXACTLY = 1e-9  # of 1 + N: as well as Newton finds forces at any rtol, three digits below the least that is of use
 
 
 class Damper(NamedTuple):
