@@ -106,7 +106,6 @@ def validate(ctx: click.Context, as_json: bool) -> None:
     else:
         from .shared.tables import show
 
-        show(table.sheet(rows))
-        click.echo("\n".join(table.notes(rows)))
+        show(table.sheet(rows), *table.notes(rows))
     if table.failed(rows):
         ctx.exit(1)
