@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from rigid.kernel.compile import part
 
-from .corotated import Rod
+from .rod.corotated import Rod
 
 
 class Body(NamedTuple):

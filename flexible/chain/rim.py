@@ -15,19 +15,9 @@ from numpy.typing import NDArray
 
 from rigid.kernel.compile import jit, part
 
-from .corotated import chord, directions
+from .rod.corotated import chord, directions
 
 Array = NDArray[np.float64]
-
-
-def curve_weights(theta: Array) -> Array:
-    """Weights of the parabola's slope through three neighbours, (n, 3); zero at the ends."""
-    weights = np.zeros((len(theta), 3))
-    before, behind = np.diff(theta)[:-1], np.diff(theta)[1:]
-    weights[1:-1, 0] = -behind / (before * (before + behind))
-    weights[1:-1, 1] = (behind - before) / (before * behind)
-    weights[1:-1, 2] = before / (behind * (before + behind))
-    return weights
 
 
 class RimNodes(NamedTuple):
@@ -68,7 +58,7 @@ def rim_point(rod: Any, q: Any, at: int, xi: float, root: Any, moved: Any, by: A
         _follow_part(rod, q, at, xi, moved, by)
         turn = (1 - xi) * q[at, 2] + xi * q[at + 1, 2]
     last = rod.local.shape[0] - 1
-    if at <= 0 or at == last:
+    if at < rod.rooted or at > last - rod.rooted:
         _follow_root(rod, q, at, xi, turn, root, moved, by)
     return turn
 

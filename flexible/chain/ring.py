@@ -1,10 +1,10 @@
 """The ring as a chain of parts: a geometrically exact ring of a few hundred unknowns, condensed from the quads.
 
-Each part is a rod with the compliance that :mod:`flexible.chain.section` measured on the mesh, exact for the small
-bending within it; :mod:`flexible.chain.corotated` makes it turn and move far. What a rod lacks, the giving way of the
-wall right under a load on the rim, is a static compliance: that of the mesh minus that of the undeformed chain, for
+Each part is a rod with the compliance that :mod:`flexible.chain.rod.section` measured on the mesh, exact for the small
+bending within it; :mod:`flexible.chain.rod.corotated` makes it turn and move far. What a rod lacks, the giving way of
+the wall right under a load on the rim, is a static compliance: that of the mesh minus that of the undeformed chain, for
 rim nodes near each other. The chain's answer to small loads on the rim is therefore that of the mesh to round-off; what
-is left is the square of the rotation within a part, the inertia of what is smaller, and strain that is not small.
+is left is the fourth power of the rotation within a part, the inertia of what is smaller, and strain that is not small.
 """
 
 from __future__ import annotations
@@ -20,75 +20,16 @@ from rigid import Scene
 from ..ring.fem import Ring, membrane_stiffness
 from ..ring.reduction import body_of
 from .bordered import no_blocks
-from .corotated import Rod, elastic_tangent
 from .inertia import Body, Chain
-from .rim import RimNodes, curve_weights, follow
-from .section import LOADED, RodCompliance, is_slender, mass_radius, radial, rod_compliance
+from .rim import RimNodes, follow
+from .rod.corotated import Rod, elastic_tangent
+from .rod.ends import chord_strains
+from .rod.parts import FINER, make_rod
+from .rod.section import LOADED, is_slender, rod_compliance
 
 Array = NDArray[np.float64]
 
-FINER, FADES = 3.0, 0.2  # parts at the weld, see cuts
 PRESSED = 0.4  # walls by which a slender ring yields to p/E: 13/32 beside a beam's middle, along it (1 + nu)/4
-
-
-def chord_strains(one: Array, two: Array, moves: int) -> Array:
-    """(3, 3): (e, tau_1, tau_2) of a part by the coordinates of its section 1 or 2, the other one held."""
-    along = two - one
-    length = float(np.hypot(*along))
-    t1, t2 = along / length
-    sign = 2 * moves - 3
-    return np.array(
-        [
-            [sign * t1, sign * t2, 0.0],
-            [sign * t2 / length, -sign * t1 / length, 2.0 - moves],
-            [sign * t2 / length, -sign * t1 / length, moves - 1.0],
-        ]
-    )
-
-
-def in_strains(compliance: Array, by: Array) -> Array:
-    """Stiffness in the strains that coordinates make, from the compliance of these coordinates."""
-    inverse = np.linalg.inv(by)
-    stiffness = inverse.T @ np.linalg.inv(compliance) @ inverse
-    return (stiffness + stiffness.T) / 2
-
-
-def cuts(weld: float, parts: int) -> Array:
-    """Angles (n,) of the sections that are free, between the ends of the pieces at the weld, symmetric about pi.
-
-    A wall between disk and floor bends next to the weld more than anywhere else: parts are ``FINER`` times as short
-    there, and that fades over the angle ``FADES``.
-    """
-    x = np.linspace(weld, pi, 2001)
-    density = 1 + (FINER - 1) * np.exp(-(x - weld) / FADES)
-    grown = np.concatenate([[0.0], np.cumsum((density[1:] + density[:-1]) / 2)])
-    half = np.interp(np.arange(parts - 1) / (parts - 2) * 2 * grown[-1], grown, x)[: parts // 2]
-    if parts % 2 == 0:
-        half[-1] = pi
-    behind = 2 * pi - half[::-1]
-    return np.concatenate([half, behind[1:] if parts % 2 == 0 else behind])
-
-
-def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
-    """The ring between the ends of the weld as a chain at E b = 1 and unit mass of the ring; ``pinch`` is left at 0."""
-    inner, weld = ring.mesh.inner / ring.mesh.outer, ring.mesh.weld_half_angle
-    theta = np.concatenate([[weld], cuts(compliance.weld, parts), [2 * pi - weld]])
-    a = compliance.radius
-    place = a * np.column_stack([np.cos(theta), np.sin(theta)])
-    pieces = [
-        in_strains(compliance.piece(angle), chord_strains(a * radial(0.0), a * radial(angle), 2))
-        for angle in np.diff(theta)[1:-1]
-    ]
-    by = np.zeros((6, 6))
-    by[:3, :3], by[3:, 3:] = chord_strains(place[0], place[1], 2), chord_strains(place[-2], place[-1], 1)
-    ends = in_strains(compliance.ends, by)
-    local = np.stack([ends[:3, :3], *pieces, ends[3:, 3:]])
-    mass = np.zeros(parts + 1)
-    mass[1:-1] = (theta[2:] - theta[:-2]) / (4 * pi)
-    turning = mass * ((1 + inner**2) / 2 - a**2)
-    bending = (local[:, 1, 1] + local[:, 2, 2] - 2 * local[:, 1, 2]) / 4
-    pulled = 3 * (1 - ring.poisson) * bending / np.hypot(*np.diff(place, axis=0).T)
-    return Rod(theta, place, local, pulled, ends[:3, 3:].copy(), mass, turning, curve_weights(theta), 1 - a, 0.0)
 
 
 def make_body(scene: Scene, rod: Rod) -> Body:
@@ -266,6 +207,7 @@ class ChainRing:
             local=unit.local * self.stiffness,
             pulled=unit.pulled * self.stiffness,
             across=unit.across * self.stiffness,
+            bent=unit.bent * self.stiffness,
             mass=unit.mass * mass,
             turning=unit.turning * mass,
         )
@@ -294,4 +236,4 @@ class ChainRing:
         return self.shape.missing[np.ix_(rows, columns)] / self.stiffness
 
 
-__all__ = ["ChainRing", "dense_stiffness", "make_rod", "mass_radius", "rim_matrix"]
+__all__ = ["ChainRing", "dense_stiffness", "make_rod", "rim_matrix"]

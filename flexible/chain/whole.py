@@ -15,9 +15,9 @@ from ..contact.points.data import Rim
 from ..contact.points.detection import least_gap
 from ..contact.vectors import largest, times
 from .bordered import FRAME, no_blocks, solve
-from .corotated import elastic, elastic_tangent, strain_energy
 from .inertia import energies, inertia, inertia_tangent, momenta
 from .rim import RimNodes, follow
+from .rod.corotated import elastic, elastic_tangent, strain_energy
 from .touch import lowest, turned
 
 

@@ -12,9 +12,9 @@ from scipy.sparse.linalg import splu
 from rigid import Scene
 
 from ..chain.bordered import Factors
-from ..chain.corotated import elastic
 from ..chain.rim import follow
 from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
+from ..chain.rod.corotated import elastic
 from ..chain.stage import Arrays, solved
 from ..chain.touch import turned
 from ..chain.whole import energies_of, floor_forces, held, momentum_error, moved, reach

@@ -18,10 +18,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..chain.corotated import bends_and_stretches, chord
 from ..chain.rim import follow
-from ..chain.ring import chord_strains
-from ..chain.section import LOADED
+from ..chain.rod.corotated import bends_and_stretches, chord
+from ..chain.rod.ends import chord_strains
+from ..chain.rod.section import LOADED
 from ..chain.whole import sections
 from ..models.chain import ChainHoop
 from ..models.state import State

@@ -8,10 +8,13 @@ from displacements, so that nothing cancels:
 
     e = (2 D.d + d.d)/(l' + l),   alpha = atan2(D x d, l^2 + D.d),   tau = phi - alpha,      d = u_2 - u_1.
 
-One term is not linear: a part that is pulled bends harder. Of a wall with Green's strain in plane stress, stretched by
-eps and bent by kappa, a fibre at z strains by eps + (1 + (1 - nu) eps) z kappa + (1 - nu) z^2 kappa^2/2 to second order
-(it gets thinner as it is pulled, and its middle moves), so that bending costs 1 + 3 (1 - nu) eps times as much. Strains
-of a hundredth, in a wall between disk and floor, change its stiffness by two.
+Two terms are not linear. A part that bends is longer than its chord: its line is stretched by x = e + tau.B.tau/2, in a
+thin part l (2 tau_1^2 - tau_1 tau_2 + 2 tau_2^2)/30 more than e; with it the chain is of the fourth order in its parts.
+And a part that is pulled bends harder. Of a wall with Green's strain in plane stress, stretched by eps and bent by
+kappa, a fibre at z strains by eps + (1 + (1 - nu) eps) z kappa + (1 - nu) z^2 kappa^2/2 to second order (it gets
+thinner as it is pulled, and its middle moves), so that bending costs 1 + 3 (1 - nu) eps times as much. Strains of a
+hundredth, in a wall between disk and floor, change its stiffness by two. A part at the weld, which holds one side of
+the wall alone, bends easier one way than the other: there both are the mesh's (:mod:`flexible.chain.rod.ends`).
 """
 
 from __future__ import annotations
@@ -38,8 +41,12 @@ class Rod(NamedTuple):
         Its centre of mass, undeformed.
     local : (n + 1, 3, 3) array
         Stiffness of each part in (e, tau_1, tau_2).
+    bow : (n + 1, 2, 2) array
+        Second derivatives of the stretch of each part's line by its angles.
     pulled : (n + 1,) array
-        Bending stiffness of each part, in tau_2 - tau_1, that comes with e = 1.
+        Bending stiffness of each part, in tau_2 - tau_1, that comes with x = 1.
+    bent : (2, 2, 2, 2) array
+        Third derivatives of the energy of the first and of the last part by its angles.
     across : (3, 3) array
         Of the first part by the last one, through the wall over the weld.
     mass, turning : (n + 2,) arrays
@@ -50,18 +57,23 @@ class Rod(NamedTuple):
         Of the rim from the centres of mass.
     pinch : float
         What the rim sinks where the ring bends by dphi/dtheta = 1, for a wall that is stretched gets thinner.
+    rooted : int
+        Parts from the weld, on either side, whose rim is moved by what the weld does to the wall too.
     """
 
     theta: Array
     place: Array
     local: Array
+    bow: Array
     pulled: Array
+    bent: Array
     across: Array
     mass: Array
     turning: Array
     curve: Array
     offset: float
     pinch: float
+    rooted: int
 
 
 @loop
@@ -83,6 +95,14 @@ def _product(local: Any, e: float, tau_1: float, tau_2: float) -> tuple[float, f
     s1 = local[1, 0] * e + local[1, 1] * tau_1 + local[1, 2] * tau_2
     s2 = local[2, 0] * e + local[2, 1] * tau_1 + local[2, 2] * tau_2
     return s0, s1, s2
+
+
+@loop
+def _bowed(rod: Any, p: int, e: float, tau_1: float, tau_2: float) -> tuple[float, float, float]:
+    """Stretch of a part's line, and its derivatives by the angles."""
+    bow = rod.bow[p]
+    w1, w2 = bow[0, 0] * tau_1 + bow[0, 1] * tau_2, bow[1, 0] * tau_1 + bow[1, 1] * tau_2
+    return e + (w1 * tau_1 + w2 * tau_2) / 2, w1, w2
 
 
 @loop
@@ -115,13 +135,37 @@ def _stiffen(t1: float, t2: float, pull: float, turn: float, local: Any, by: Any
 
 
 @loop
-def _stress(rod: Any, q: Any, p: int, e: float, tau_1: float, tau_2: float) -> tuple[float, float, float]:
-    """Force along the chord and the moments at both ends of a part with these strains."""
+def _lengthen(rod: Any, p: int, e: float, tau_1: float, tau_2: float, by: Any) -> None:
+    """Make directions of the chord's elongation those of the line's."""
+    _, w1, w2 = _bowed(rod, p, e, tau_1, tau_2)
+    for k in range(6):
+        by[0, k] += w1 * by[1, k] + w2 * by[2, k]
+
+
+@loop
+def _stiffer(rod: Any, p: int, x: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float]:
+    """What strains add to the stiffness of a part: to the entries 01 (02 is its opposite), 11, 12 and 22."""
+    last = rod.local.shape[0] - 1
+    bend, pull = rod.pulled[p] * (tau_2 - tau_1), rod.pulled[p] * x
+    m11, m12, m22 = pull, -pull, pull
+    if p == 0 or p == last:
+        third = rod.bent[0 if p == 0 else 1]
+        m11 += third[0, 0, 0] * tau_1 + third[0, 0, 1] * tau_2
+        m12 += third[0, 1, 0] * tau_1 + third[0, 1, 1] * tau_2
+        m22 += third[1, 1, 0] * tau_1 + third[1, 1, 1] * tau_2
+    return -bend, m11, m12, m22
+
+
+@loop
+def _stress(rod: Any, q: Any, p: int, e: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float]:
+    """Energy of a part with these strains, force along its line, and the moments at both ends without it."""
     local, last = rod.local[p], rod.local.shape[0] - 1
-    s0, s1, s2 = _product(local, e, tau_1, tau_2)
+    r, _, _ = _bowed(rod, p, e, tau_1, tau_2)
+    s0, s1, s2 = _product(local, r, tau_1, tau_2)
     if p == 0 or p == last:
         a = rod.across
-        _, _, _, x, y, z = chord(rod, q, last - p)
+        _, _, _, d, y, z = chord(rod, q, last - p)
+        x, _, _ = _bowed(rod, last - p, d, y, z)
         if p == 0:
             a0, a1, a2 = _product(a, x, y, z)
             s0 += a0
@@ -131,8 +175,12 @@ def _stress(rod: Any, q: Any, p: int, e: float, tau_1: float, tau_2: float) -> t
             s0 += a[0, 0] * x + a[1, 0] * y + a[2, 0] * z
             s1 += a[0, 1] * x + a[1, 1] * y + a[2, 1] * z
             s2 += a[0, 2] * x + a[1, 2] * y + a[2, 2] * z
-    harder = rod.pulled[p] * (tau_2 - tau_1)
-    return s0 + harder * (tau_2 - tau_1) / 2, s1 - harder * e, s2 + harder * e
+    m01, m11, m12, m22 = _stiffer(rod, p, r, tau_1, tau_2)
+    h0 = m01 * (tau_1 - tau_2)
+    h1 = m01 * r + m11 * tau_1 + m12 * tau_2
+    h2 = -m01 * r + m12 * tau_1 + m22 * tau_2
+    energy = (r * s0 + tau_1 * s1 + tau_2 * s2) / 2 + (r * h0 + tau_1 * h1 + tau_2 * h2) / 6
+    return energy, s0 + h0 / 2, s1 + h1 / 2, s2 + h2 / 2
 
 
 @jit
@@ -149,8 +197,11 @@ def elastic(rod: Any, q: Any, force: Any) -> float:
     energy = 0.0
     for p in range(rod.local.shape[0]):
         t1, t2, now, e, tau_1, tau_2 = chord(rod, q, p)
-        s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
-        energy += (e * s0 + tau_1 * s1 + tau_2 * s2) / 2 - rod.pulled[p] * e * (tau_2 - tau_1) ** 2 / 4
+        own, s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
+        energy += own
+        _, w1, w2 = _bowed(rod, p, e, tau_1, tau_2)
+        s1 += s0 * w1
+        s2 += s0 * w2
         turn = (s1 + s2) / now
         f1, f2 = t1 * s0 + t2 * turn, t2 * s0 - t1 * turn
         force[p, 0] -= f1
@@ -178,17 +229,20 @@ def elastic_tangent(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None
     by, tangent, local = np.empty((3, 6)), np.empty((6, 6)), np.empty((3, 3))
     for p in range(last + 1):
         t1, t2, now, e, tau_1, tau_2 = chord(rod, q, p)
-        s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
+        _, s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
         directions(t1, t2, now, by)
+        _lengthen(rod, p, e, tau_1, tau_2, by)
+        x, w1, w2 = _bowed(rod, p, e, tau_1, tau_2)
+        s1 += s0 * w1
+        s2 += s0 * w2
+        m01, m11, m12, m22 = _stiffer(rod, p, x, tau_1, tau_2)
+        bow = rod.bow[p]
+        local[0, 0], local[0, 1], local[0, 2] = 0.0, m01, -m01
+        local[1, 0], local[1, 1], local[1, 2] = m01, m11 + s0 * bow[0, 0], m12 + s0 * bow[0, 1]
+        local[2, 0], local[2, 1], local[2, 2] = -m01, m12 + s0 * bow[1, 0], m22 + s0 * bow[1, 1]
         for i in range(3):
             for j in range(3):
-                local[i, j] = rod.local[p, i, j]
-        for i in range(1, 3):
-            sign = 2.0 * i - 3
-            local[0, i] += sign * rod.pulled[p] * (tau_2 - tau_1)
-            local[i, 0] += sign * rod.pulled[p] * (tau_2 - tau_1)
-            local[i, i] += rod.pulled[p] * e
-            local[i, 3 - i] -= rod.pulled[p] * e
+                local[i, j] += rod.local[p, i, j]
         _stiffen(t1, t2, s0 / now, (s1 + s2) / (now * now), local, by, tangent)
         for i in range(3):
             for j in range(3):
@@ -206,8 +260,7 @@ def strain_energy(rod: Any, q: Any) -> float:
     energy = 0.0
     for p in range(rod.local.shape[0]):
         _, _, _, e, tau_1, tau_2 = chord(rod, q, p)
-        s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
-        energy += (e * s0 + tau_1 * s1 + tau_2 * s2) / 2 - rod.pulled[p] * e * (tau_2 - tau_1) ** 2 / 4
+        energy += _stress(rod, q, p, e, tau_1, tau_2)[0]
     return energy
 
 
@@ -216,10 +269,12 @@ def _add_across(rod: Any, q: Any, up: Any, down: Any) -> None:
     """What the last section feels of the first, and the first of the last."""
     last = rod.local.shape[0] - 1
     first, final = np.empty((3, 6)), np.empty((3, 6))
-    t1, t2, now, _, _, _ = chord(rod, q, 0)
+    t1, t2, now, e, tau_1, tau_2 = chord(rod, q, 0)
     directions(t1, t2, now, first)
-    t1, t2, now, _, _, _ = chord(rod, q, last)
+    _lengthen(rod, 0, e, tau_1, tau_2, first)
+    t1, t2, now, e, tau_1, tau_2 = chord(rod, q, last)
     directions(t1, t2, now, final)
+    _lengthen(rod, last, e, tau_1, tau_2, final)
     for i in range(3):
         for j in range(3):
             for a in range(3):
@@ -234,7 +289,10 @@ def bends_and_stretches(rod: Rod, q: Array) -> tuple[Array, Array]:
     bend = np.zeros(len(q))
     bend[1:-1] = sum(rod.curve[1:-1, k] * q[k : len(q) - 2 + k, 2] for k in range(3))
     bend[0], bend[-1] = bend[1], bend[-2]
-    parts = np.array([chord(rod, q, p)[2:4] for p in range(len(rod.local))])
-    strain = parts[:, 1] / (parts[:, 0] - parts[:, 1])
+    along = []
+    for p in range(len(rod.local)):
+        _, _, now, e, tau_1, tau_2 = chord(rod, q, p)
+        along.append(_bowed(rod, p, e, tau_1, tau_2)[0] / (now - e))
+    strain = np.array(along)
     inner = (strain[1:] + strain[:-1]) / 2
     return bend, np.concatenate([strain[:1], inner, strain[-1:]])

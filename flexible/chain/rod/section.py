@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise
+from itertools import pairwise, permutations
 from math import ceil, cos, pi, sin
 
 import numpy as np
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from meshes import gauss_gradient, ring_mesh
 from rigid import SceneError
 
-from ..ring.fem import Ring
+from ...ring.fem import Ring
 
 Array = NDArray[np.float64]
 
@@ -58,6 +58,8 @@ class RodCompliance:
     ends : (6, 6) array
         Displacement (y1, y2) and rotation of the sections there, theta > 0 first, under unit forces and moments on
         them; the two feel each other through the wall over the weld.
+    bent : (3, 3, 3) array
+        Energy of third order of the end at theta > 0 under forces and a moment on its section, the other one free.
     misfit : float
         Largest error of the form ``section`` on the pieces it was fitted to, relative to the largest energy.
     """
@@ -66,6 +68,7 @@ class RodCompliance:
     section: Array
     weld: float
     ends: Array
+    bent: Array
     misfit: float
 
     def piece(self, angle: float) -> Array:
@@ -113,6 +116,36 @@ class _Stressed:
         self.energy = energy.reshape(len(area), 9, 6, 6).sum(axis=1)
         self.corners = moved.T @ (ring.corners.stiffness(ring.basis.N) @ moved)
         self.theta = ring.mesh.theta[ring.mesh.quad9[:, 8]]
+        self.slope = np.stack([[h11, h12], [h21, h22]])
+        self.strain, self.ring = strain, ring
+
+    def third(self, end: float) -> Array:
+        """(6, 6, 6): energy of third order of the pieces that reach to ``end``, by the six loads; symmetric.
+
+        With Green's strain E the energy of third order is the linear stress on what E has of the second order,
+        (grad u)^T (grad u)/2, and of the displacement its linear part is enough.
+        """
+        stress = self.stress.copy()
+        for which, elements in enumerate(self.ring.corners.elements):
+            points = (9 * elements[:, None] + np.arange(9)).ravel()
+            stress[:, points] += self._corner(which, points)
+        h = self.slope[:, :, np.repeat(np.abs(self.theta) < end, 9)]
+        stress = stress[:, np.repeat(np.abs(self.theta) < end, 9)]
+        square = np.einsum("kiga,kjgb->ijgab", h, h)
+        second = np.stack([square[0, 0] / 2, square[1, 1] / 2, square[0, 1]])
+        return symmetric(np.einsum("iga,igbc->abc", stress, second))
+
+    def _corner(self, which: int, points: NDArray[np.int64]) -> Array:
+        """Stress times area, (3, points, 6), that a corner adds to its quads'."""
+        mesh, corners = self.ring.mesh, self.ring.corners
+        dofs = corners.dofs[which]
+        nodes = np.array([int(np.flatnonzero((mesh.node_dofs == pair).all(axis=1))[0]) for pair in dofs.reshape(-1, 2)])
+        by1, by2 = (by[points][:, nodes].toarray() for by in self.by)
+        strains = np.zeros((3, len(points), len(nodes), 2))
+        strains[0, :, :, 0] = strains[2, :, :, 1] = by1
+        strains[1, :, :, 1] = strains[2, :, :, 0] = by2
+        form = corners.by_strain(which, strains.reshape(3 * len(points), -1))
+        return (form @ self.strain[:, points].reshape(3 * len(points), 6)).reshape(3, len(points), 6)
 
     def cut(self, low: float, high: float, at: float) -> Array:
         """Force and moment about C, (3, 6), that the elements from ``low`` to ``high`` bear at their end ``at``."""
@@ -123,6 +156,11 @@ class _Stressed:
         y = mesh.points[nodes]
         moment = y[:, :1] * second[nodes] - y[:, 1:] * first[nodes]
         return np.stack([first[nodes].sum(axis=0), second[nodes].sum(axis=0), moment.sum(axis=0)])
+
+
+def symmetric(form: Array) -> Array:
+    """A form of third order, the same in all orders of its three indices."""
+    return np.asarray(sum(form.transpose(order) for order in permutations(range(3))) / 6)
 
 
 def _about(point: Array, forces: Array) -> Array:
@@ -185,7 +223,9 @@ def rod_compliance(ring: Ring, end: float) -> RodCompliance:
     inverse = np.linalg.inv(np.concatenate(both))
     inside = stressed.energy[np.abs(stressed.theta) < last].sum(axis=0) + stressed.corners
     whole = inverse.T @ inside @ inverse
-    return RodCompliance(radius, section, last, (whole + whole.T) / 2, misfit)
+    ends = (whole + whole.T) / 2
+    bent = np.einsum("abc,ai,bj,ck->ijk", stressed.third(last), *[inverse[:, :3]] * 3)
+    return RodCompliance(radius, section, last, ends, bent, misfit)
 
 
 def _section(stressed: _Stressed, cuts: Array, radius: float) -> tuple[Array, float]:
