@@ -9,6 +9,7 @@ from scipy.sparse.linalg import splu
 from flexible.chain.ring import _Shape, dense_stiffness, rim_matrix
 from flexible.chain.rod.corotated import elastic
 from flexible.chain.rod.ends import ends, is_jointed
+from flexible.chain.rod.section import rod_compliance
 from flexible.models.exact import ExactElasticity
 from flexible.ring.fem import Ring
 from meshes import ring_mesh
@@ -21,7 +22,7 @@ def shape_of(r, parts=120):
 
 
 def displaced(shape, force, loaded, asked):
-    """Displacement of a node of the rim under a small force on another: of all nodes with Green's strain, of the chain."""
+    """Displacement of a node of the rim under a small force on another: of all nodes, and of the chain."""
     ring = shape.ring
     exact, u, load = ExactElasticity(ring), np.zeros(len(ring.free)), np.zeros(len(ring.free))
     dofs = ring.rim_dofs.reshape(-1, 2)
@@ -63,8 +64,6 @@ def test_the_joint_does_not_know_where_the_rod_was_cut(r):
 
     What fades has faded by exp(-4.2 x 3) at the nearer one; the rest is the rod's misfit on the mesh, 1e-4.
     """
-    from flexible.chain.rod.section import rod_compliance
-
     ring, wall = Ring(ring_mesh(1 / r, 1.0, 480, 2, WELD), 0.3), 1 - 1 / r
     near, far = (rod_compliance(ring, walls * wall) for walls in (3.2, 5.0))
     assert far.weld > near.weld + wall
