@@ -1,7 +1,6 @@
 """The ring as a chain of parts between rigid sections: geometrically exact, at the price of the reduced one.
 
-``section``    what a section and the two ends at the weld give way, measured on scikit-fem's quads
-``corotated``  parts that turn and move far
+``rod``        its parts: as stiff as the mesh there, and how they turn and move far
 ``rim``        which follows them
 ``inertia``    of the sections, in the frame that floats on the disk
 ``ring``       the chain of a scene, and the compliance of its wall that a chain lacks

@@ -1,2 +1,7 @@
-"""The ring as a rod: compliance of its section and of its ends at the weld (``section``), made the stiffness of parts
-(``ends``, ``parts``), which turn and move far (``corotated``)."""
+"""The parts of the chain: a rod with the compliance of the mesh.
+
+``section``    what a section and the two ends at the weld give way, measured on scikit-fem's quads
+``ends``       the first and the last part, with the joint at the weld
+``parts``      where the ring is cut, and all its parts
+``corotated``  how they turn and move far
+"""

@@ -98,11 +98,12 @@ def _product(local: Any, e: float, tau_1: float, tau_2: float) -> tuple[float, f
 
 
 @loop
-def _bowed(rod: Any, p: int, e: float, tau_1: float, tau_2: float) -> tuple[float, float, float]:
-    """Stretch of a part's line, and its derivatives by the angles."""
+def _strains(rod: Any, q: Any, p: int) -> tuple[float, float, float, float, float, float, float, float]:
+    """As :func:`chord`, but the stretch x of the line for its chord's; and the derivatives of x by the angles."""
+    t1, t2, now, e, tau_1, tau_2 = chord(rod, q, p)
     bow = rod.bow[p]
     w1, w2 = bow[0, 0] * tau_1 + bow[0, 1] * tau_2, bow[1, 0] * tau_1 + bow[1, 1] * tau_2
-    return e + (w1 * tau_1 + w2 * tau_2) / 2, w1, w2
+    return t1, t2, now, e + (w1 * tau_1 + w2 * tau_2) / 2, tau_1, tau_2, w1, w2
 
 
 @loop
@@ -135,9 +136,8 @@ def _stiffen(t1: float, t2: float, pull: float, turn: float, local: Any, by: Any
 
 
 @loop
-def _lengthen(rod: Any, p: int, e: float, tau_1: float, tau_2: float, by: Any) -> None:
+def _lengthen(w1: float, w2: float, by: Any) -> None:
     """Make directions of the chord's elongation those of the line's."""
-    _, w1, w2 = _bowed(rod, p, e, tau_1, tau_2)
     for k in range(6):
         by[0, k] += w1 * by[1, k] + w2 * by[2, k]
 
@@ -157,29 +157,27 @@ def _stiffer(rod: Any, p: int, x: float, tau_1: float, tau_2: float) -> tuple[fl
 
 
 @loop
-def _stress(rod: Any, q: Any, p: int, e: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float]:
+def _stress(rod: Any, q: Any, p: int, x: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float]:
     """Energy of a part with these strains, force along its line, and the moments at both ends without it."""
     local, last = rod.local[p], rod.local.shape[0] - 1
-    r, _, _ = _bowed(rod, p, e, tau_1, tau_2)
-    s0, s1, s2 = _product(local, r, tau_1, tau_2)
+    s0, s1, s2 = _product(local, x, tau_1, tau_2)
     if p == 0 or p == last:
         a = rod.across
-        _, _, _, d, y, z = chord(rod, q, last - p)
-        x, _, _ = _bowed(rod, last - p, d, y, z)
+        _, _, _, y, y1, y2, _, _ = _strains(rod, q, last - p)
         if p == 0:
-            a0, a1, a2 = _product(a, x, y, z)
+            a0, a1, a2 = _product(a, y, y1, y2)
             s0 += a0
             s1 += a1
             s2 += a2
         else:
-            s0 += a[0, 0] * x + a[1, 0] * y + a[2, 0] * z
-            s1 += a[0, 1] * x + a[1, 1] * y + a[2, 1] * z
-            s2 += a[0, 2] * x + a[1, 2] * y + a[2, 2] * z
-    m01, m11, m12, m22 = _stiffer(rod, p, r, tau_1, tau_2)
+            s0 += a[0, 0] * y + a[1, 0] * y1 + a[2, 0] * y2
+            s1 += a[0, 1] * y + a[1, 1] * y1 + a[2, 1] * y2
+            s2 += a[0, 2] * y + a[1, 2] * y1 + a[2, 2] * y2
+    m01, m11, m12, m22 = _stiffer(rod, p, x, tau_1, tau_2)
     h0 = m01 * (tau_1 - tau_2)
-    h1 = m01 * r + m11 * tau_1 + m12 * tau_2
-    h2 = -m01 * r + m12 * tau_1 + m22 * tau_2
-    energy = (r * s0 + tau_1 * s1 + tau_2 * s2) / 2 + (r * h0 + tau_1 * h1 + tau_2 * h2) / 6
+    h1 = m01 * x + m11 * tau_1 + m12 * tau_2
+    h2 = -m01 * x + m12 * tau_1 + m22 * tau_2
+    energy = (x * s0 + tau_1 * s1 + tau_2 * s2) / 2 + (x * h0 + tau_1 * h1 + tau_2 * h2) / 6
     return energy, s0 + h0 / 2, s1 + h1 / 2, s2 + h2 / 2
 
 
@@ -196,10 +194,9 @@ def elastic(rod: Any, q: Any, force: Any) -> float:
     """
     energy = 0.0
     for p in range(rod.local.shape[0]):
-        t1, t2, now, e, tau_1, tau_2 = chord(rod, q, p)
-        own, s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
+        t1, t2, now, x, tau_1, tau_2, w1, w2 = _strains(rod, q, p)
+        own, s0, s1, s2 = _stress(rod, q, p, x, tau_1, tau_2)
         energy += own
-        _, w1, w2 = _bowed(rod, p, e, tau_1, tau_2)
         s1 += s0 * w1
         s2 += s0 * w2
         turn = (s1 + s2) / now
@@ -228,11 +225,10 @@ def elastic_tangent(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None
     last = rod.local.shape[0] - 1
     by, tangent, local = np.empty((3, 6)), np.empty((6, 6)), np.empty((3, 3))
     for p in range(last + 1):
-        t1, t2, now, e, tau_1, tau_2 = chord(rod, q, p)
-        _, s0, s1, s2 = _stress(rod, q, p, e, tau_1, tau_2)
+        t1, t2, now, x, tau_1, tau_2, w1, w2 = _strains(rod, q, p)
+        _, s0, s1, s2 = _stress(rod, q, p, x, tau_1, tau_2)
         directions(t1, t2, now, by)
-        _lengthen(rod, p, e, tau_1, tau_2, by)
-        x, w1, w2 = _bowed(rod, p, e, tau_1, tau_2)
+        _lengthen(w1, w2, by)
         s1 += s0 * w1
         s2 += s0 * w2
         m01, m11, m12, m22 = _stiffer(rod, p, x, tau_1, tau_2)
@@ -259,8 +255,8 @@ def strain_energy(rod: Any, q: Any) -> float:
     """Strain energy of the chain, see :func:`elastic`."""
     energy = 0.0
     for p in range(rod.local.shape[0]):
-        _, _, _, e, tau_1, tau_2 = chord(rod, q, p)
-        energy += _stress(rod, q, p, e, tau_1, tau_2)[0]
+        _, _, _, x, tau_1, tau_2, _, _ = _strains(rod, q, p)
+        energy += _stress(rod, q, p, x, tau_1, tau_2)[0]
     return energy
 
 
@@ -269,12 +265,12 @@ def _add_across(rod: Any, q: Any, up: Any, down: Any) -> None:
     """What the last section feels of the first, and the first of the last."""
     last = rod.local.shape[0] - 1
     first, final = np.empty((3, 6)), np.empty((3, 6))
-    t1, t2, now, e, tau_1, tau_2 = chord(rod, q, 0)
+    t1, t2, now, _, _, _, w1, w2 = _strains(rod, q, 0)
     directions(t1, t2, now, first)
-    _lengthen(rod, 0, e, tau_1, tau_2, first)
-    t1, t2, now, e, tau_1, tau_2 = chord(rod, q, last)
+    _lengthen(w1, w2, first)
+    t1, t2, now, _, _, _, w1, w2 = _strains(rod, q, last)
     directions(t1, t2, now, final)
-    _lengthen(rod, last, e, tau_1, tau_2, final)
+    _lengthen(w1, w2, final)
     for i in range(3):
         for j in range(3):
             for a in range(3):
@@ -289,10 +285,7 @@ def bends_and_stretches(rod: Rod, q: Array) -> tuple[Array, Array]:
     bend = np.zeros(len(q))
     bend[1:-1] = sum(rod.curve[1:-1, k] * q[k : len(q) - 2 + k, 2] for k in range(3))
     bend[0], bend[-1] = bend[1], bend[-2]
-    along = []
-    for p in range(len(rod.local)):
-        _, _, now, e, tau_1, tau_2 = chord(rod, q, p)
-        along.append(_bowed(rod, p, e, tau_1, tau_2)[0] / (now - e))
-    strain = np.array(along)
+    lengths = np.hypot(*np.diff(rod.place, axis=0).T)
+    strain = np.array([_strains(rod, q, p)[3] for p in range(len(rod.local))]) / lengths
     inner = (strain[1:] + strain[:-1]) / 2
     return bend, np.concatenate([strain[:1], inner, strain[-1:]])

@@ -8,14 +8,14 @@ than the other, that of the mesh less what the chain has by its geometry is left
 
 from __future__ import annotations
 
-from itertools import pairwise
+from itertools import pairwise, permutations
 from math import cos, pi, sin
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .section import RodCompliance, radial, symmetric
+from .section import RodCompliance, radial
 
 Array = NDArray[np.float64]
 
@@ -140,8 +140,9 @@ def _at(compliance: RodCompliance, theta: float) -> Array:
 
 
 def _by(third: Array, change: Array) -> Array:
-    """A form of third order by other variables."""
-    return symmetric(np.einsum("abc,ai,bj,ck->ijk", third, change, change, change))
+    """A form of third order by other variables, the same in all orders of its indices."""
+    form = np.einsum("abc,ai,bj,ck->ijk", third, change, change, change)
+    return np.asarray(sum(form.transpose(order) for order in permutations(range(3))) / 6)
 
 
 def _geometric(local: Array, place: tuple[Array, Array], one: Array, two: Array, bow: Array | None = None) -> Array:
@@ -158,7 +159,7 @@ def _geometric(local: Array, place: tuple[Array, Array], one: Array, two: Array,
     longer = np.outer(across, across) / (2 * length)
     if bow is not None:
         longer = longer + strains[1:].T @ bow @ strains[1:] / 2
-    return symmetric(np.einsum("a,bc->abc", stress[0], longer) + np.einsum("a,bc->abc", stress[1] + stress[2], turned))
+    return np.multiply.outer(stress[0], longer) + np.multiply.outer(stress[1] + stress[2], turned)
 
 
 def _of_rod(compliance: RodCompliance, first: float, begin: Array, poisson: float) -> Array:
@@ -175,6 +176,6 @@ def _of_rod(compliance: RodCompliance, first: float, begin: Array, poisson: floa
         total += _geometric(local, place, begin, end, bow_of(local, chord))
         stretch, tau_1, tau_2 = chord_strains(*place, 1) @ begin + chord_strains(*place, 2) @ end
         bend = np.outer(tau_2 - tau_1, tau_2 - tau_1)
-        total += symmetric(pulled_of(local, chord, poisson) / 2 * np.einsum("a,bc->abc", stretch, bend))
+        total += pulled_of(local, chord, poisson) / 2 * np.multiply.outer(stretch, bend)
         begin = end
     return total

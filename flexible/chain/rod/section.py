@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from itertools import pairwise, permutations
+from itertools import pairwise
 from math import ceil, cos, pi, sin
 
 import numpy as np
@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from meshes import gauss_gradient, ring_mesh
 from rigid import SceneError
 
+from ...ring.exact import ExactElasticity
 from ...ring.fem import Ring
 
 Array = NDArray[np.float64]
@@ -100,11 +101,11 @@ def _loaded(ring: Ring) -> Array:
 
 
 class _Stressed:
-    """Strain energies and forces of single elements under the six loads."""
+    """What the six loads move, and strain energies and forces of single elements under them."""
 
     def __init__(self, ring: Ring) -> None:
         self.mesh = ring.mesh
-        moved = _loaded(ring)
+        self.moved = moved = _loaded(ring)
         u = moved[ring.mesh.node_dofs]
         *self.by, area = gauss_gradient(ring.mesh)
         h11, h21, h12, h22 = (by @ u[:, i] for by in self.by for i in (0, 1))
@@ -116,36 +117,6 @@ class _Stressed:
         self.energy = energy.reshape(len(area), 9, 6, 6).sum(axis=1)
         self.corners = moved.T @ (ring.corners.stiffness(ring.basis.N) @ moved)
         self.theta = ring.mesh.theta[ring.mesh.quad9[:, 8]]
-        self.slope = np.stack([[h11, h12], [h21, h22]])
-        self.strain, self.ring = strain, ring
-
-    def third(self, end: float) -> Array:
-        """(6, 6, 6): energy of third order of the pieces that reach to ``end``, by the six loads; symmetric.
-
-        With Green's strain E the energy of third order is the linear stress on what E has of the second order,
-        (grad u)^T (grad u)/2, and of the displacement its linear part is enough.
-        """
-        stress = self.stress.copy()
-        for which, elements in enumerate(self.ring.corners.elements):
-            points = (9 * elements[:, None] + np.arange(9)).ravel()
-            stress[:, points] += self._corner(which, points)
-        h = self.slope[:, :, np.repeat(np.abs(self.theta) < end, 9)]
-        stress = stress[:, np.repeat(np.abs(self.theta) < end, 9)]
-        square = np.einsum("kiga,kjgb->ijgab", h, h)
-        second = np.stack([square[0, 0] / 2, square[1, 1] / 2, square[0, 1]])
-        return symmetric(np.einsum("iga,igbc->abc", stress, second))
-
-    def _corner(self, which: int, points: NDArray[np.int64]) -> Array:
-        """Stress times area, (3, points, 6), that a corner adds to its quads'."""
-        mesh, corners = self.ring.mesh, self.ring.corners
-        dofs = corners.dofs[which]
-        nodes = np.array([int(np.flatnonzero((mesh.node_dofs == pair).all(axis=1))[0]) for pair in dofs.reshape(-1, 2)])
-        by1, by2 = (by[points][:, nodes].toarray() for by in self.by)
-        strains = np.zeros((3, len(points), len(nodes), 2))
-        strains[0, :, :, 0] = strains[2, :, :, 1] = by1
-        strains[1, :, :, 1] = strains[2, :, :, 0] = by2
-        form = corners.by_strain(which, strains.reshape(3 * len(points), -1))
-        return (form @ self.strain[:, points].reshape(3 * len(points), 6)).reshape(3, len(points), 6)
 
     def cut(self, low: float, high: float, at: float) -> Array:
         """Force and moment about C, (3, 6), that the elements from ``low`` to ``high`` bear at their end ``at``."""
@@ -156,11 +127,6 @@ class _Stressed:
         y = mesh.points[nodes]
         moment = y[:, :1] * second[nodes] - y[:, 1:] * first[nodes]
         return np.stack([first[nodes].sum(axis=0), second[nodes].sum(axis=0), moment.sum(axis=0)])
-
-
-def symmetric(form: Array) -> Array:
-    """A form of third order, the same in all orders of its three indices."""
-    return np.asarray(sum(form.transpose(order) for order in permutations(range(3))) / 6)
 
 
 def _about(point: Array, forces: Array) -> Array:
@@ -224,7 +190,8 @@ def rod_compliance(ring: Ring, end: float) -> RodCompliance:
     inside = stressed.energy[np.abs(stressed.theta) < last].sum(axis=0) + stressed.corners
     whole = inverse.T @ inside @ inverse
     ends = (whole + whole.T) / 2
-    bent = np.einsum("abc,ai,bj,ck->ijk", stressed.third(last), *[inverse[:, :3]] * 3)
+    answers = stressed.moved[ring.free] @ inverse[:, :3]  # to forces on the section at theta > 0
+    bent = ExactElasticity(ring).third(answers, np.abs(stressed.theta) < last)
     return RodCompliance(radius, section, last, ends, bent, misfit)
 
 

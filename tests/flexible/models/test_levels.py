@@ -11,10 +11,11 @@ from flexible.contact.points.data import UNDAMPED, Before, Rim
 from flexible.contact.points.rim import turned
 from flexible.handover import Pose, equilibrium, undeformed
 from flexible.models.chain import ChainHoop
-from flexible.models.exact import ExactElasticity, ExactHoop
+from flexible.models.exact import ExactHoop
 from flexible.models.full import FullHoop, NewtonMatrix, _Factored
 from flexible.models.reduced import ReducedHoop
 from flexible.models.select import FAR, Range, hoop_of
+from flexible.ring.exact import ExactElasticity
 from flexible.ring.fem import ring_of
 from flexible.ring.nodal import inertia
 from flexible.time.adaptive import MarchError, march

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 
-from flexible.models.exact import ExactElasticity
+from flexible.ring.exact import ExactElasticity
 from flexible.ring.fem import Ring
 from meshes import ring_mesh
 
