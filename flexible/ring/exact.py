@@ -9,6 +9,7 @@ Forces and tangent are batched products over elements and integration points, su
 
 from __future__ import annotations
 
+from copy import copy
 from functools import cached_property, lru_cache
 from typing import NamedTuple
 
@@ -83,16 +84,20 @@ class ExactElasticity:
         strains = _gathered(_by_nodes(still, self.gradients[elements]), place, len(dofs))
         return _Corner(elements, dofs, place, corners.by_strain(which, strains))
 
-    def _slope(self, u: Array) -> Array:
-        """H_ij = du_i/dy_j at the integration points of a displacement of the free dofs."""
-        full = np.zeros(self.size)
-        full[self.free] = u
-        nodal = full[self.dofs].reshape(-1, 1, 9, 2)
-        return np.asarray(nodal.swapaxes(-1, -2) @ self.gradients)
+    def of(self, elements: NDArray[np.int64]) -> ExactElasticity:
+        """That of some elements alone, ascending, those at the corners among them."""
+        some = copy(self)
+        some.__dict__.pop("_pattern", None)
+        some.gradients, some.weights, some.dofs = self.gradients[elements], self.weights[elements], self.dofs[elements]
+        some.corners = [one._replace(elements=np.searchsorted(elements, one.elements)) for one in self.corners]
+        return some
 
     def _strain(self, u: Array) -> tuple[Array, Array]:
         """F and E = (E11, E22, 2 E12) at the integration points of a displacement of the free dofs."""
-        h = self._slope(u)
+        full = np.zeros(self.size)
+        full[self.free] = u
+        nodal = full[self.dofs].reshape(-1, 1, 9, 2)
+        h = nodal.swapaxes(-1, -2) @ self.gradients
         square = h.swapaxes(-1, -2) @ h
         e11 = h[..., 0, 0] + square[..., 0, 0] / 2
         e22 = h[..., 1, 1] + square[..., 1, 1] / 2
@@ -110,20 +115,6 @@ class ExactElasticity:
     def strain_energy(self, u: Array) -> float:
         strain = self._strain(u)[1]
         return float((strain * self._stress(strain)).sum()) / 2
-
-    def third(self, u: Array, elements: NDArray[np.bool_]) -> Array:
-        """Energy of third order of some elements by displacements of the free dofs, (n_free, k): a form (k, k, k).
-
-        That is the linear stress on what E has of the second order, H^T H/2. Of an answer to forces its linear part is
-        enough: what is left of it is of the second order, and on that the forces and the stress do the same work.
-        """
-        slopes = [self._slope(column) for column in u.T]
-        linear = [np.stack([h[..., 0, 0], h[..., 1, 1], h[..., 0, 1] + h[..., 1, 0]], axis=-1) for h in slopes]
-        stress = np.stack([self._stress(strain)[elements] for strain in linear], axis=-1)
-        h = np.stack([slope[elements] for slope in slopes], axis=-1)
-        square = np.einsum("...kia,...kjb->...ijab", h, h)
-        second = np.stack([square[..., 0, 0, :, :] / 2, square[..., 1, 1, :, :] / 2, square[..., 0, 1, :, :]], axis=-3)
-        return np.asarray(np.einsum("egia,egibc->abc", stress, second))
 
     def forces(self, u: Array) -> Array:
         """Derivative of the energy, (n_free,)."""

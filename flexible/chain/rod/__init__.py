@@ -1,6 +1,7 @@
 """The parts of the chain: a rod with the compliance of the mesh.
 
 ``section``    what a section and the two ends at the weld give way, measured on scikit-fem's quads
+``second``     how a section near the weld moves to second order
 ``ends``       the first and the last part, with the joint at the weld
 ``parts``      where the ring is cut, and all its parts
 ``corotated``  how they turn and move far

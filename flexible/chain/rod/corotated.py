@@ -45,8 +45,8 @@ class Rod(NamedTuple):
         Second derivatives of the stretch of each part's line by its angles.
     pulled : (n + 1,) array
         Bending stiffness of each part, in tau_2 - tau_1, that comes with x = 1.
-    bent : (2, 2, 2, 2) array
-        Third derivatives of the energy of the first and of the last part by its angles.
+    bent : (2, 3, 3, 3) array
+        Third derivatives of the energy of the first and of the last part by (x, tau_1, tau_2).
     across : (3, 3) array
         Of the first part by the last one, through the wall over the weld.
     mass, turning : (n + 2,) arrays
@@ -143,17 +143,20 @@ def _lengthen(w1: float, w2: float, by: Any) -> None:
 
 
 @loop
-def _stiffer(rod: Any, p: int, x: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float]:
-    """What strains add to the stiffness of a part: to the entries 01 (02 is its opposite), 11, 12 and 22."""
+def _stiffer(rod: Any, p: int, x: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float, float, float]:
+    """What strains add to the stiffness of a part: to the entries 00, 01, 02, 11, 12 and 22."""
     last = rod.local.shape[0] - 1
-    bend, pull = rod.pulled[p] * (tau_2 - tau_1), rod.pulled[p] * x
-    m11, m12, m22 = pull, -pull, pull
-    if p == 0 or p == last:
-        third = rod.bent[0 if p == 0 else 1]
-        m11 += third[0, 0, 0] * tau_1 + third[0, 0, 1] * tau_2
-        m12 += third[0, 1, 0] * tau_1 + third[0, 1, 1] * tau_2
-        m22 += third[1, 1, 0] * tau_1 + third[1, 1, 1] * tau_2
-    return -bend, m11, m12, m22
+    if 0 < p < last:
+        bend, pull = rod.pulled[p] * (tau_2 - tau_1), rod.pulled[p] * x
+        return 0.0, -bend, bend, pull, -pull, pull
+    third = rod.bent[0 if p == 0 else 1]
+    m00 = third[0, 0, 0] * x + third[0, 0, 1] * tau_1 + third[0, 0, 2] * tau_2
+    m01 = third[0, 1, 0] * x + third[0, 1, 1] * tau_1 + third[0, 1, 2] * tau_2
+    m02 = third[0, 2, 0] * x + third[0, 2, 1] * tau_1 + third[0, 2, 2] * tau_2
+    m11 = third[1, 1, 0] * x + third[1, 1, 1] * tau_1 + third[1, 1, 2] * tau_2
+    m12 = third[1, 2, 0] * x + third[1, 2, 1] * tau_1 + third[1, 2, 2] * tau_2
+    m22 = third[2, 2, 0] * x + third[2, 2, 1] * tau_1 + third[2, 2, 2] * tau_2
+    return m00, m01, m02, m11, m12, m22
 
 
 @loop
@@ -173,10 +176,10 @@ def _stress(rod: Any, q: Any, p: int, x: float, tau_1: float, tau_2: float) -> t
             s0 += a[0, 0] * y + a[1, 0] * y1 + a[2, 0] * y2
             s1 += a[0, 1] * y + a[1, 1] * y1 + a[2, 1] * y2
             s2 += a[0, 2] * y + a[1, 2] * y1 + a[2, 2] * y2
-    m01, m11, m12, m22 = _stiffer(rod, p, x, tau_1, tau_2)
-    h0 = m01 * (tau_1 - tau_2)
+    m00, m01, m02, m11, m12, m22 = _stiffer(rod, p, x, tau_1, tau_2)
+    h0 = m00 * x + m01 * tau_1 + m02 * tau_2
     h1 = m01 * x + m11 * tau_1 + m12 * tau_2
-    h2 = -m01 * x + m12 * tau_1 + m22 * tau_2
+    h2 = m02 * x + m12 * tau_1 + m22 * tau_2
     energy = (x * s0 + tau_1 * s1 + tau_2 * s2) / 2 + (x * h0 + tau_1 * h1 + tau_2 * h2) / 6
     return energy, s0 + h0 / 2, s1 + h1 / 2, s2 + h2 / 2
 
@@ -231,11 +234,11 @@ def elastic_tangent(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None
         _lengthen(w1, w2, by)
         s1 += s0 * w1
         s2 += s0 * w2
-        m01, m11, m12, m22 = _stiffer(rod, p, x, tau_1, tau_2)
+        m00, m01, m02, m11, m12, m22 = _stiffer(rod, p, x, tau_1, tau_2)
         bow = rod.bow[p]
-        local[0, 0], local[0, 1], local[0, 2] = 0.0, m01, -m01
+        local[0, 0], local[0, 1], local[0, 2] = m00, m01, m02
         local[1, 0], local[1, 1], local[1, 2] = m01, m11 + s0 * bow[0, 0], m12 + s0 * bow[0, 1]
-        local[2, 0], local[2, 1], local[2, 2] = -m01, m12 + s0 * bow[1, 0], m22 + s0 * bow[1, 1]
+        local[2, 0], local[2, 1], local[2, 2] = m02, m12 + s0 * bow[1, 0], m22 + s0 * bow[1, 1]
         for i in range(3):
             for j in range(3):
                 local[i, j] += rod.local[p, i, j]

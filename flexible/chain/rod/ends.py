@@ -2,25 +2,28 @@
 
 The mesh was cut some walls behind the weld, where what the weld does to the wall has faded. The rod is taken off from
 there to the first section of the chain, and what is left is that section's compliance: the first part's and the joint's
-with the weld, in which all that fades is gathered. Of the energy of third order, by which a part bends easier one way
-than the other, that of the mesh less what the chain has by its geometry is left in the same way.
+with the weld, in which all that fades is gathered. That part bends easier one way than the other: its energy of third
+order is what makes that section move as the mesh's does, to second order.
 """
 
 from __future__ import annotations
 
-from itertools import pairwise, permutations
+from itertools import permutations
 from math import cos, pi, sin
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .section import RodCompliance, radial
+from .second import SecondOrder, second_order
+from .section import RodCompliance, radial, transfer
 
 Array = NDArray[np.float64]
 
-BETWEEN = 8  # parts of the rod from the first section to the cut, of whose energy it is told what the chain has
 _MIRROR = np.diag([1.0, -1.0, -1.0])  # of displacement (y1, y2) and rotation, or of force and moment
+_BACK = np.array(
+    [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0]]
+)  # of strains: the angles change places and signs
 
 
 class Ends(NamedTuple):
@@ -32,8 +35,8 @@ class Ends(NamedTuple):
         Stiffness in (e, tau_1, tau_2) of the first part, and of the last.
     bow : (2, 2, 2) array
         Second derivatives of the stretch of their lines by their angles.
-    bent : (2, 2, 2, 2) array
-        Third derivatives of their energy by their angles.
+    bent : (2, 3, 3, 3) array
+        Third derivatives of their energy by (x, tau_1, tau_2), x that stretch.
     """
 
     local: Array
@@ -93,7 +96,7 @@ def is_jointed(compliance: RodCompliance, weld: float, wall: float) -> bool:
     return bool(np.linalg.eigvalsh(joint * np.outer(unit, unit))[0] > 0)
 
 
-def ends(compliance: RodCompliance, weld: float, first: float, poisson: float) -> Ends:
+def ends(compliance: RodCompliance, weld: float, first: float) -> Ends:
     """Those of a chain whose first section behind the ``weld`` is at ``first``, the last as far before it."""
     a = compliance.radius
     place = a * np.array([radial(angle) for angle in (weld, first, 2 * pi - first, 2 * pi - weld)])
@@ -101,25 +104,53 @@ def ends(compliance: RodCompliance, weld: float, first: float, poisson: float) -
     by[:3, :3], by[3:, 3:] = chord_strains(place[0], place[1], 2), chord_strains(place[2], place[3], 1)
     local = in_strains(_at(compliance, first), by)
 
-    begin = _at(compliance, first)[:3, :3] @ _transfer(a, first, compliance.weld).T
-    strains = by[:3, :3] @ begin
     own = in_strains(_at(compliance, first)[:3, :3], by[:3, :3])  # no force on the other one
-    held = np.zeros((3, 3))
-    known = _geometric(own, (place[0], place[1]), held, begin) + _of_rod(compliance, first, begin, poisson)
-    third = 6 * _by(np.asarray(compliance.bent - known), np.asarray(np.linalg.inv(strains)))
-    # by the force along the chord and the angles; terms of that force's square are none to speak of
-    change = np.eye(3)
-    change[0] = np.array([1.0, -own[0, 1], -own[0, 2]]) / own[0, 0]
-    third = _by(third, change)
-    bow, bent = third[0, 1:, 1:], third[1:, 1:, 1:]
-    # mirrored, the angles change places and signs
-    return Ends(local, np.stack([bow, bow[::-1, ::-1]]), np.stack([bent, -bent[::-1, ::-1, ::-1]]))
+    third = _evened(third_of(second_order(compliance, first), own, by[:3, :3], place[1] - place[0]))
+    # by the force along the chord, not the elongation
+    forced = np.eye(3)
+    forced[0] = np.array([1.0, -own[0, 1], -own[0, 2]]) / own[0, 0]
+    third = _by(third, forced)
+    bow = third[0, 1:, 1:].copy()
+    third[0, 1:, 1:] = third[1:, 0, 1:] = third[1:, 1:, 0] = 0.0
+    bent = _by(third, np.array([own[0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]))
+    return Ends(local, np.stack([bow, bow[::-1, ::-1]]), np.stack([bent, _by(bent, _BACK)]))
 
 
-def _transfer(radius: float, one: float, two: float) -> Array:
-    """What the section at ``two`` moves with that at ``one``; transposed, the forces at ``one`` of those at ``two``."""
-    arm = radius * (radial(two) - radial(one))
-    return np.array([[1.0, 0.0, -arm[1]], [0.0, 1.0, arm[0]], [0.0, 0.0, 1.0]])
+def third_of(answers: SecondOrder, own: Array, by: Array, chord: Array) -> Array:
+    """Third derivatives of a part's energy by its strains that make its section answer so.
+
+    A section that moves by d lengthens the chord by (n.d)^2/2l to second order and turns either angle by
+    (n.d)(t.d)/l^2; the stress of that and what these terms make of the linear stress are the chain's by its geometry.
+
+    Parameters
+    ----------
+    answers : SecondOrder
+        Of the section behind the part.
+    own : (3, 3) array
+        Stiffness of the part in (e, tau_1, tau_2).
+    by : (3, 3) array
+        These strains by the section's coordinates.
+    chord : (2,) array
+
+    Returns
+    -------
+    (3, 3, 3) array
+        The stress first. That it is the same in all orders of its indices, for a potential's, is not made so here.
+    """
+    way = np.linalg.inv(by)
+    load = by.T @ own
+    # the means of a section's points are not quite what its loads do work on, from which the compliance is
+    same = way @ np.linalg.inv(own) @ way.T @ np.linalg.inv(answers.first)
+    second = np.einsum("ia,abc,bj,ck->ijk", by @ same, answers.second, load, load)
+    moment = load.T @ answers.moment @ load
+
+    length = float(np.hypot(*chord))
+    along, across = chord @ way[:2] / length, np.array([-chord[1], chord[0]]) @ way[:2] / length
+    turned = (np.outer(across, along) + np.outer(along, across)) / length**2
+    geometric = np.stack([np.outer(across, across) / length, turned, turned])
+    stress = np.multiply.outer(way[2], moment) - np.einsum("ai,ijk->ajk", own, second + geometric / 2)
+    steered = np.einsum("ij,ika->ajk", own, geometric)
+    return np.asarray(2 * stress - steered - steered.transpose(0, 2, 1))
 
 
 def _piece(compliance: RodCompliance, one: float, two: float) -> Array:
@@ -133,49 +164,17 @@ def _at(compliance: RodCompliance, theta: float) -> Array:
     """(6, 6) compliance of the sections at ``theta`` and its mirror image, the rod behind them taken off."""
     rod, back = np.zeros((6, 6)), np.zeros((6, 6))
     piece = _piece(compliance, theta, compliance.weld)
-    away = np.linalg.inv(_transfer(compliance.radius, theta, compliance.weld))
+    away = np.linalg.inv(transfer(compliance.radius, theta, compliance.weld))
     rod[:3, :3], rod[3:, 3:] = piece, _MIRROR @ piece @ _MIRROR
     back[:3, :3], back[3:, 3:] = away, _MIRROR @ away @ _MIRROR
     return np.asarray(back @ (compliance.ends - rod) @ back.T)
 
 
 def _by(third: Array, change: Array) -> Array:
-    """A form of third order by other variables, the same in all orders of its indices."""
-    form = np.einsum("abc,ai,bj,ck->ijk", third, change, change, change)
-    return np.asarray(sum(form.transpose(order) for order in permutations(range(3))) / 6)
+    """A form of third order by other variables."""
+    return np.asarray(np.einsum("abc,ai,bj,ck->ijk", third, change, change, change))
 
 
-def _geometric(local: Array, place: tuple[Array, Array], one: Array, two: Array, bow: Array | None = None) -> Array:
-    """Energy of third order, by three loads, of what strains of a part have of the second order, on its linear stress.
-
-    Of the chord's elongation that is (n.d)^2/(2 l), of the angles (n.d)(t.d)/l^2, of the line what it bows besides.
-    """
-    length = float(np.hypot(*(place[1] - place[0])))
-    t = (place[1] - place[0]) / length
-    strains = chord_strains(*place, 1) @ one + chord_strains(*place, 2) @ two
-    stress, d = local @ strains, (two - one)[:2]
-    along, across = t @ d, np.array([-t[1], t[0]]) @ d
-    turned = (np.outer(across, along) + np.outer(along, across)) / (2 * length**2)
-    longer = np.outer(across, across) / (2 * length)
-    if bow is not None:
-        longer = longer + strains[1:].T @ bow @ strains[1:] / 2
-    return np.multiply.outer(stress[0], longer) + np.multiply.outer(stress[1] + stress[2], turned)
-
-
-def _of_rod(compliance: RodCompliance, first: float, begin: Array, poisson: float) -> Array:
-    """Energy of third order of the rod from the section at ``first``, which moves by ``begin``, to the cut."""
-    a, total = compliance.radius, np.zeros((3, 3, 3))
-    if compliance.weld - first < 1e-9:
-        return total
-    angles = np.linspace(first, compliance.weld, BETWEEN + 1)
-    for one, two in pairwise(angles.tolist()):
-        place = (a * radial(one), a * radial(two))
-        piece, chord = _piece(compliance, one, two), float(np.hypot(*(place[1] - place[0])))
-        end = _transfer(a, one, two) @ begin + piece @ _transfer(a, two, compliance.weld).T
-        local = in_strains(piece, chord_strains(*place, 2))
-        total += _geometric(local, place, begin, end, bow_of(local, chord))
-        stretch, tau_1, tau_2 = chord_strains(*place, 1) @ begin + chord_strains(*place, 2) @ end
-        bend = np.outer(tau_2 - tau_1, tau_2 - tau_1)
-        total += pulled_of(local, chord, poisson) / 2 * np.multiply.outer(stretch, bend)
-        begin = end
-    return total
+def _evened(third: Array) -> Array:
+    """A form of third order, the same in all orders of its indices."""
+    return np.asarray(sum(third.transpose(order) for order in permutations(range(3))) / 6)

@@ -56,7 +56,7 @@ def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
         in_strains(compliance.piece(angle), chord_strains(a * radial(0.0), a * radial(angle), 2))
         for angle in np.diff(theta)[1:-1]
     ]
-    end = ends(compliance, weld, float(theta[1]), ring.poisson)
+    end = ends(compliance, weld, float(theta[1]))
     chords = np.hypot(*np.diff(place, axis=0).T)
     mass = np.zeros(parts + 1)
     mass[1:-1] = (theta[2:] - theta[:-2]) / (4 * pi)

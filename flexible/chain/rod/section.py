@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 from meshes import gauss_gradient, ring_mesh
 from rigid import SceneError
 
-from ...ring.exact import ExactElasticity
 from ...ring.fem import Ring
 
 Array = NDArray[np.float64]
@@ -59,8 +58,11 @@ class RodCompliance:
     ends : (6, 6) array
         Displacement (y1, y2) and rotation of the sections there, theta > 0 first, under unit forces and moments on
         them; the two feel each other through the wall over the weld.
-    bent : (3, 3, 3) array
-        Energy of third order of the end at theta > 0 under forces and a moment on its section, the other one free.
+    ring : Ring
+        The one that was measured.
+    answers : (n_free, 3) array
+        Displacement of its free dofs, as far as no load of the six is near, under unit forces and a unit moment on the
+        section at ``weld``.
     misfit : float
         Largest error of the form ``section`` on the pieces it was fitted to, relative to the largest energy.
     """
@@ -69,7 +71,8 @@ class RodCompliance:
     section: Array
     weld: float
     ends: Array
-    bent: Array
+    ring: Ring
+    answers: Array
     misfit: float
 
     def piece(self, angle: float) -> Array:
@@ -80,6 +83,12 @@ class RodCompliance:
             resultants = _resultants(self.radius, angle, theta)
             total += weight * resultants.T @ self.section @ resultants
         return total
+
+
+def transfer(radius: float, one: float, two: float) -> Array:
+    """What the section at ``two`` moves with that at ``one``; transposed, the loads at ``one`` of those at ``two``."""
+    arm = radius * (radial(two) - radial(one))
+    return np.array([[1.0, 0.0, -arm[1]], [0.0, 1.0, arm[0]], [0.0, 0.0, 1.0]])
 
 
 def _resultants(radius: float, loaded: float, theta: float) -> Array:
@@ -190,9 +199,8 @@ def rod_compliance(ring: Ring, end: float) -> RodCompliance:
     inside = stressed.energy[np.abs(stressed.theta) < last].sum(axis=0) + stressed.corners
     whole = inverse.T @ inside @ inverse
     ends = (whole + whole.T) / 2
-    answers = stressed.moved[ring.free] @ inverse[:, :3]  # to forces on the section at theta > 0
-    bent = ExactElasticity(ring).third(answers, np.abs(stressed.theta) < last)
-    return RodCompliance(radius, section, last, ends, bent, misfit)
+    answers = stressed.moved[ring.free] @ inverse[:, :3]
+    return RodCompliance(radius, section, last, ends, ring, answers, misfit)
 
 
 def _section(stressed: _Stressed, cuts: Array, radius: float) -> tuple[Array, float]:

@@ -29,7 +29,8 @@ def thin():
 
 def closed(parts, stretch=1e-9):
     """A ring of unit radius and bending stiffness without a wall, held at its section at theta = 0 and cut there."""
-    compliance = RodCompliance(1.0, np.diag([stretch, stretch, 1.0]), 0.0, np.zeros((6, 6)), np.zeros((3, 3, 3)), 0.0)
+    section, none = np.diag([stretch, stretch, 1.0]), np.zeros((6, 6))
+    compliance = RodCompliance(1.0, section, 0.0, none, None, np.zeros((0, 3)), 0.0)
     theta = np.linspace(0, 2 * pi, parts + 1)
     place = np.column_stack([np.cos(theta), np.sin(theta)])
     step = 2 * pi / parts
@@ -41,7 +42,7 @@ def closed(parts, stretch=1e-9):
         local=np.stack([local] * parts),
         bow=np.stack([bow_of(local, 2 * sin(step / 2))] * parts),
         pulled=np.zeros(parts),
-        bent=np.zeros((2, 2, 2, 2)),
+        bent=np.zeros((2, 3, 3, 3)),
         across=np.zeros((3, 3)),
         mass=mass,
         turning=0 * mass,
