@@ -1,6 +1,6 @@
 """``python -m studies.cli ...`` is ``hoop ...`` where the command is not installed."""
 
-from .hoop import main
+from . import main
 
 if __name__ == "__main__":
     main()

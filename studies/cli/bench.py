@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("what", type=click.Choice(["rigid", "flexible", "scaling"]))
+@click.argument("what", type=click.Choice(["rigid", "flexible", "soft", "scaling"]))
 @as_json
 @out_folder("Write table and figures into this folder.")
 @click.option("--peers", "peers_too", is_flag=True, help="Also the other solvers that are installed (Exudyn).")
@@ -34,7 +34,7 @@ def bench(
     target = results_folder(out)
     apart = Processes(1)  # a process that has compiled holds memory, which is measured here
     try:
-        apart.submit(prepare, "rigid", "reduced").result()
+        apart.submit(prepare, "rigid", "reduced", *(["chain"] if what == "soft" else [])).result()
     finally:
         apart.stop()
     run = importlib.import_module(f"studies.bench.{what}").bench

@@ -241,10 +241,3 @@ def _say(sentence: str, status: int) -> int:
 def _forget_stdout() -> None:
     """Stop the interpreter from trying, and failing, to flush stdout once more as it leaves."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-
-def main() -> None:
-    """Entry point of the command ``hoop``."""
-    # for LLVM, before numba is imported: compiles in a tenth less time than its 3, to code as fast
-    os.environ.setdefault("NUMBA_OPT", "2")
-    sys.exit(run())

@@ -1,0 +1,174 @@
+"""`hoop bench soft`: pulses of rings that bend and turn far, the chain against all nodes of the exact ring.
+
+Both stand on the same mesh, so what lies between them is the chain's own: what its parts leave out of the mesh. What
+the mesh leaves out is between two of all nodes, the second twice as fine around.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from functools import partial
+from math import nan
+from typing import TypeAlias
+
+import flexible
+from flexible import FlexibleMotion
+from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene
+
+from ..running.measures import time_off_floor
+from .race import Claim, Contestant, Result, Row, race
+from .rigid import remember
+
+Measures: TypeAlias = dict[str, float]
+
+CHAIN, NODES, LINEAR = "chain", "all nodes", "reduced"
+AROUND = 240
+ROUGH, USUAL = 1e-3, 3e-4  # of the time that is asked for, and of the comparison
+SECONDS, CLOSE = 2.0, 0.01  # what is stated of a pulse that is resolved
+
+
+@dataclass(frozen=True)
+class Soft:
+    """A pulse that a linear ring would not do for."""
+
+    name: str
+    scene: Scene
+    through: int = 2
+    off: float | None = None
+    """Largest difference that is stated, None for a pulse that chatters."""
+    peak_off: float = CLOSE
+    """The same of the largest normal force."""
+    finer: bool = False
+    """Whether all nodes of a mesh twice as fine are run as well."""
+
+    def on(self, level: str, rtol: float, around: int = AROUND) -> Scene:
+        through = self.through if level == "exact" else None
+        return self.scene.replace(solve={"level": level, "rtol": rtol, "elements": around, "through": through})
+
+
+def _hoop(k: float, r: float, mass_ratio: float, bending: float, foundation: float, damping: float) -> Scene:
+    return Scene(
+        Hoop(k=k, r=r, mass_ratio=mass_ratio), Friction(0.35, 0.3), Release(phi0_deg=10), Run(until="pulse"),
+        ring=Ring(bending_stiffness=bending), contact=Contact(stiffness=foundation, damping=damping),
+    )  # fmt: skip
+
+
+def softs(quick: bool) -> list[Soft]:
+    """A wall of 2 %, softer and softer, undamped and damped; and thick walls, whose largest force is worst."""
+    thin = partial(_hoop, 0.1, 1.02, 0.05, foundation=1e8)
+    undamped = [
+        Soft("E I = 10, undamped", thin(bending=10, damping=0), off=CLOSE),
+        Soft("E I = 1, undamped", thin(bending=1, damping=0), off=CLOSE, finer=True),
+    ]
+    if quick:
+        return undamped
+    thick = partial(_hoop, 0.2, mass_ratio=0.1, foundation=1e7, damping=1)
+    return [
+        *undamped,
+        Soft("E I = 3, undamped", thin(bending=3, damping=0)),
+        Soft("E I = 0.5, undamped", thin(bending=0.5, damping=0), off=0.04, finer=True),
+        Soft("E I = 10", thin(bending=10, damping=1), off=CLOSE),
+        Soft("E I = 3", thin(bending=3, damping=1)),
+        Soft("E I = 1", thin(bending=1, damping=1), off=CLOSE, peak_off=0.015),
+        Soft("E I = 0.5", thin(bending=0.5, damping=1), off=0.04),
+        Soft("r = 1.1, E I = 20", thick(1.1, bending=20), off=CLOSE, peak_off=0.03),
+        Soft("r = 1.12, E I = 10", thick(1.12, bending=10), off=CLOSE, peak_off=0.045),
+        Soft("r = 1.18, E I = 5", thick(1.18, bending=5), off=CLOSE, peak_off=0.06),
+    ]
+
+
+def measures(motion: FlexibleMotion) -> Measures:
+    """What is compared of a first pulse, by its name in the table, and its steps."""
+    pulse = motion.pulses[0]
+    return {
+        "J_F/J_N": pulse.impulse_ratio,
+        "J_N": pulse.normal_impulse,
+        "N_max": pulse.peak_normal_force,
+        "loss": pulse.friction_loss,
+        "off floor": time_off_floor(motion, pulse),
+        "steps": float(motion.steps),
+    }
+
+
+COMPARED = ("J_F/J_N", "J_N", "N_max", "loss", "off floor")
+SPARED = "N_max"  # of which something else is stated
+
+
+@dataclass
+class Truth:
+    """All nodes' answers by the pulse's name, as they come in."""
+
+    known: dict[str, Measures] = field(default_factory=dict)
+
+    def judge(self, name: str, is_truth: bool, motion: FlexibleMotion) -> tuple[float, Measures]:
+        """The largest relative difference from all nodes but that of N_max, and all that is compared."""
+        found = measures(motion)
+        if is_truth:
+            self.known[name] = found
+            return nan, found
+        true = self.known.get(name)
+        off = {} if true is None else {f"{key} off": _off(found[key], true[key]) for key in COMPARED}
+        most = max((off[f"{key} off"] for key in COMPARED if key != SPARED), default=nan) if off else nan
+        return most, {**found, **off}
+
+
+def _off(found: float, true: float) -> float:
+    return abs(found / true - 1) if true else abs(found)
+
+
+def contestants(pulses: Iterable[Soft], truth: Truth, quick: bool) -> list[Contestant]:
+    """Of each pulse all nodes first, then the chain and, once, what a step of a linear ring costs there."""
+    entries = []
+    for pulse in pulses:
+
+        def add(
+            solver: str, setting: str, scene: Scene, is_truth: bool = False, once: bool = True, pulse: Soft = pulse
+        ) -> None:
+            entries.append(
+                Contestant(
+                    solver, setting, pulse.name, partial(flexible.simulate, scene),
+                    partial(truth.judge, pulse.name, is_truth), repeats=1 if once else None, memory=not once,
+                )
+            )  # fmt: skip
+
+        add(NODES, f"rtol {USUAL:.0e}", pulse.on("exact", USUAL), is_truth=True)
+        for rtol in (ROUGH, USUAL) if quick else (1e-2, ROUGH, USUAL, 1e-4):
+            add(CHAIN, f"rtol {rtol:.0e}", pulse.on("chain", rtol), once=False)
+        if pulse.finer and not quick:
+            add(NODES, f"{2 * AROUND} around", pulse.on("exact", USUAL, 2 * AROUND))
+    first = next(iter(pulses))
+    step = partial(flexible.simulate, first.on("reduced", USUAL))
+    entries.append(Contestant(LINEAR, f"rtol {USUAL:.0e}", first.name, step, lambda m: (nan, measures(m))))
+    return entries
+
+
+def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[float], None] | None = None) -> Result:
+    """Time chain and all nodes, compare them, and check what is stated."""
+    pulses, truth = softs(quick), Truth()
+    flexible.simulate(pulses[0].on("chain", 1e-2))
+    remember()
+    rows = race(contestants(pulses, truth, quick), 2, progress)
+    return Result(rows, _claims(rows, pulses))
+
+
+def _claims(rows: list[Row], pulses: list[Soft]) -> list[Claim]:
+    def one(solver: str, rtol: float, name: str) -> Row | None:
+        wanted = (solver, f"rtol {rtol:.0e}", name)
+        return next((row for row in rows if (row.solver, row.setting, row.scene) == wanted and row.seconds), None)
+
+    claims = []
+    for pulse in pulses:
+        chain, nodes = one(CHAIN, USUAL, pulse.name), one(NODES, USUAL, pulse.name)
+        if chain is None or nodes is None or pulse.off is None:
+            continue
+        claims.append(Claim(f"{pulse.name}: impulses, loss and hops off all nodes", chain.error, pulse.off, True))
+        claims.append(Claim(f"{pulse.name}: N_max off all nodes", chain.more["N_max off"], pulse.peak_off, True))
+    fast = [row for pulse in pulses if (row := one(CHAIN, ROUGH, pulse.name)) is not None]
+    slowest = max((row.least for row in fast), default=nan)
+    claims.append(Claim(f"chain: seconds of a pulse at rtol {ROUGH:.0e}, at most", slowest, SECONDS, True))
+    chain, linear = one(CHAIN, USUAL, pulses[0].name), one(LINEAR, USUAL, pulses[0].name)
+    if chain is not None and linear is not None:
+        cost = (chain.least / chain.more["steps"]) / (linear.least / linear.more["steps"])
+        claims.append(Claim("chain: a step's time over a reduced one's", cost, 5, True))
+    return claims
