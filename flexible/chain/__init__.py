@@ -6,6 +6,7 @@
 ``ring``       the chain of a scene, and the compliance of its wall that a chain lacks
 ``bordered``   the matrix of it all, eliminated down to a small core
 ``whole``      frame and chain as one vector
+``lowest``     where the rim is lowest
 ``touch``      the rim at the floor
 ``stage``      one implicit stage
 """

@@ -144,9 +144,7 @@ def _eliminate(blocks: Any, i: int, here: int, there: int, factors: Any) -> None
     forth, at = (blocks.up, here) if there > here else (blocks.down, there)
     return_way = blocks.down if there > here else blocks.up
     _invert(diagonal, here, inverse, i)
-    width = 2 * FRAME
-    if _fades(columns[here], rows[here]):
-        width = FRAME
+    width = FRAME if _fades(columns[here], rows[here]) else 2 * FRAME
     for a in range(3):
         for b in range(3):
             back[i, a, b] = return_way[at, a, b]
@@ -170,8 +168,7 @@ def _turns(keeps: Any) -> tuple[Any, int]:
     count, far, last = 0, 1, n
     while not keeps[last]:  # back from the last section, behind which comes the first
         order[count, 0], order[count, 1] = last, last - 1
-        count += 1
-        last -= 1
+        count, last = count + 1, last - 1
     for i in range(2, last):
         if not keeps[i]:
             if keeps[i - 1]:
@@ -220,24 +217,27 @@ def _core(blocks: Any, kept: Any, place: int, size: int) -> Any:
     return core
 
 
-@part
-def factor(blocks: Any, keeps: Any, rest: int) -> Any:
-    """Eliminate all sections but those flagged; ``rest`` unknowns of the core are left to the caller.
-
-    The blocks are used up.
-    """
-    n = keeps.shape[0] - 2
-    order, far = _turns(keeps)
-    m = order.shape[0]
-    inverse, ahead, back = np.empty((m, 3, 3)), np.empty((m, 3, 3)), np.empty((m, 3, 3))
-    beside, below = np.empty((m, 3, 6)), np.empty((m, 6, 3))
-    for i in range(m):
+@loop
+def _forward(blocks: Any, order: Any, far: int, factors: Any) -> None:
+    """Eliminate all sections in their order."""
+    n = blocks.diagonal.shape[0] - 2
+    for i in range(order.shape[0]):
         here, there = order[i, 0], order[i, 1]
         if there > here and here == far + 1:
             _border(blocks, here, blocks.down, blocks.up, far)
         elif here == n:
             _border(blocks, here, blocks.up, blocks.down, n)
-        _eliminate(blocks, i, here, there, (inverse, ahead, beside, back, below))
+        _eliminate(blocks, i, here, there, factors)
+
+
+@part
+def factor(blocks: Any, keeps: Any, rest: int) -> Any:
+    """Eliminate all sections but those flagged, and the blocks with them; ``rest`` unknowns are left to the caller."""
+    order, far = _turns(keeps)
+    m = order.shape[0]
+    inverse, ahead, back = np.empty((m, 3, 3)), np.empty((m, 3, 3)), np.empty((m, 3, 3))
+    beside, below = np.empty((m, 3, 6)), np.empty((m, 6, 3))
+    _forward(blocks, order, far, (inverse, ahead, beside, back, below))
     kept = np.flatnonzero(keeps)
     place = keeps[:far].sum()
     core = _core(blocks, kept, place, FRAME + 3 * kept.shape[0] + rest)

@@ -14,7 +14,7 @@ from __future__ import annotations
 from math import cos, sin
 from typing import Any, NamedTuple
 
-from rigid.kernel.compile import part
+from rigid.kernel.compile import loop
 
 from .rod.corotated import Rod
 
@@ -47,7 +47,7 @@ class Chain(NamedTuple):
     rod: Rod
 
 
-@part
+@loop
 def _seen(pos: Any, acc: Any) -> tuple[float, float, float, float]:
     """Sine and cosine of phi, and what all mass is accelerated by along y1 and y2, C's acceleration less gravity."""
     s, c = sin(pos[2]), cos(pos[2])
@@ -55,7 +55,7 @@ def _seen(pos: Any, acc: Any) -> tuple[float, float, float, float]:
     return s, c, ax * s + ay * c, ax * c - ay * s
 
 
-@part
+@loop
 def inertia(chain: Any, pose: Any, rates: Any, changes: Any, frame: Any, force: Any) -> None:
     """Add inertial forces and gravity.
 
@@ -100,7 +100,7 @@ def inertia(chain: Any, pose: Any, rates: Any, changes: Any, frame: Any, force: 
     frame[2] += fx + moment
 
 
-@part
+@loop
 def _disk_tangent(body: Any, pos: Any, vel: Any, acc: Any, beta: float, corner: Any) -> None:
     """Add what belongs to the disk."""
     offset = body.offset
@@ -121,7 +121,7 @@ def _disk_tangent(body: Any, pos: Any, vel: Any, acc: Any, beta: float, corner: 
     corner[2, 2] += dx_phi * lever - (dx + dy_phi) * offset * s - dy * offset * c + body.disk_inertia * r2
 
 
-@part
+@loop
 def inertia_tangent(chain: Any, pose: Any, rates: Any, changes: Any, beta: float, blocks: Any) -> None:
     """Add the derivatives of :func:`inertia` by an increment, see :func:`flexible.ring.frame.inertia`.
 
@@ -202,7 +202,7 @@ def inertia_tangent(chain: Any, pose: Any, rates: Any, changes: Any, beta: float
     corner[2, 2] += fx_phi + moment_phi
 
 
-@part
+@loop
 def energies(chain: Any, pos: Any, q: Any, vel: Any, qv: Any) -> tuple[float, float]:
     """Kinetic energy and gravity (0 with the hoop's centre at the floor)."""
     body, rod = chain
@@ -228,7 +228,7 @@ def energies(chain: Any, pos: Any, q: Any, vel: Any, qv: Any) -> tuple[float, fl
     return kinetic, gravity
 
 
-@part
+@loop
 def momenta(chain: Any, pos: Any, q: Any, error: Any, qe: Any, frame: Any, force: Any) -> None:
     """Mass matrix times a rate: (3,), (n + 2, 3), filled in; rates of the frame are those of (V, h, phi)."""
     body, rod = chain
@@ -238,7 +238,9 @@ def momenta(chain: Any, pos: Any, q: Any, error: Any, qe: Any, frame: Any, force
     dx, dy = ax + offset * alpha * c, ay - offset * alpha * s
     frame[0], frame[1] = dx, dy
     frame[2] = dx * (1 + offset * c) - dy * offset * s + body.disk_inertia * alpha
-    force[:] = 0.0
+    for i in range(force.shape[0]):
+        for a in range(3):
+            force[i, a] = 0.0
     if body.ring_mass == 0:
         return
     a1, a2 = ax * s + ay * c, ax * c - ay * s

@@ -13,9 +13,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid.kernel.compile import jit, part
+from rigid.kernel.compile import jit, loop
 
-from .rod.corotated import chord, directions
+from .rod.corotated import chord
 
 Array = NDArray[np.float64]
 
@@ -35,7 +35,7 @@ class RimNodes(NamedTuple):
     root: Array
 
 
-@part
+@loop
 def rim_point(rod: Any, q: Any, at: int, xi: float, root: Any, moved: Any, by: Any) -> float:
     """Displacement of a point of the rim, its derivatives, and the rotation of the ring there.
 
@@ -51,8 +51,10 @@ def rim_point(rod: Any, q: Any, at: int, xi: float, root: Any, moved: Any, by: A
     by : (2, 18) array
         By the coordinates of the sections at - 1 to at + 2, then of the first and the last free one; both filled in.
     """
-    moved[:] = 0.0
-    by[:] = 0.0
+    for a in range(2):
+        moved[a] = 0.0
+        for i in range(18):
+            by[a, i] = 0.0
     turn = 0.0
     if at >= 0:
         _follow_part(rod, q, at, xi, moved, by)
@@ -63,23 +65,33 @@ def rim_point(rod: Any, q: Any, at: int, xi: float, root: Any, moved: Any, by: A
     return turn
 
 
-@part
+@loop
+def _outward(t1: float, t2: float, now: float, end: int, i: int, k: int) -> float:
+    """Derivative of the i-th strain of the first part, or of the last, by a coordinate of its section off the weld.
+
+    See :func:`flexible.chain.rod.tangent.directions`.
+    """
+    if k == 2:
+        return 0.0 if i == 0 else (i - 1.0 if end == 0 else 2.0 - i)
+    value = (t1 if k == 0 else t2) if i == 0 else (t2 if k == 0 else -t1) / now
+    return value if end == 0 else -value
+
+
+@loop
 def _follow_root(rod: Any, q: Any, at: int, xi: float, turn: float, root: Any, moved: Any, by: Any) -> None:
     """Add what a point near the weld moves besides, turned with the ring."""
     c, s = cos(turn), sin(turn)
-    ways = np.empty((3, 6))
     add1, add2 = 0.0, 0.0
     for end in range(2):
         t1, t2, now, e, tau_1, tau_2 = chord(rod, q, 0 if end == 0 else rod.local.shape[0] - 1)
-        directions(t1, t2, now, ways)
-        strain = (e, tau_1, tau_2)
         for i in range(3):
             r1, r2 = root[0, 3 * end + i], root[1, 3 * end + i]
             g1, g2 = c * r1 - s * r2, s * r1 + c * r2
-            add1 += g1 * strain[i]
-            add2 += g2 * strain[i]
+            strain = e if i == 0 else (tau_1 if i == 1 else tau_2)
+            add1 += g1 * strain
+            add2 += g2 * strain
             for k in range(3):
-                way = ways[i, 3 + k] if end == 0 else ways[i, k]
+                way = _outward(t1, t2, now, end, i, k)
                 by[0, 12 + 3 * end + k] += g1 * way
                 by[1, 12 + 3 * end + k] += g2 * way
     moved[0] += add1
@@ -91,7 +103,7 @@ def _follow_root(rod: Any, q: Any, at: int, xi: float, turn: float, root: Any, m
         by[1, 8] += xi * add1
 
 
-@part
+@loop
 def _follow_part(rod: Any, q: Any, at: int, xi: float, moved: Any, by: Any) -> None:
     """Add what a point moves with the sections around it."""
     width = rod.theta[at + 1] - rod.theta[at]
@@ -125,7 +137,7 @@ def _follow_part(rod: Any, q: Any, at: int, xi: float, moved: Any, by: Any) -> N
             by[1, k - 1 + 3 * near] += weight * (sideward * out1 - inward * out2)
 
 
-@part
+@loop
 def bending(rod: Any, q: Any, i: int) -> float:
     """dphi/dtheta at a section; none at the weld."""
     if i == 0 or i == rod.theta.shape[0] - 1:
@@ -133,7 +145,7 @@ def bending(rod: Any, q: Any, i: int) -> float:
     return rod.curve[i, 0] * q[i - 1, 2] + rod.curve[i, 1] * q[i, 2] + rod.curve[i, 2] * q[i + 1, 2]
 
 
-@part
+@loop
 def rim_curvature(rod: Any, q: Any, at: int, xi: float, f1: float, f2: float, second: Any) -> None:
     """Add second derivatives, (12, 12), of a point's displacement times a force on it, ``root`` left out."""
     if at < 0:
@@ -159,6 +171,11 @@ def follow(rod: Any, q: Any, nodes: Any) -> Any:
     """Displacement of rim nodes by the sections, (m, 2), derivatives (m, 2, 18), rotation of the ring there (m,)."""
     m = nodes.part.shape[0]
     moved, by, turn = np.empty((m, 2)), np.empty((m, 2, 18)), np.empty(m)
-    for k in range(m):
-        turn[k] = rim_point(rod, q, nodes.part[k], nodes.xi[k], nodes.root[k], moved[k], by[k])
+    _follow(rod, q, nodes, moved, by, turn)
     return moved, by, turn
+
+
+@loop
+def _follow(rod: Any, q: Any, nodes: Any, moved: Any, by: Any, turn: Any) -> None:
+    for k in range(turn.shape[0]):
+        turn[k] = rim_point(rod, q, nodes.part[k], nodes.xi[k], nodes.root[k], moved[k], by[k])

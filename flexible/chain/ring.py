@@ -22,10 +22,11 @@ from ..ring.reduction import body_of
 from .bordered import no_blocks
 from .inertia import Body, Chain
 from .rim import RimNodes, follow
-from .rod.corotated import Rod, elastic_tangent
+from .rod.corotated import Rod
 from .rod.ends import chord_strains
 from .rod.parts import FINER, make_rod
 from .rod.section import LOADED, is_slender, rod_compliance
+from .rod.tangent import elastic_tangent
 
 Array = NDArray[np.float64]
 

@@ -16,9 +16,11 @@ from ..contact.points.detection import least_gap
 from ..contact.vectors import largest, times
 from .bordered import FRAME, no_blocks, solve
 from .inertia import energies, inertia, inertia_tangent, momenta
+from .lowest import lowest
 from .rim import RimNodes, follow
-from .rod.corotated import elastic, elastic_tangent, strain_energy
-from .touch import lowest, turned
+from .rod.corotated import elastic, strain_energy
+from .rod.tangent import elastic_tangent
+from .touch import turned
 
 
 @jit

@@ -5,4 +5,5 @@
 ``ends``       the first and the last part, with the joint at the weld
 ``parts``      where the ring is cut, and all its parts
 ``corotated``  how they turn and move far
+``tangent``    their stiffness where they are
 """

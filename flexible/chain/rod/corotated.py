@@ -25,7 +25,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid.kernel.compile import jit, loop, part
+from rigid.kernel.compile import jit, loop
 
 Array = NDArray[np.float64]
 
@@ -98,7 +98,7 @@ def _product(local: Any, e: float, tau_1: float, tau_2: float) -> tuple[float, f
 
 
 @loop
-def _strains(rod: Any, q: Any, p: int) -> tuple[float, float, float, float, float, float, float, float]:
+def strains(rod: Any, q: Any, p: int) -> tuple[float, float, float, float, float, float, float, float]:
     """As :func:`chord`, but the stretch x of the line for its chord's; and the derivatives of x by the angles."""
     t1, t2, now, e, tau_1, tau_2 = chord(rod, q, p)
     bow = rod.bow[p]
@@ -107,49 +107,8 @@ def _strains(rod: Any, q: Any, p: int) -> tuple[float, float, float, float, floa
 
 
 @loop
-def directions(t1: float, t2: float, now: float, by: Any) -> None:
-    """Derivatives (3, 6) of the strains of a part by the coordinates of its sections."""
-    s1, s2 = t1 / now, t2 / now
-    by[0, 0], by[0, 1], by[0, 2], by[0, 3], by[0, 4], by[0, 5] = -t1, -t2, 0.0, t1, t2, 0.0
-    for i in (1, 2):
-        by[i, 0], by[i, 1], by[i, 3], by[i, 4] = -s2, s1, s2, -s1
-        by[i, 2], by[i, 5] = 2.0 - i, i - 1.0
-
-
-@loop
-def _stiffen(t1: float, t2: float, pull: float, turn: float, local: Any, by: Any, tangent: Any) -> None:
-    """Second derivatives (6, 6) of a part's energy, of the stress ``pull`` and ``turn`` over the chord's length."""
-    for k in range(6):
-        s0, s1, s2 = _product(local, by[0, k], by[1, k], by[2, k])
-        for m in range(6):
-            tangent[m, k] = by[0, m] * s0 + by[1, m] * s1 + by[2, m] * s2
-    g11 = pull * t2 * t2 - 2 * turn * t1 * t2
-    g12 = -pull * t1 * t2 + turn * (t1 * t1 - t2 * t2)
-    g22 = pull * t1 * t1 + 2 * turn * t1 * t2
-    for a in (0, 3):
-        for b in (0, 3):
-            sign = 1.0 if a == b else -1.0
-            tangent[a, b] += sign * g11
-            tangent[a, b + 1] += sign * g12
-            tangent[a + 1, b] += sign * g12
-            tangent[a + 1, b + 1] += sign * g22
-
-
-@loop
-def _lengthen(w1: float, w2: float, by: Any) -> None:
-    """Make directions of the chord's elongation those of the line's."""
-    for k in range(6):
-        by[0, k] += w1 * by[1, k] + w2 * by[2, k]
-
-
-@loop
-def _stiffer(rod: Any, p: int, x: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float, float, float]:
-    """What strains add to the stiffness of a part: to the entries 00, 01, 02, 11, 12 and 22."""
-    last = rod.local.shape[0] - 1
-    if 0 < p < last:
-        bend, pull = rod.pulled[p] * (tau_2 - tau_1), rod.pulled[p] * x
-        return 0.0, -bend, bend, pull, -pull, pull
-    third = rod.bent[0 if p == 0 else 1]
+def stiffer(third: Any, x: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float, float, float]:
+    """What strains add to the stiffness of a part at the weld: to the entries 00, 01, 02, 11, 12 and 22."""
     m00 = third[0, 0, 0] * x + third[0, 0, 1] * tau_1 + third[0, 0, 2] * tau_2
     m01 = third[0, 1, 0] * x + third[0, 1, 1] * tau_1 + third[0, 1, 2] * tau_2
     m02 = third[0, 2, 0] * x + third[0, 2, 1] * tau_1 + third[0, 2, 2] * tau_2
@@ -160,23 +119,31 @@ def _stiffer(rod: Any, p: int, x: float, tau_1: float, tau_2: float) -> tuple[fl
 
 
 @loop
-def _stress(rod: Any, q: Any, p: int, x: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float]:
+def stress(local: Any, pulled: float, x: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float]:
     """Energy of a part with these strains, force along its line, and the moments at both ends without it."""
-    local, last = rod.local[p], rod.local.shape[0] - 1
     s0, s1, s2 = _product(local, x, tau_1, tau_2)
-    if p == 0 or p == last:
-        a = rod.across
-        _, _, _, y, y1, y2, _, _ = _strains(rod, q, last - p)
-        if p == 0:
-            a0, a1, a2 = _product(a, y, y1, y2)
-            s0 += a0
-            s1 += a1
-            s2 += a2
-        else:
-            s0 += a[0, 0] * y + a[1, 0] * y1 + a[2, 0] * y2
-            s1 += a[0, 1] * y + a[1, 1] * y1 + a[2, 1] * y2
-            s2 += a[0, 2] * y + a[1, 2] * y1 + a[2, 2] * y2
-    m00, m01, m02, m11, m12, m22 = _stiffer(rod, p, x, tau_1, tau_2)
+    bend = tau_2 - tau_1
+    pull = pulled * x * bend
+    energy = (x * s0 + tau_1 * s1 + tau_2 * s2 + pull * bend) / 2
+    return energy, s0 + pulled * bend * bend / 2, s1 - pull, s2 + pull
+
+
+@loop
+def stress_at_weld(rod: Any, q: Any, p: int, x: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float]:
+    """The same of the first or the last part, which feel each other."""
+    s0, s1, s2 = _product(rod.local[p], x, tau_1, tau_2)
+    a = rod.across
+    _, _, _, y, y1, y2, _, _ = strains(rod, q, rod.local.shape[0] - 1 - p)
+    if p == 0:
+        a0, a1, a2 = _product(a, y, y1, y2)
+        s0 += a0
+        s1 += a1
+        s2 += a2
+    else:
+        s0 += a[0, 0] * y + a[1, 0] * y1 + a[2, 0] * y2
+        s1 += a[0, 1] * y + a[1, 1] * y1 + a[2, 1] * y2
+        s2 += a[0, 2] * y + a[1, 2] * y1 + a[2, 2] * y2
+    m00, m01, m02, m11, m12, m22 = stiffer(rod.bent[min(p, 1)], x, tau_1, tau_2)
     h0 = m00 * x + m01 * tau_1 + m02 * tau_2
     h1 = m01 * x + m11 * tau_1 + m12 * tau_2
     h2 = m02 * x + m12 * tau_1 + m22 * tau_2
@@ -195,10 +162,13 @@ def elastic(rod: Any, q: Any, force: Any) -> float:
         Displacement and rotation of all sections; those of the weld are zero.
     force : (n + 2, 3) array
     """
-    energy = 0.0
-    for p in range(rod.local.shape[0]):
-        t1, t2, now, x, tau_1, tau_2, w1, w2 = _strains(rod, q, p)
-        own, s0, s1, s2 = _stress(rod, q, p, x, tau_1, tau_2)
+    energy, last = 0.0, rod.local.shape[0] - 1
+    for p in range(last + 1):
+        t1, t2, now, x, tau_1, tau_2, w1, w2 = strains(rod, q, p)
+        if 0 < p < last:
+            own, s0, s1, s2 = stress(rod.local[p], rod.pulled[p], x, tau_1, tau_2)
+        else:
+            own, s0, s1, s2 = stress_at_weld(rod, q, p, x, tau_1, tau_2)
         energy += own
         s1 += s0 * w1
         s2 += s0 * w2
@@ -213,74 +183,17 @@ def elastic(rod: Any, q: Any, force: Any) -> float:
     return energy
 
 
-@jit
-def elastic_tangent(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None:
-    """Add the derivatives of the forces of :func:`elastic`.
-
-    Parameters
-    ----------
-    rod : Rod
-    q : (n + 2, 3) array
-    diagonal : (n + 2, 3, 3) array
-    up, down : (n + 1, 3, 3) arrays
-        Derivatives of the forces on section i by i + 1, and on i + 1 by i; those behind n are on n by 1, and on 1 by n.
-    """
-    last = rod.local.shape[0] - 1
-    by, tangent, local = np.empty((3, 6)), np.empty((6, 6)), np.empty((3, 3))
-    for p in range(last + 1):
-        t1, t2, now, x, tau_1, tau_2, w1, w2 = _strains(rod, q, p)
-        _, s0, s1, s2 = _stress(rod, q, p, x, tau_1, tau_2)
-        directions(t1, t2, now, by)
-        _lengthen(w1, w2, by)
-        s1 += s0 * w1
-        s2 += s0 * w2
-        m00, m01, m02, m11, m12, m22 = _stiffer(rod, p, x, tau_1, tau_2)
-        bow = rod.bow[p]
-        local[0, 0], local[0, 1], local[0, 2] = m00, m01, m02
-        local[1, 0], local[1, 1], local[1, 2] = m01, m11 + s0 * bow[0, 0], m12 + s0 * bow[0, 1]
-        local[2, 0], local[2, 1], local[2, 2] = m02, m12 + s0 * bow[1, 0], m22 + s0 * bow[1, 1]
-        for i in range(3):
-            for j in range(3):
-                local[i, j] += rod.local[p, i, j]
-        _stiffen(t1, t2, s0 / now, (s1 + s2) / (now * now), local, by, tangent)
-        for i in range(3):
-            for j in range(3):
-                diagonal[p, i, j] += tangent[i, j]
-                diagonal[p + 1, i, j] += tangent[3 + i, 3 + j]
-                if 0 < p < last:
-                    up[p, i, j] += tangent[i, 3 + j]
-                    down[p, i, j] += tangent[3 + i, j]
-    _add_across(rod, q, up[last], down[last])
-
-
 @loop
 def strain_energy(rod: Any, q: Any) -> float:
     """Strain energy of the chain, see :func:`elastic`."""
-    energy = 0.0
-    for p in range(rod.local.shape[0]):
-        _, _, _, x, tau_1, tau_2, _, _ = _strains(rod, q, p)
-        energy += _stress(rod, q, p, x, tau_1, tau_2)[0]
+    energy, last = 0.0, rod.local.shape[0] - 1
+    for p in range(last + 1):
+        _, _, _, x, tau_1, tau_2, _, _ = strains(rod, q, p)
+        if 0 < p < last:
+            energy += stress(rod.local[p], rod.pulled[p], x, tau_1, tau_2)[0]
+        else:
+            energy += stress_at_weld(rod, q, p, x, tau_1, tau_2)[0]
     return energy
-
-
-@part
-def _add_across(rod: Any, q: Any, up: Any, down: Any) -> None:
-    """What the last section feels of the first, and the first of the last."""
-    last = rod.local.shape[0] - 1
-    first, final = np.empty((3, 6)), np.empty((3, 6))
-    t1, t2, now, _, _, _, w1, w2 = _strains(rod, q, 0)
-    directions(t1, t2, now, first)
-    _lengthen(w1, w2, first)
-    t1, t2, now, _, _, _, w1, w2 = _strains(rod, q, last)
-    directions(t1, t2, now, final)
-    _lengthen(w1, w2, final)
-    for i in range(3):
-        for j in range(3):
-            for a in range(3):
-                for b in range(3):
-                    value = first[i, 3 + a] * rod.across[i, j] * final[j, b]
-                    down[a, b] += value
-                    up[b, a] += value
 
 
 def bends_and_stretches(rod: Rod, q: Array) -> tuple[Array, Array]:
@@ -289,6 +202,6 @@ def bends_and_stretches(rod: Rod, q: Array) -> tuple[Array, Array]:
     bend[1:-1] = sum(rod.curve[1:-1, k] * q[k : len(q) - 2 + k, 2] for k in range(3))
     bend[0], bend[-1] = bend[1], bend[-2]
     lengths = np.hypot(*np.diff(rod.place, axis=0).T)
-    strain = np.array([_strains(rod, q, p)[3] for p in range(len(rod.local))]) / lengths
+    strain = np.array([strains(rod, q, p)[3] for p in range(len(rod.local))]) / lengths
     inner = (strain[1:] + strain[:-1]) / 2
     return bend, np.concatenate([strain[:1], inner, strain[-1:]])
