@@ -162,6 +162,11 @@ def elastic(rod: Any, q: Any, force: Any) -> float:
         Displacement and rotation of all sections; those of the weld are zero.
     force : (n + 2, 3) array
     """
+    return _elastic(rod, q, force)
+
+
+@loop
+def _elastic(rod: Any, q: Any, force: Any) -> float:
     energy, last = 0.0, rod.local.shape[0] - 1
     for p in range(last + 1):
         t1, t2, now, x, tau_1, tau_2, w1, w2 = strains(rod, q, p)

@@ -97,6 +97,14 @@ def elastic_tangent(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None
     up, down : (n + 1, 3, 3) arrays
         Derivatives of the forces on section i by i + 1, and on i + 1 by i; those behind n are on n by 1, and on 1 by n.
     """
+    _within(rod, q, diagonal, up, down)
+    last = rod.local.shape[0] - 1
+    _add_across(rod, q, up[last], down[last])
+
+
+@loop
+def _within(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None:
+    """Of the parts one by one."""
     last = rod.local.shape[0] - 1
     for p in range(last + 1):
         t1, t2, now, x, tau_1, tau_2, w1, w2 = strains(rod, q, p)
@@ -114,7 +122,6 @@ def elastic_tangent(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None
         )  # fmt: skip
         pulls = s0 / now, (s1 + s2 + s0 * (w1 + w2)) / (now * now)
         _add(_stiffness((t1, t2, now), (w1, w2), pulls, second), p, diagonal, up, down, 0 < p < last)
-    _add_across(rod, q, up[last], down[last])
 
 
 @part
