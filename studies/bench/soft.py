@@ -23,7 +23,6 @@ from .rigid import remember
 Measures: TypeAlias = dict[str, float]
 
 CHAIN, NODES, LINEAR = "chain", "all nodes", "reduced"
-AROUND = 240
 ROUGH, USUAL = 1e-3, 3e-4  # of the time that is asked for, and of the comparison
 SECONDS, CLOSE = 2.0, 0.01  # what is stated of a pulse that is resolved
 
@@ -34,6 +33,7 @@ class Soft:
 
     name: str
     scene: Scene
+    around: int = 240
     through: int = 2
     off: float | None = None
     """Largest difference that is stated, None for a pulse that chatters."""
@@ -42,9 +42,10 @@ class Soft:
     finer: bool = False
     """Whether all nodes of a mesh twice as fine are run as well."""
 
-    def on(self, level: str, rtol: float, around: int = AROUND) -> Scene:
+    def on(self, level: str, rtol: float, finer: int = 1) -> Scene:
         through = self.through if level == "exact" else None
-        return self.scene.replace(solve={"level": level, "rtol": rtol, "elements": around, "through": through})
+        mesh = {"elements": finer * self.around, "through": through}
+        return self.scene.replace(solve={"level": level, "rtol": rtol, **mesh})
 
 
 def _hoop(k: float, r: float, mass_ratio: float, bending: float, foundation: float, damping: float) -> Scene:
@@ -136,7 +137,7 @@ def contestants(pulses: Iterable[Soft], truth: Truth, quick: bool) -> list[Conte
         for rtol in (ROUGH, USUAL) if quick else (1e-2, ROUGH, USUAL, 1e-4):
             add(CHAIN, f"rtol {rtol:.0e}", pulse.on("chain", rtol), once=False)
         if pulse.finer and not quick:
-            add(NODES, f"{2 * AROUND} around", pulse.on("exact", USUAL, 2 * AROUND))
+            add(NODES, f"{2 * pulse.around} around", pulse.on("exact", USUAL, 2))
     first = next(iter(pulses))
     step = partial(flexible.simulate, first.on("reduced", USUAL))
     entries.append(Contestant(LINEAR, f"rtol {USUAL:.0e}", first.name, step, lambda m: (nan, measures(m))))
