@@ -89,6 +89,8 @@ class Result:
     rows: list[Row] = field(default_factory=list)
     claims: list[Claim] = field(default_factory=list)
     exponents: dict[str, float] = field(default_factory=dict)
+    compared: tuple[str, ...] = ()
+    """Entries of ``Row.more`` with a table of their own, and how far ``"NAME off"`` says that they are off."""
 
     def to_dict(self) -> dict[str, Any]:
         """What ``--json`` prints."""

@@ -150,7 +150,7 @@ def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[floa
     flexible.simulate(pulses[0].on("chain", 1e-2))
     remember()
     rows = race(contestants(pulses, truth, quick), 2, progress)
-    return Result(rows, _claims(rows, pulses))
+    return Result(rows, _claims(rows, pulses), compared=COMPARED)
 
 
 def _claims(rows: list[Row], pulses: list[Soft]) -> list[Claim]:

@@ -6,7 +6,7 @@ from math import isfinite
 from typing import Any
 
 from ..plots.sheet import Column, Sheet
-from .race import Result
+from .race import NAN, Result
 
 
 def _number(value: float, digits: int = 3) -> str:
@@ -27,6 +27,8 @@ def bench_tables(result: Result) -> list[Any]:
     if any(row.note for row in rows):
         columns.append(Column("note", [row.note for row in rows], words=True))
     shown: list[Any] = [Sheet("Run time against error", keys, columns)]
+    if result.compared:
+        shown.append(_compared(result))
     if result.exponents:
         against = [Column("cost against", list(result.exponents), words=True)]
         powers = [Column("exponent", [f"{power:.2f}" for power in result.exponents.values()])]
@@ -44,3 +46,15 @@ def bench_tables(result: Result) -> list[Any]:
         )
     )
     return shown
+
+
+def _compared(result: Result) -> Sheet:
+    """What the solvers found, and how far off in percent."""
+    rows = [row for row in result.rows if any(name in row.more for name in result.compared)]
+    keys = [Column(name, [getattr(row, name) for row in rows], words=True) for name in ("scene", "solver", "setting")]
+    columns = []
+    for name in result.compared:
+        columns.append(Column(name, [_number(row.more.get(name, NAN), 4) for row in rows]))
+        off = [_number(100 * row.more.get(f"{name} off", NAN), 2) for row in rows]
+        columns.append(Column("off\n[%]", off, joined=True))
+    return Sheet("What they found", keys, columns)
