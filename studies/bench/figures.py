@@ -22,6 +22,7 @@ from .truth.reference import SCENES
 
 _MARKERS = "osv^DPX*<>h"
 _COLOURS = [colour for name, colour in OKABE_ITO.items() if name != "contact_spring"]
+_ACROSS = 4
 _FLOOR = 1e-17  # where an error of nothing at all is drawn
 
 
@@ -32,9 +33,11 @@ def work_precision(rows: Sequence[Row], title: str) -> Figure:
     solvers = list(dict.fromkeys(row.solver for row in shown))
     others = [name for name in solvers if not name.startswith("hoop-pulse")]
     with matplotlib.rc_context(STYLE):
-        figure = Figure(figsize=(4.2 * max(len(scenes), 1) + 1.6, 4.2), layout="constrained")
+        across = min(max(len(scenes), 1), _ACROSS)
+        down = max(-(-len(scenes) // across), 1)
+        figure = Figure(figsize=(4.2 * across + 1.6, 4.2 * down), layout="constrained")
         FigureCanvasAgg(figure)
-        panels = np.atleast_1d(figure.subplots(1, max(len(scenes), 1), sharey=True))
+        panels = np.atleast_1d(figure.subplots(down, across, sharex=down > 1, sharey=True)).ravel()
         for axes, scene in zip(panels, scenes, strict=False):
             for number, name in enumerate(solvers):
                 mine = sorted((row for row in shown if (row.scene, row.solver) == (scene, name)), key=lambda r: r.error)
@@ -53,8 +56,12 @@ def work_precision(rows: Sequence[Row], title: str) -> Figure:
             axes.set(xscale="log", yscale="log", xlabel="error")
             axes.set_title(f"{scene}\n{SCENES[scene]}" if scene in SCENES else scene, fontsize=10)
             _ticks(axes.xaxis)
+            axes.tick_params(labelbottom=True)
+        for axes in panels[len(scenes) :]:
+            axes.set_axis_off()
         _ticks(panels[0].yaxis)
-        panels[0].set_ylabel("seconds")
+        for axes in panels[::across]:
+            axes.set_ylabel("seconds")
         handles: dict[str, Any] = {}
         for axes in panels:
             for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
@@ -111,4 +118,5 @@ def draw(what: str, result: Result, out: Path) -> list[Path]:
     """All figures of a benchmark into a folder."""
     if what == "scaling":
         return [save(cost(result.rows, result.exponents), out / "bench-scaling.png")]
-    return [save(work_precision(result.rows, f"{what}: run time against error"), out / f"bench-{what}.png")]
+    against = "difference from all nodes" if what == "soft" else "error"
+    return [save(work_precision(result.rows, f"{what}: run time against {against}"), out / f"bench-{what}.png")]
