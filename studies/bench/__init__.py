@@ -1,8 +1,9 @@
 """`hoop bench`: run time against error, and the ratios that are stated.
 
-``rigid``, ``flexible``, ``scaling``  what is timed, each with its claims;  ``skipped``  what each thing skipped saves
-``race``                              contestants in turns, rows, claims
-``precision``, ``reference``          what is taken for true: forty digits, all nodes in the limit
-``peers``                             the same scenes by other tools, and what those tend to
-``tables``, ``figures``               how it is shown
+``rigid``, ``flexible``, ``soft``, ``scaling``  what is timed, each with its claims
+``skipped``            what each thing skipped saves
+``race``               contestants in turns, rows, claims
+``truth``              what is taken for true: forty digits, all nodes in the limit
+``peers``              the same scenes by other tools, and what those tend to
+``tables``, ``figures``  how it is shown
 """

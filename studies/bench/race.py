@@ -1,9 +1,4 @@
-"""Run time against error: contestants of one scene, timed in turns on the same core, and the ratios that are claimed.
-
-``bench_rigid``, ``bench_flexible``, ``bench_scaling``  what is measured
-``peers``, ``peers_exudyn``  the others;  ``precision``, ``bench_reference``  the truth
-``bench_figures``  work-precision diagrams
-"""
+"""Run time against error: contestants of one scene, timed in turns on the same core, and the ratios that are claimed."""
 
 from __future__ import annotations
 

@@ -26,7 +26,15 @@ if TYPE_CHECKING:
 def bench(
     ctx: click.Context, what: str, as_json: bool, out: Path | None, peers_too: bool, check: bool, quick: bool
 ) -> None:
-    """Run time against error, peak memory, and the ratios that are stated."""
+    """Run time against error, peak memory, and the ratios that are stated.
+
+    \b
+    rigid     a first cycle against forty digits, beside scipy
+    flexible  the pulse of a stiff ring against all nodes, knob by knob
+    soft      pulses of rings that bend far, beside all nodes of the exact
+              ring; twenty minutes, two with --quick
+    scaling   cost against stiffness, turns, mesh, scenes and workers
+    """
     from ..machine.processes import Processes
     from ..running.progress import bar
     from ..running.solvers import prepare
