@@ -1,4 +1,4 @@
-"""Run time against error: contestants of one scene, timed in turns on the same core, and the ratios that are claimed."""
+"""Run time against error: contestants of one scene, timed in turns on one core, and the ratios that are claimed."""
 
 from __future__ import annotations
 
