@@ -54,7 +54,8 @@ from .stages import Taken, held, take
 SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
 SHORT = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
 FARTHEST = 1e-4  # a leap over an instant to which no step however short leads
-DARING = 3.0  # times its tolerance a leap may err: it is that, or the end of the run
+WIDER, CLOSER = 10.0, 1.5  # is each leap than the one before it; closer where those led nowhere
+DARING, RASH = 3.0, 30.0  # times its tolerance a leap may err, and one of those: it is that, or the end of the run
 MOST_STALLS = 50  # events within a shortest step of each other
 SPAN = 25  # steps tried between two looks at what else the machine has to do: 0.1 s at most
 COLUMNS = len(Record._fields) + 1  # of a row: a record, and the rotation of the rim at the floor
@@ -147,9 +148,19 @@ def _ended(t: float, phi: float, turns: int, ends: Ends) -> bool:
 
 
 @loop
-def _daring(leap: float) -> float:
+def _daring(leap: float, wider: float) -> float:
     """Times its tolerance a step may err."""
-    return DARING if leap > 0 else 1.0
+    if leap == 0:
+        return 1.0
+    return DARING if wider == WIDER else RASH
+
+
+@loop
+def _farther(leap: float, wider: float) -> tuple[float, float]:
+    """The leap to try after one, 0 if there is none, and how much wider it is."""
+    if leap < FARTHEST:
+        return max(wider * leap, SHORT), wider
+    return (SHORT, CLOSER) if wider == WIDER else (0.0, wider)
 
 
 @loop
@@ -167,18 +178,19 @@ def advance(
     """
     state, h, pace, books, attempts, turns, stalls, cut = now
     written, span, window, search, event, why = 0, attempts + SPAN, state.window, NOWHERE, NO_EVENT, 0
-    asked, tries, grown, this, leap = h, h, h, pace, 0.0
+    asked, tries, grown, this, leap, wider = h, h, h, pace, 0.0, WIDER
     if _ended(state.t, state.pos[2], turns, ends):
         why = REACHED
     while why == 0:
         if search.event == NO_EVENT:
             if not aims.alone:
-                why = _pause(written < rows.shape[0] and attempts < span, attempts < aims.most, h)
+                room = written < rows.shape[0] and (attempts < span or leap > 0)  # where it leaps, no march stands
+                why = _pause(room, attempts < aims.most, h)
             # a spot of a soft rim that its bristles hold to the floor may snap off it, and forces jump: there the state
             # has no neighbour, to which a step however short would lead, but one beyond
-            if why == UNSOLVED and leap < FARTHEST:
-                why, leap = 0, max(10 * leap, SHORT)
-                h = leap
+            if why == UNSOLVED:
+                leap, wider = _farther(leap, wider)
+                h, why = leap, 0 if leap > 0 else UNSOLVED
             if why != 0:
                 break
             cut = cut or h > ends.t - state.t
@@ -195,7 +207,7 @@ def advance(
         seen = Sight(state.mode, taken.pos[2], taken.vel[2], taken.res, taken.slip_velocity, taken.feet_velocity)
         length = (state.t + tries) - state.t
         if search.event == NO_EVENT:
-            error, wanted = taken.error / aims.tolerance if solved else inf, care(law, before) * _daring(leap)
+            error, wanted = taken.error / aims.tolerance if solved else inf, care(law, before) * _daring(leap, wider)
             alike = not sticks(law, state.mode) or seen.res.friction * state.res.friction > 0
             if leap > 0 and error <= wanted and alike and passed(MODE_ENDS, law, ends, before, seen) >= 0:
                 why, h, pace = MODE_ENDED if stalls < MOST_STALLS else STALLED, SHORT, AFRESH
@@ -240,7 +252,7 @@ def advance(
             why = STALLED
         elif event == MODE_ENDS:
             why, h, pace = MODE_ENDED, max(min(asked, grown) / 8, SHORT), AFRESH
-        search, event, leap = NOWHERE, NO_EVENT, 0.0
+        search, event, leap, wider = NOWHERE, NO_EVENT, 0.0, WIDER
     return Advanced(Standing(state, h, pace, books, attempts, turns, stalls, cut), written, why, window)
 
 

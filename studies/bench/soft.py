@@ -25,6 +25,9 @@ Measures: TypeAlias = dict[str, float]
 CHAIN, NODES, LINEAR = "chain", "all nodes", "reduced"
 ROUGH, USUAL, FINE = 1e-3, 3e-4, 1e-4  # tolerance of the time that is stated, and of the comparison, of thick walls too
 SECONDS, CLOSE = 2.0, 0.01  # what is stated of a pulse that is resolved
+PEAK, HOPS = "N_max", "off floor"
+SMOOTH = ("J_F/J_N", "J_N", "loss")
+COMPARED = (*SMOOTH, PEAK, HOPS)
 LEAST = 1e-3  # of what is compared; a difference is relative to no less
 
 
@@ -96,11 +99,6 @@ def measures(motion: FlexibleMotion) -> Measures:
         HOPS: time_off_floor(motion, pulse),
         "steps": float(motion.steps),
     }
-
-
-PEAK, HOPS = "N_max", "off floor"
-SMOOTH = ("J_F/J_N", "J_N", "loss")
-COMPARED = (*SMOOTH, PEAK, HOPS)
 
 
 @dataclass
