@@ -184,8 +184,7 @@ def advance(
     while why == 0:
         if search.event == NO_EVENT:
             if not aims.alone:
-                room = written < rows.shape[0] and (attempts < span or leap > 0)  # where it leaps, no march stands
-                why = _pause(room, attempts < aims.most, h)
+                why = _pause(written < rows.shape[0] and (attempts < span or leap > 0), attempts < aims.most, h)
             # a spot of a soft rim that its bristles hold to the floor may snap off it, and forces jump: there the state
             # has no neighbour, to which a step however short would lead, but one beyond
             if why == UNSOLVED:
