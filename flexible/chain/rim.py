@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from rigid.kernel.compile import jit, loop
 
-from .rod.corotated import chord
+from .rod.corotated import chord, outward
 
 Array = NDArray[np.float64]
 
@@ -66,18 +66,6 @@ def rim_point(rod: Any, q: Any, at: int, xi: float, root: Any, moved: Any, by: A
 
 
 @loop
-def _outward(t1: float, t2: float, now: float, end: int, i: int, k: int) -> float:
-    """Derivative of the i-th strain of the first part, or of the last, by a coordinate of its section off the weld.
-
-    See :func:`flexible.chain.rod.tangent.directions`.
-    """
-    if k == 2:
-        return 0.0 if i == 0 else (i - 1.0 if end == 0 else 2.0 - i)
-    value = (t1 if k == 0 else t2) if i == 0 else (t2 if k == 0 else -t1) / now
-    return value if end == 0 else -value
-
-
-@loop
 def _follow_root(rod: Any, q: Any, at: int, xi: float, turn: float, root: Any, moved: Any, by: Any) -> None:
     """Add what a point near the weld moves besides, turned with the ring."""
     c, s = cos(turn), sin(turn)
@@ -91,7 +79,7 @@ def _follow_root(rod: Any, q: Any, at: int, xi: float, turn: float, root: Any, m
             add1 += g1 * strain
             add2 += g2 * strain
             for k in range(3):
-                way = _outward(t1, t2, now, end, i, k)
+                way = outward(t1, t2, now, end, i, k)
                 by[0, 12 + 3 * end + k] += g1 * way
                 by[1, 12 + 3 * end + k] += g2 * way
     moved[0] += add1

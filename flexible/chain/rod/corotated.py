@@ -90,6 +90,16 @@ def chord(rod: Any, q: Any, p: int) -> tuple[float, float, float, float, float, 
 
 
 @loop
+def outward(t1: float, t2: float, now: float, end: int, i: int, k: int) -> float:
+    """Derivative of the i-th strain of the first part, or with ``end`` = 1 of the last, by a coordinate of its section
+    off the weld, for a chord of this direction and length."""
+    if k == 2:
+        return 0.0 if i == 0 else (i - 1.0 if end == 0 else 2.0 - i)
+    value = (t1 if k == 0 else t2) if i == 0 else (t2 if k == 0 else -t1) / now
+    return value if end == 0 else -value
+
+
+@loop
 def _product(local: Any, e: float, tau_1: float, tau_2: float) -> tuple[float, float, float]:
     s0 = local[0, 0] * e + local[0, 1] * tau_1 + local[0, 2] * tau_2
     s1 = local[1, 0] * e + local[1, 1] * tau_1 + local[1, 2] * tau_2

@@ -8,17 +8,7 @@ import numpy as np
 
 from rigid.kernel.compile import jit, loop, part
 
-from .corotated import stiffer, strains, stress, stress_at_weld
-
-
-@loop
-def directions(t1: float, t2: float, now: float, by: Any) -> None:
-    """Derivatives (3, 6) of the strains of a part by the coordinates of its sections."""
-    s1, s2 = t1 / now, t2 / now
-    by[0, 0], by[0, 1], by[0, 2], by[0, 3], by[0, 4], by[0, 5] = -t1, -t2, 0.0, t1, t2, 0.0
-    for i in (1, 2):
-        by[i, 0], by[i, 1], by[i, 3], by[i, 4] = -s2, s1, s2, -s1
-        by[i, 2], by[i, 5] = 2.0 - i, i - 1.0
+from .corotated import outward, stiffer, strains, stress, stress_at_weld
 
 
 @loop
@@ -78,13 +68,6 @@ def _add(tangent: Any, p: int, diagonal: Any, up: Any, down: Any, joins: bool) -
         below[2, 0], below[2, 1], below[2, 2] = -k03, -k13, k23
 
 
-@loop
-def _lengthen(w1: float, w2: float, by: Any) -> None:
-    """Make directions of the chord's elongation those of the line's."""
-    for k in range(6):
-        by[0, k] += w1 * by[1, k] + w2 * by[2, k]
-
-
 @jit
 def elastic_tangent(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None:
     """Add the derivatives of the forces of :func:`elastic`; those between two sections are filled in.
@@ -124,21 +107,26 @@ def _within(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None:
         _add(_stiffness((t1, t2, now), (w1, w2), pulls, second), p, diagonal, up, down, 0 < p < last)
 
 
+@loop
+def _outwards(rod: Any, q: Any, p: int, end: int, by: Any) -> None:
+    """Derivatives (3, 3) of the strains of the first or the last part, of its line, by its section off the weld."""
+    t1, t2, now, _, _, _, w1, w2 = strains(rod, q, p)
+    for k in range(3):
+        for i in range(3):
+            by[i, k] = outward(t1, t2, now, end, i, k)
+        by[0, k] += w1 * by[1, k] + w2 * by[2, k]
+
+
 @part
 def _add_across(rod: Any, q: Any, up: Any, down: Any) -> None:
     """What the last section feels of the first, and the first of the last."""
-    last = rod.local.shape[0] - 1
-    first, final = np.empty((3, 6)), np.empty((3, 6))
-    t1, t2, now, _, _, _, w1, w2 = strains(rod, q, 0)
-    directions(t1, t2, now, first)
-    _lengthen(w1, w2, first)
-    t1, t2, now, _, _, _, w1, w2 = strains(rod, q, last)
-    directions(t1, t2, now, final)
-    _lengthen(w1, w2, final)
+    first, final = np.empty((3, 3)), np.empty((3, 3))
+    _outwards(rod, q, 0, 0, first)
+    _outwards(rod, q, rod.local.shape[0] - 1, 1, final)
     for i in range(3):
         for j in range(3):
             for a in range(3):
                 for b in range(3):
-                    value = first[i, 3 + a] * rod.across[i, j] * final[j, b]
+                    value = first[i, a] * rod.across[i, j] * final[j, b]
                     down[a, b] += value
                     up[b, a] += value
