@@ -17,7 +17,7 @@ from .models.state import State
 
 Arrays = dict[str, NDArray[Any]]
 
-_NUMBERS = ("t", "x_C", "slip_velocity", "elastic_rate", "feet_velocity", "elastic_bend")
+_NUMBERS = ("t", "x_C", "slip_velocity", "elastic_rate", "normal_rate", "drag_rate", "elastic_bend")
 _WHOLE = ("mode", "window")
 _STACKED = ("pos", "vel", "acc", "jerk")
 _ENDED = ("u", "nodal")

@@ -31,7 +31,8 @@ class State(NamedTuple):
     bristles: Bristles
     slip_velocity: float
     elastic_rate: float  # of N_el
-    feet_velocity: float  # of the feet of a sliding patch's bristles, along the floor
+    normal_rate: float  # of N, 0 where it is not known
+    drag_rate: float  # of what the damper would drag on the patch if that stuck, likewise
     jerk: Any  # rate of acc, 0 where it is not known
     elastic_bend: float  # rate of elastic_rate
 
@@ -69,7 +70,7 @@ def in_motion(t: float, x_C: float, rows: tuple[Array, Array, Array], mode: int,
     pos, vel, acc = rows
     return State(
         float(t), float(x_C), pos, vel, acc, mode, rim.window, rim.u, rim.nodal, rim.res, rim.bristles, float(slip),
-        elastic_rate=0.0, feet_velocity=0.0, jerk=np.zeros_like(pos), elastic_bend=0.0,
+        elastic_rate=0.0, normal_rate=0.0, drag_rate=0.0, jerk=np.zeros_like(pos), elastic_bend=0.0,
     )  # fmt: skip
 
 
@@ -78,6 +79,7 @@ class Model(Protocol):
 
     law: Law
     relaxation: float
+    linear: bool  # whether the ring is
 
     @property
     def arrays(self) -> Any:

@@ -100,7 +100,8 @@ def _reached(old: State, h: float, taken: Any, mode: int) -> State:
     pos[0] = 0.0
     return State(
         old.t + h, x_C, pos, taken.vel, taken.acc, mode, taken.window, taken.u, taken.nodal, taken.res,
-        taken.bristles, taken.slip_velocity, taken.elastic_rate, taken.feet_velocity, taken.jerk, taken.elastic_bend,
+        taken.bristles, taken.slip_velocity, taken.elastic_rate, taken.normal_rate, taken.drag_rate, taken.jerk,
+        taken.elastic_bend,
     )  # fmt: skip
 
 
@@ -164,6 +165,14 @@ def _farther(leap: float, wider: float) -> tuple[float, float]:
 
 
 @loop
+def _sight(there: Any, mode: int) -> Sight:
+    """What tells of events before a step, or behind it."""
+    return Sight(
+        mode, there.pos[2], there.vel[2], there.res, there.slip_velocity, there.normal_rate, there.drag_rate
+    )  # fmt: skip
+
+
+@loop
 def _damping(aims: Aims, law: Parameters, state: State) -> tuple[float, float]:
     """The normal damper's time, and the coefficient of the sticking patch against slip."""
     return aims.relaxation, aims.relaxation * law.eps_t * state.res.length
@@ -202,8 +211,7 @@ def advance(
         if lacking or (aims.alone and not solved):
             why, window, attempts = LACKS if lacking else NO_FORCES, taken.window, attempts - 1
             break
-        before = Sight(state.mode, state.pos[2], state.vel[2], state.res, state.slip_velocity, state.feet_velocity)
-        seen = Sight(state.mode, taken.pos[2], taken.vel[2], taken.res, taken.slip_velocity, taken.feet_velocity)
+        before, seen = _sight(state, state.mode), _sight(taken, state.mode)
         length = (state.t + tries) - state.t
         if search.event == NO_EVENT:
             error, wanted = taken.error / aims.tolerance if solved else inf, care(law, before) * _daring(leap, wider)

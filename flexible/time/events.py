@@ -48,7 +48,8 @@ class Sight(NamedTuple):
     omega: float
     res: Resultants
     slip_velocity: float
-    feet_velocity: float
+    normal_rate: float
+    drag_rate: float
 
 
 @loop

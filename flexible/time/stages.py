@@ -58,7 +58,8 @@ class Taken(NamedTuple):
     bristles: Bristles
     slip_velocity: float
     elastic_rate: float
-    feet_velocity: float
+    normal_rate: float
+    drag_rate: float
     jerk: Any  # rate of acc, 0 after no step
     elastic_bend: float  # rate of elastic_rate
     error: float  # of the velocities
@@ -86,17 +87,14 @@ class _Known(NamedTuple):
     stored: Any
     way: Any
     slip_velocity: Any
-    feet: Any
 
 
 @part
 def _nothing_known(stages: int, n: int) -> _Known:
     """Room for so many stages."""
     pos, vel, acc = np.zeros((stages, n)), np.zeros((stages, n)), np.zeros((stages, n))
-    rows = np.zeros((10, stages))
-    return _Known(
-        pos, vel, acc, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8], rows[9]
-    )
+    rows = np.zeros((9, stages))
+    return _Known(pos, vel, acc, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8])
 
 
 @loop
@@ -176,6 +174,19 @@ def _damped(table: Table, known: _Known) -> float:
 
 
 @loop
+def _rates(table: Table, known: _Known, h: float, end: int, drag: float) -> tuple[float, float]:
+    """Rate of N at the end of a step, and of what a damper of coefficient ``drag`` would add to F if the patch stuck.
+
+    That of N_el is the step's own, the others are its stages'.
+    """
+    damped, slip = 0.0, 0.0
+    for i in range(known.normal.shape[0]):
+        damped += table.end_rate[i] * (known.normal[i] - known.elastic[i])
+        slip += table.end_rate[i] * known.slip_velocity[i]
+    return known.elastic_rate[end] + damped / h, -drag * slip / h
+
+
+@loop
 def _work(table: Table, force: Any, way: Any) -> float:
     """Work of a force along a way, both known at the stages."""
     total = 0.0
@@ -251,13 +262,12 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any, known_to: f
         pose, carried = known.pos[i], res.elastic
         known.elastic_rate[i] = (res.elastic - damper.elastic_0) / beta
         known.way[i], known.slip_velocity[i] = res.way, (res.way - damper.way_0) / beta
-        known.feet[i] = res.feet
         if i == stages - 1 and h > 0:
             off = advanced(np.zeros(pos.shape[0]), h, table.error, known.acc, stages)
             error = momentum_error(model, known.pos[i], known.vel[i], known.acc[i], beta, found.matrix, off)
     jerk = advanced(np.zeros(old.pos.shape[0]), 1 / h, table.trend, known.acc, stages) if h > 0 else times(0.0, old.pos)
     bend = _sum(1 / h, table.trend, known.elastic_rate, stages) if h > 0 else 0.0
-    feet = _sum(1 / h, table.end_rate, known.feet, stages) if h > 0 else 0.0
+    normal_rate, drag_rate = _rates(table, known, h, end, damping[1]) if h > 0 else (0.0, 0.0)
     off_floor = 0.0
     for i in range(stages):
         if known.normal[i] == 0:
@@ -273,7 +283,8 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any, known_to: f
                 numerical += table.work[i, j] * along(force, known.pos[j], known.pos[0])
     return Taken(
         ok, known.pos[end].copy(), known.vel[end].copy(), known.acc[end].copy(), window, u, nodal, res, bristles,
-        known.slip_velocity[end], known.elastic_rate[end], feet, jerk, bend, error,
+        known.slip_velocity[end], known.elastic_rate[end], normal_rate, drag_rate, jerk, bend,
+        error,
         _sum(h, table.b, known.normal, stages), _sum(h, table.b, known.friction, stages),
         res.beyond + _work(table, known.friction, known.way) - drag_work, _damped(table, known) - drag_work,
         numerical, off_floor, after,

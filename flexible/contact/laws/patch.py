@@ -49,7 +49,7 @@ def _stick(forces: Any, points: Any, carried: Any, load: Any, slip: Any, law: An
     dragging = load.elastic > 0 and slip.drag > 0
     drag = slip.held - slip.drag * (slip.way - slip.way_0) if dragging else 0.0
     shared = Shared(dragging, drag, -slip.drag if dragging else 0.0, 0.0, drag, np.inf)
-    return Tractions(shared, energy, stuck, 0.0)
+    return Tractions(shared, energy, stuck)
 
 
 @loop
@@ -63,18 +63,15 @@ def _slide(forces: Any, points: Any, foundation: Any, carried: Any, mode: int, l
         lumped -= law.eps_n * weight[i] * min(points.gap[i], 0.0)
     even = load.elastic / lumped if lumped > 0 else 1.0
     force_by_gaps(forces.by_gap, load.eta * mode * law.mu, foundation)
-    energy, held, pulled = 0.0, 0.0, 0.0
+    energy = 0.0
     for i in range(weight.shape[0]):
         forces.share[i] = mode * law.mu * foundation.force[i]
         forces.force[i] = load.eta * forces.share[i]
-        held -= weight[i] * law.eps_t * carried.stretch[i]
         # what a damper adds to the pressure is no spring: bristles that held it would give it back when they stick
         pressure = -law.eps_n * min(points.gap[i], 0.0)
         carried.stretch[i] = -min(load.eta, 1.0) * even * mode * law.mu * pressure / law.eps_t
-        pulled -= weight[i] * law.eps_t * carried.stretch[i]
         energy += weight[i] * law.eps_t * carried.stretch[i] ** 2 / 2
-    feet = (pulled - held) / (law.eps_t * foundation.length) if foundation.length > 0 else 0.0
-    return Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0, feet)
+    return Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0)
 
 
 @loop
@@ -91,9 +88,9 @@ def tractions(
 def excess(law: Parameters, state: Any, force: float, velocity: float) -> float:
     """How far |F| is beyond mu_s N, or the slip beyond zero: see :func:`flexible.contact.laws.listing.excess`.
 
-    A patch sticks up to ``|F| = mu_s N``. It slides as long as it moves against its friction, and beyond that while
-    the feet of its bristles do: where N falls faster than the bristles let go, a patch that stuck would break in
-    the same instant. A damper that adds to N leaves no such doubt.
+    A patch sticks up to ``|F| = mu_s N``. It slides as long as it moves against its friction, and beyond that where
+    mu N falls faster than what bristles and damper would pull if it stuck: it would break in the same instant. A damper
+    that adds to N leaves no such doubt.
     """
     res = state.res
     if state.mode == STICK:  # a damper may take all of N while the bristles still pull
@@ -101,9 +98,11 @@ def excess(law: Parameters, state: Any, force: float, velocity: float) -> float:
         return beyond if res.elastic > 0 else -inf
     if res.normal == 0 or law.mu_s == 0:
         return -inf
-    against = state.mode * state.slip_velocity
-    feet = state.mode * state.feet_velocity if res.eta <= 1 else inf
-    return float(min(against, feet) / velocity)
+    beyond = state.mode * state.slip_velocity
+    if res.eta <= 1 and res.length > 0:
+        lasting = law.mu * state.normal_rate - state.mode * state.drag_rate
+        beyond += min(lasting / (law.eps_t * res.length), 0.0)
+    return float(beyond / velocity)
 
 
 @loop

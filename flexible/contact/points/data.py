@@ -130,7 +130,6 @@ class Tractions(NamedTuple):
     shared: Shared
     energy: float  # stored
     stuck: float  # length of the patch that sticks
-    feet: float  # how far the feet of the bristles slid in the step, where all slide
 
 
 class Resultants(NamedTuple):
@@ -151,7 +150,6 @@ class Resultants(NamedTuple):
     beyond: float  # work of the bristles beyond their mean force times the mean way
     steepness: float  # -dF/dx of a force shared by the patch as a whole, x its way
     reach: float  # in x over which that is about linear
-    feet: float  # how far the feet of the bristles of a sliding patch slid in the step
 
 
 class Contact(NamedTuple):
@@ -167,7 +165,7 @@ class Contact(NamedTuple):
     by_held: Any  # (n,) by the damper's ``held``; both where there is a tangent and the damper acts
 
 
-NOTHING = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, inf, 0.0)
+NOTHING = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, inf)
 
 
 @jit
