@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .contact.points.data import Bristles, Resultants
+from .contact.points.data import Bristles, Rates, Resultants
 from .models.state import State
 
 Arrays = dict[str, NDArray[Any]]
 
-_NUMBERS = ("t", "x_C", "slip_velocity", "elastic_rate", "normal_rate", "drag_rate", "elastic_bend")
+_NUMBERS = ("t", "x_C", "slip_velocity", "elastic_rate", "elastic_bend")
 _WHOLE = ("mode", "window")
 _STACKED = ("pos", "vel", "acc", "jerk")
 _ENDED = ("u", "nodal")
@@ -29,6 +29,7 @@ def pack(states: Sequence[State]) -> Arrays:
         **{name: np.array([getattr(state, name) for state in states]) for name in (*_NUMBERS, *_WHOLE)},
         **{name: np.stack([getattr(state, name) for state in states]) for name in _STACKED},
         "res": np.array([tuple(state.res) for state in states], dtype=float),
+        "rates": np.array([tuple(state.rates) for state in states], dtype=float),
         "nodes": np.array([len(state.u) for state in states]),
         "points": np.array([len(state.bristles.number) for state in states]),
     }
@@ -56,7 +57,11 @@ def unpack(arrays: Mapping[str, NDArray[Any]]) -> tuple[State, ...]:
         values |= {name: arrays[name][i].copy() for name in _STACKED}
         values |= {name: ended[name][i].copy() for name in _ENDED}
         first, count = arrays["window"][i].tolist()
-        res = Resultants(*arrays["res"][i].tolist())
+        res, rates = Resultants(*arrays["res"][i].tolist()), Rates(*arrays["rates"][i].tolist())
         points_of = Bristles(**{name: bristles[name][i].copy() for name in Bristles._fields})
-        states.append(State(mode=int(arrays["mode"][i]), window=(first, count), res=res, bristles=points_of, **values))
+        states.append(
+            State(
+                mode=int(arrays["mode"][i]), window=(first, count), res=res, bristles=points_of, rates=rates, **values
+            )
+        )
     return tuple(states)

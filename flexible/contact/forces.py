@@ -233,7 +233,7 @@ def _touch(
         kept += 1 if forces.keeps[i] != 0 else 0
     res = Resultants(
         force[1], force[0], energy, answer.energy, length, stuck, way, low, high, elastic, eta, shared.damping, beyond,
-        -shared.by_way, shared.reach,
+        -shared.by_way, shared.reach, answer.feet,
     )  # fmt: skip
     return res, outside, kept
 
@@ -276,7 +276,7 @@ def contact_forces(
         res, outside, kept = _touch(pose, u, rim, law, mode, before, damper, room)
     else:
         way = _way_over_the_floor(pose, u, rim, before)
-        res = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, way, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf)
+        res = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, way, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf, 0.0)
         outside, kept = False, 0
     bristles = Bristles(np.empty(kept, np.int64), np.empty(kept), np.empty(kept), np.empty(kept, np.int8))
     keep(room, bristles)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..contact.laws.law import Law
-from ..contact.points.data import Bristles, Damper, Resultants
+from ..contact.points.data import UNKNOWN, Bristles, Damper, Rates, Resultants
 from ..contact.stage import Predictor, Stage
 
 Array = NDArray[np.float64]
@@ -31,8 +31,7 @@ class State(NamedTuple):
     bristles: Bristles
     slip_velocity: float
     elastic_rate: float  # of N_el
-    normal_rate: float  # of N, 0 where it is not known
-    drag_rate: float  # of what the damper would drag on the patch if that stuck, likewise
+    rates: Rates
     jerk: Any  # rate of acc, 0 where it is not known
     elastic_bend: float  # rate of elastic_rate
 
@@ -70,7 +69,7 @@ def in_motion(t: float, x_C: float, rows: tuple[Array, Array, Array], mode: int,
     pos, vel, acc = rows
     return State(
         float(t), float(x_C), pos, vel, acc, mode, rim.window, rim.u, rim.nodal, rim.res, rim.bristles, float(slip),
-        elastic_rate=0.0, normal_rate=0.0, drag_rate=0.0, jerk=np.zeros_like(pos), elastic_bend=0.0,
+        elastic_rate=0.0, rates=UNKNOWN, jerk=np.zeros_like(pos), elastic_bend=0.0,
     )  # fmt: skip
 
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from rigid.kernel.interrupts import answer
 
 from ..contact.laws.listing import free, may_end, opposite, sticks, successor
+from ..contact.points.data import UNKNOWN
 from ..models import reduced
 from ..models.state import Energies, Model, Record, State
 from .advance import COLUMNS, SHORT, SPAN, Aims, advance, advance_reduced, write
@@ -122,7 +123,7 @@ def restart(model: Model, state: State, mode: int) -> State:
     pos[3:] = found.pos[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
     return found._replace(
         x_C=state.x_C, pos=pos, vel=state.vel, slip_velocity=state.slip_velocity, elastic_rate=state.elastic_rate,
-        normal_rate=0.0, drag_rate=0.0, jerk=np.zeros_like(pos), elastic_bend=0.0,
+        rates=UNKNOWN, jerk=np.zeros_like(pos), elastic_bend=0.0,
     )  # fmt: skip
 
 

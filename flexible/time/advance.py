@@ -100,8 +100,7 @@ def _reached(old: State, h: float, taken: Any, mode: int) -> State:
     pos[0] = 0.0
     return State(
         old.t + h, x_C, pos, taken.vel, taken.acc, mode, taken.window, taken.u, taken.nodal, taken.res,
-        taken.bristles, taken.slip_velocity, taken.elastic_rate, taken.normal_rate, taken.drag_rate, taken.jerk,
-        taken.elastic_bend,
+        taken.bristles, taken.slip_velocity, taken.elastic_rate, taken.rates, taken.jerk, taken.elastic_bend,
     )  # fmt: skip
 
 
@@ -167,9 +166,7 @@ def _farther(leap: float, wider: float) -> tuple[float, float]:
 @loop
 def _sight(there: Any, mode: int) -> Sight:
     """What tells of events before a step, or behind it."""
-    return Sight(
-        mode, there.pos[2], there.vel[2], there.res, there.slip_velocity, there.normal_rate, there.drag_rate
-    )  # fmt: skip
+    return Sight(mode, there.pos[2], there.vel[2], there.res, there.slip_velocity, there.rates)
 
 
 @loop

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 from rigid.kernel.compile import loop
 
 from ..contact.laws.listing import excess, may_end
-from ..contact.points.data import EXACTLY, Resultants
+from ..contact.points.data import EXACTLY, Rates, Resultants
 
 NO_EVENT, MODE_ENDS, TURN, LOW_END, HIGH_END = range(-1, 4)
 
@@ -48,8 +48,7 @@ class Sight(NamedTuple):
     omega: float
     res: Resultants
     slip_velocity: float
-    normal_rate: float
-    drag_rate: float
+    rates: Rates
 
 
 @loop

@@ -6,13 +6,14 @@ of one whose stages are compiled too.
 
 from __future__ import annotations
 
+from math import nan
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from rigid.kernel.compile import loop, part
 
-from ..contact.points.data import Bristles, Damper, Resultants
+from ..contact.points.data import UNKNOWN, Bristles, Damper, Rates, Resultants
 from ..contact.stage import Near, Predictor
 from ..contact.vectors import largest, plus, times
 from .methods import Table
@@ -42,6 +43,7 @@ def momentum_error(model: Any, pos: Any, vel: Any, acc: Any, beta: float, matrix
 #: the beta of a step of no length: what it moves, beta^2 acc, must be nothing to the thinnest patch, whose depth as it
 #: opens is some 1e-12 R, or N is another one after every event than before it
 INSTANT = 1e-15
+RENEWED = 0.1  # share of a patch that may enter in a step whose end tells what the feet of its bristles do
 
 
 class Taken(NamedTuple):
@@ -58,8 +60,7 @@ class Taken(NamedTuple):
     bristles: Bristles
     slip_velocity: float
     elastic_rate: float
-    normal_rate: float
-    drag_rate: float
+    rates: Rates
     jerk: Any  # rate of acc, 0 after no step
     elastic_bend: float  # rate of elastic_rate
     error: float  # of the velocities
@@ -87,14 +88,17 @@ class _Known(NamedTuple):
     stored: Any
     way: Any
     slip_velocity: Any
+    feet: Any
 
 
 @part
 def _nothing_known(stages: int, n: int) -> _Known:
     """Room for so many stages."""
     pos, vel, acc = np.zeros((stages, n)), np.zeros((stages, n)), np.zeros((stages, n))
-    rows = np.zeros((9, stages))
-    return _Known(pos, vel, acc, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8])
+    rows = np.zeros((10, stages))
+    return _Known(
+        pos, vel, acc, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8], rows[9]
+    )
 
 
 @loop
@@ -174,16 +178,19 @@ def _damped(table: Table, known: _Known) -> float:
 
 
 @loop
-def _rates(table: Table, known: _Known, h: float, end: int, drag: float) -> tuple[float, float]:
-    """Rate of N at the end of a step, and of what a damper of coefficient ``drag`` would add to F if the patch stuck.
+def _rates(table: Table, known: _Known, h: float, end: int, drag: float, length: float) -> Rates:
+    """How the patch changes at the end of a step, which a damper of coefficient ``drag`` would hold if it stuck.
 
-    That of N_el is the step's own, the others are its stages'.
+    The rate of N_el is the step's own, others are its stages'. Bristles that enter in a step have slid with it from
+    then on alone: what their feet did in it is not known where many do.
     """
-    damped, slip = 0.0, 0.0
+    damped, slip, feet = 0.0, 0.0, nan
     for i in range(known.normal.shape[0]):
         damped += table.end_rate[i] * (known.normal[i] - known.elastic[i])
         slip += table.end_rate[i] * known.slip_velocity[i]
-    return known.elastic_rate[end] + damped / h, -drag * slip / h
+    if abs(known.pos[end, 2] - known.pos[0, 2]) < RENEWED * length:
+        feet = _sum(1 / h, table.end_rate, known.feet, known.normal.shape[0])
+    return Rates(known.elastic_rate[end] + damped / h, -drag * slip / h, feet)
 
 
 @loop
@@ -261,13 +268,14 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any, known_to: f
         _write_down(known, i, plus(pos, 1.0, found.d), plus(vel, 1 / beta, found.d), found.acc, res)
         pose, carried = known.pos[i], res.elastic
         known.elastic_rate[i] = (res.elastic - damper.elastic_0) / beta
+        known.feet[i] = res.feet
         known.way[i], known.slip_velocity[i] = res.way, (res.way - damper.way_0) / beta
         if i == stages - 1 and h > 0:
             off = advanced(np.zeros(pos.shape[0]), h, table.error, known.acc, stages)
             error = momentum_error(model, known.pos[i], known.vel[i], known.acc[i], beta, found.matrix, off)
     jerk = advanced(np.zeros(old.pos.shape[0]), 1 / h, table.trend, known.acc, stages) if h > 0 else times(0.0, old.pos)
     bend = _sum(1 / h, table.trend, known.elastic_rate, stages) if h > 0 else 0.0
-    normal_rate, drag_rate = _rates(table, known, h, end, damping[1]) if h > 0 else (0.0, 0.0)
+    rates = _rates(table, known, h, end, damping[1], res.length) if h > 0 else UNKNOWN
     off_floor = 0.0
     for i in range(stages):
         if known.normal[i] == 0:
@@ -283,8 +291,7 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any, known_to: f
                 numerical += table.work[i, j] * along(force, known.pos[j], known.pos[0])
     return Taken(
         ok, known.pos[end].copy(), known.vel[end].copy(), known.acc[end].copy(), window, u, nodal, res, bristles,
-        known.slip_velocity[end], known.elastic_rate[end], normal_rate, drag_rate, jerk, bend,
-        error,
+        known.slip_velocity[end], known.elastic_rate[end], rates, jerk, bend, error,
         _sum(h, table.b, known.normal, stages), _sum(h, table.b, known.friction, stages),
         res.beyond + _work(table, known.friction, known.way) - drag_work, _damped(table, known) - drag_work,
         numerical, off_floor, after,

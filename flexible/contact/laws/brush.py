@@ -57,7 +57,7 @@ def tractions(
             stuck += weight
         add_pull(forces, i, traction)
         energy += weight * traction**2 / (2 * law.eps_t)
-    return Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, stuck)
+    return Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, stuck, 0.0)
 
 
 def effective_mu_s(mu_s: float, mu: float) -> float:

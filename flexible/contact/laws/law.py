@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rigid import Friction, Kind
 
-from ..points.data import Bristles, Parameters, Resultants
+from ..points.data import Bristles, Parameters, Rates, Resultants
 
 Array = NDArray[np.float64]
 
@@ -23,9 +23,7 @@ class PatchState(Protocol):
     @property
     def slip_velocity(self) -> float: ...
     @property
-    def normal_rate(self) -> float: ...
-    @property
-    def drag_rate(self) -> float: ...
+    def rates(self) -> Rates: ...
     @property
     def res(self) -> Resultants: ...
 

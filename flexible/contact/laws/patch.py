@@ -6,7 +6,7 @@ slip. While it slides, mu N is shared over the patch like the pressure. Its limi
 
 from __future__ import annotations
 
-from math import inf
+from math import inf, isnan
 from typing import Any
 
 import numpy as np
@@ -49,7 +49,7 @@ def _stick(forces: Any, points: Any, carried: Any, load: Any, slip: Any, law: An
     dragging = load.elastic > 0 and slip.drag > 0
     drag = slip.held - slip.drag * (slip.way - slip.way_0) if dragging else 0.0
     shared = Shared(dragging, drag, -slip.drag if dragging else 0.0, 0.0, drag, np.inf)
-    return Tractions(shared, energy, stuck)
+    return Tractions(shared, energy, stuck, 0.0)
 
 
 @loop
@@ -63,15 +63,18 @@ def _slide(forces: Any, points: Any, foundation: Any, carried: Any, mode: int, l
         lumped -= law.eps_n * weight[i] * min(points.gap[i], 0.0)
     even = load.elastic / lumped if lumped > 0 else 1.0
     force_by_gaps(forces.by_gap, load.eta * mode * law.mu, foundation)
-    energy = 0.0
+    energy, held, pulled = 0.0, 0.0, 0.0
     for i in range(weight.shape[0]):
         forces.share[i] = mode * law.mu * foundation.force[i]
         forces.force[i] = load.eta * forces.share[i]
+        held -= weight[i] * law.eps_t * carried.stretch[i]
         # what a damper adds to the pressure is no spring: bristles that held it would give it back when they stick
         pressure = -law.eps_n * min(points.gap[i], 0.0)
         carried.stretch[i] = -min(load.eta, 1.0) * even * mode * law.mu * pressure / law.eps_t
+        pulled -= weight[i] * law.eps_t * carried.stretch[i]
         energy += weight[i] * law.eps_t * carried.stretch[i] ** 2 / 2
-    return Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0)
+    feet = (pulled - held) / (law.eps_t * foundation.length) if foundation.length > 0 else 0.0
+    return Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0, feet)
 
 
 @loop
@@ -98,10 +101,13 @@ def excess(law: Parameters, state: Any, force: float, velocity: float) -> float:
         return beyond if res.elastic > 0 else -inf
     if res.normal == 0 or law.mu_s == 0:
         return -inf
-    beyond = state.mode * state.slip_velocity
+    rates, beyond = state.rates, state.mode * state.slip_velocity
     if res.eta <= 1 and res.length > 0:
-        lasting = law.mu * state.normal_rate - state.mode * state.drag_rate
-        beyond += min(lasting / (law.eps_t * res.length), 0.0)
+        stiffness = law.eps_t * res.length
+        lags = state.mode * rates.feet - beyond
+        if isnan(lags):
+            lags = law.mu * rates.normal / stiffness
+        beyond += min(lags + max(-state.mode * rates.drag / stiffness, 0.0), 0.0)
     return float(beyond / velocity)
 
 

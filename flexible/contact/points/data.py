@@ -5,7 +5,7 @@ Numba takes named tuples as arguments and results; fields typed ``Any`` are arra
 
 from __future__ import annotations
 
-from math import inf
+from math import inf, nan
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -130,6 +130,7 @@ class Tractions(NamedTuple):
     shared: Shared
     energy: float  # stored
     stuck: float  # length of the patch that sticks
+    feet: float  # how far the feet of the bristles slid in the step, where all slide
 
 
 class Resultants(NamedTuple):
@@ -150,6 +151,18 @@ class Resultants(NamedTuple):
     beyond: float  # work of the bristles beyond their mean force times the mean way
     steepness: float  # -dF/dx of a force shared by the patch as a whole, x its way
     reach: float  # in x over which that is about linear
+    feet: float  # how far the feet of the bristles of a sliding patch slid in the step
+
+
+class Rates(NamedTuple):
+    """How a sliding patch changes at the end of a step, as far as it tells whether that would hold if it stuck."""
+
+    normal: float  # of N
+    drag: float  # of what the damper would drag
+    feet: float  # of the feet of its bristles, along the floor; nan where these entered in the same step
+
+
+UNKNOWN = Rates(0.0, 0.0, nan)
 
 
 class Contact(NamedTuple):
@@ -165,7 +178,7 @@ class Contact(NamedTuple):
     by_held: Any  # (n,) by the damper's ``held``; both where there is a tangent and the damper acts
 
 
-NOTHING = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, inf)
+NOTHING = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, inf, 0.0)
 
 
 @jit
