@@ -43,7 +43,7 @@ def momentum_error(model: Any, pos: Any, vel: Any, acc: Any, beta: float, matrix
 #: the beta of a step of no length: what it moves, beta^2 acc, must be nothing to the thinnest patch, whose depth as it
 #: opens is some 1e-12 R, or N is another one after every event than before it
 INSTANT = 1e-15
-RENEWED = 0.1  # share of a patch that may enter in a step whose end tells what the feet of its bristles do
+RENEWED = 1e-3  # share of a patch that may enter in a step whose end tells what the feet of its bristles do
 
 
 class Taken(NamedTuple):
@@ -182,7 +182,7 @@ def _rates(table: Table, known: _Known, h: float, end: int, drag: float, length:
     """How the patch changes at the end of a step, which a damper of coefficient ``drag`` would hold if it stuck.
 
     The rate of N_el is the step's own, others are its stages'. Bristles that enter in a step have slid with it from
-    then on alone: what their feet did in it is not known where many do.
+    then on alone: what their feet did in it is known where next to none do.
     """
     damped, slip, feet = 0.0, 0.0, nan
     for i in range(known.normal.shape[0]):

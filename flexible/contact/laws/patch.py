@@ -94,6 +94,9 @@ def excess(law: Parameters, state: Any, force: float, velocity: float) -> float:
     A patch sticks up to ``|F| = mu_s N``. It slides as long as it moves against its friction, and beyond that where
     mu N falls faster than what bristles and damper would pull if it stuck: it would break in the same instant. A damper
     that adds to N leaves no such doubt.
+
+    Bristles let go by their stiffness times the slip. Those at the points of a patch that narrows do so by a little
+    more or less; in very short steps their feet tell, without which a patch would stick and break time and again.
     """
     res = state.res
     if state.mode == STICK:  # a damper may take all of N while the bristles still pull
