@@ -53,7 +53,7 @@ def agree_in(one, other, tolerance):
         elif hasattr(value, "_asdict"):
             agree_in(value, found, tolerance)
         else:
-            assert np.allclose(found, value, rtol=tolerance, atol=tolerance), name
+            assert np.allclose(found, value, rtol=tolerance, atol=tolerance, equal_nan=True), name
 
 
 @pytest.mark.parametrize("method", list(METHODS))
