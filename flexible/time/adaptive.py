@@ -41,9 +41,6 @@ from .methods import ESDIRK3, Method, Table
 Array = NDArray[np.float64]
 
 
-SOFT = 0.3  # of a step's tolerance where the ring is exact: N's peak and slip's end hang on how so soft a rim vibrates
-
-
 class MarchError(RuntimeError):
     """A step that could not be mended; the sentence says where and why."""
 
@@ -181,7 +178,7 @@ def march(
         records += _records(rows[:1])
         if keep is not None:
             keep(now.state)
-    tolerance = method.tolerance(rtol) * (1.0 if model.linear else SOFT)
+    tolerance = method.tolerance(rtol) * (1.0 if model.linear else model.law.steps_of_soft)
     aims = Aims(tolerance, 1 / method.estimates, float(limits.longest), limits.most, model.relaxation)
     ends = Ends(float(ends.t), float(ends.low), float(ends.high), ends.turns)
     why, stood, behind, ended, lost = PAUSED, now, len(records), "", -np.inf

@@ -50,6 +50,8 @@ class Law:
         To a patch under the weight, for ``rtol`` = 1e-3; a friction that ends inside the patch wants more.
     points_of_soft : int
         The same on a ring whose sections turn far: the fewer bristles, the more of the friction breaks with one.
+    steps_of_soft : float
+        Share of a step's tolerance there, where N's peak and the instants of events hang on the ring's vibrations.
     tractions : compiled function
         ``tractions(forces, points, foundation, carried, mode, load, slip, parameters) -> Tractions``: fills in the
         ``forces``, zero before (:class:`~flexible.contact.points.data.PointForces`), that pull at
@@ -62,6 +64,7 @@ class Law:
     code: ClassVar[int]
     points: ClassVar[int] = 8
     points_of_soft: ClassVar[int] = 8
+    steps_of_soft: ClassVar[float] = 1.0
     tractions: ClassVar[Callable[..., Any]]
 
     def __init__(self, parameters: Parameters) -> None:

@@ -154,7 +154,7 @@ def sharing(parameters: Parameters, ratio: float) -> tuple[Parameters, int]:
 class Patch(Law):
     """See the head of this file."""
 
-    name, code = "patch", CODE
+    name, code, steps_of_soft = "patch", CODE, 0.3
     tractions = staticmethod(tractions)
 
     def start(self, kind: Kind) -> int:
