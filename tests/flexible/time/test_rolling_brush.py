@@ -35,10 +35,13 @@ def test_a_rolling_brush_takes_the_steps_of_a_rolling_patch(level):
 
 def test_a_brush_on_a_soft_ring_without_mass_is_marched_through():
     """There is no inertia that would hold the rim where its bristles let go: a step of Newton that breaks all of them
-    loose leaves it anywhere, and no step longer than 1e-7 could be solved."""
+    loose leaves it anywhere, and no step longer than 1e-7 could be solved.
+
+    On so soft a ring the patch takes 0.3 of a step's tolerance (its ``steps_of_soft``), here both."""
     soft = {"ring": {"bending_stiffness": 3.0}, "hoop": {"mass_ratio": 0.0}, "run": Run(t_end=0.2)}
     brush, patch = (
-        simulate(rolling(law, **soft).replace(solve={"rtol": 1e-4}), history=True) for law in ("brush", "patch")
+        simulate(rolling(law, **soft).replace(solve={"rtol": rtol}), history=True)
+        for law, rtol in (("brush", 3e-5), ("patch", 1e-4))
     )
     assert brush.completed
     assert brush.steps < 3 * patch.steps, "creep and the first entries into the patch cost some"
