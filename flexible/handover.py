@@ -32,6 +32,7 @@ Array = NDArray[np.float64]
 # of the rates; a shorter one sees how the patch's height ripples as point after point comes to bear (measured at a
 # foundation of 1e4: rates 35 % off at 1e-3, 0.5 % at 1e-2).
 SPAN = 1e-2
+GAINS = 0.01  # share of the energy that rigid hoops may add: the swing of a light hoop from 10 degrees has 2 % to spare
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,6 +169,24 @@ def undeformed(hoop: Hoop, pose: Pose) -> State:
     """The unstrained ring touching the floor with one point, moving as the rigid hoop does."""
     state = _unstrained(hoop, pose)
     return restart(hoop, state, state.mode)
+
+
+def ensure_stands_in(lost: float, energy: float, t: float) -> None:
+    """Of a motion that began with ``energy`` and has ``lost`` so much to hand-overs, negative if it was added.
+
+    A soft ring sags, and a rigid one that takes over stands higher at the same velocity; one that so goes over the top
+    never turns.
+
+    Raises
+    ------
+    MarchError
+        The rigid hoop is no stand-in between pulses.
+    """
+    if -lost > GAINS * energy:
+        raise MarchError(
+            f"stopped at t = {t:.6g}: the rigid hoop, which stands for the flexible one between pulses, has added"
+            f" {-100 * lost / energy:.2g} % of the energy; with solve.resolve = 'all' it is flexible throughout"
+        )
 
 
 def compile_ahead(hoop: Hoop) -> None:

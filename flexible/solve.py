@@ -25,7 +25,7 @@ from rigid.phases.choice import LEAST_LOSS, SLIPS
 
 from .builder import Builder
 from .contact.laws.listing import rigid_limit
-from .handover import hand_over, one_of
+from .handover import ensure_stands_in, hand_over, one_of
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
@@ -141,6 +141,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         start = max(0.0, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
         ends_there = builder.add_rigid(motion, start)
         try:
+            ensure_stands_in(builder.hand_over, builder.initial or inf, builder.t)
             state = hand_over(hoop, motion, start, one_of(ends_there, 1))
         except MarchError as error:
             builder.completed = False
