@@ -209,6 +209,7 @@ class ChainRing:
             pulled=unit.pulled * self.stiffness,
             across=unit.across * self.stiffness,
             bent=unit.bent * self.stiffness,
+            soft=unit.soft * np.array([self.stiffness] * 5 + [1.0]),
             mass=unit.mass * mass,
             turning=unit.turning * mass,
         )

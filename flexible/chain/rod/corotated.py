@@ -27,6 +27,8 @@ from numpy.typing import NDArray
 
 from rigid.kernel.compile import jit, loop
 
+from .softening import softened
+
 Array = NDArray[np.float64]
 
 
@@ -47,6 +49,8 @@ class Rod(NamedTuple):
         Bending stiffness of each part, in tau_2 - tau_1, that comes with x = 1.
     bent : (2, 3, 3, 3) array
         Third derivatives of the energy of the first and of the last part by (x, tau_1, tau_2).
+    soft : (n + 1, 6) array
+        Their energy of fourth order, see :mod:`flexible.chain.rod.softening`.
     across : (3, 3) array
         Of the first part by the last one, through the wall over the weld.
     mass, turning : (n + 2,) arrays
@@ -67,6 +71,7 @@ class Rod(NamedTuple):
     bow: Array
     pulled: Array
     bent: Array
+    soft: Array
     across: Array
     mass: Array
     turning: Array
@@ -129,13 +134,14 @@ def stiffer(third: Any, x: float, tau_1: float, tau_2: float) -> tuple[float, fl
 
 
 @loop
-def stress(local: Any, pulled: float, x: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float]:
+def stress(rod: Any, p: int, x: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float]:
     """Energy of a part with these strains, force along its line, and the moments at both ends without it."""
-    s0, s1, s2 = _product(local, x, tau_1, tau_2)
-    bend = tau_2 - tau_1
+    s0, s1, s2 = _product(rod.local[p], x, tau_1, tau_2)
+    softer, t1, t2 = softened(rod.soft[p], tau_1, tau_2)
+    pulled, bend = rod.pulled[p], tau_2 - tau_1
     pull = pulled * x * bend
-    energy = (x * s0 + tau_1 * s1 + tau_2 * s2 + pull * bend) / 2
-    return energy, s0 + pulled * bend * bend / 2, s1 - pull, s2 + pull
+    energy = (x * s0 + tau_1 * s1 + tau_2 * s2 + pull * bend) / 2 + softer
+    return energy, s0 + pulled * bend * bend / 2, s1 - pull + t1, s2 + pull + t2
 
 
 @loop
@@ -158,7 +164,8 @@ def stress_at_weld(rod: Any, q: Any, p: int, x: float, tau_1: float, tau_2: floa
     h1 = m01 * x + m11 * tau_1 + m12 * tau_2
     h2 = m02 * x + m12 * tau_1 + m22 * tau_2
     energy = (x * s0 + tau_1 * s1 + tau_2 * s2) / 2 + (x * h0 + tau_1 * h1 + tau_2 * h2) / 6
-    return energy, s0 + h0 / 2, s1 + h1 / 2, s2 + h2 / 2
+    softer, t1, t2 = softened(rod.soft[p], tau_1, tau_2)
+    return energy + softer, s0 + h0 / 2, s1 + h1 / 2 + t1, s2 + h2 / 2 + t2
 
 
 @jit
@@ -181,7 +188,7 @@ def _elastic(rod: Any, q: Any, force: Any) -> float:
     for p in range(last + 1):
         t1, t2, now, x, tau_1, tau_2, w1, w2 = strains(rod, q, p)
         if 0 < p < last:
-            own, s0, s1, s2 = stress(rod.local[p], rod.pulled[p], x, tau_1, tau_2)
+            own, s0, s1, s2 = stress(rod, p, x, tau_1, tau_2)
         else:
             own, s0, s1, s2 = stress_at_weld(rod, q, p, x, tau_1, tau_2)
         energy += own
@@ -205,7 +212,7 @@ def strain_energy(rod: Any, q: Any) -> float:
     for p in range(last + 1):
         _, _, _, x, tau_1, tau_2, _, _ = strains(rod, q, p)
         if 0 < p < last:
-            energy += stress(rod.local[p], rod.pulled[p], x, tau_1, tau_2)[0]
+            energy += stress(rod, p, x, tau_1, tau_2)[0]
         else:
             energy += stress_at_weld(rod, q, p, x, tau_1, tau_2)[0]
     return energy

@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from ...ring.fem import Ring
 from .corotated import Rod
-from .ends import bow_of, chord_strains, ends, in_strains, is_jointed, pulled_of
+from .ends import bending, bow_of, chord_strains, ends, in_strains, is_jointed, pulled_of
 from .section import RodCompliance, radial
+from .softening import softening_of
 
 Array = NDArray[np.float64]
 
@@ -58,17 +59,21 @@ def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
     ]
     end = ends(compliance, weld, float(theta[1]))
     chords = np.hypot(*np.diff(place, axis=0).T)
+    every = [end.local[:3, :3], *pieces, end.local[3:, 3:]]
     mass = np.zeros(parts + 1)
     mass[1:-1] = (theta[2:] - theta[:-2]) / (4 * pi)
     return Rod(
         theta,
         place,
-        local=np.stack([end.local[:3, :3], *pieces, end.local[3:, 3:]]),
+        local=np.stack(every),
         bow=np.stack([end.bow[0], *map(bow_of, pieces, chords[1:-1]), end.bow[1]]),
         pulled=np.array(
             [0.0, *(pulled_of(p, c, ring.poisson) for p, c in zip(pieces, chords[1:-1], strict=True)), 0.0]
         ),
         bent=end.bent,
+        soft=np.array(
+            [softening_of(bending(p), c, 1 - inner, ring.poisson) for p, c in zip(every, chords, strict=True)]
+        ),
         across=end.local[:3, 3:].copy(),
         mass=mass,
         turning=mass * ((1 + inner**2) / 2 - a**2),

@@ -43,6 +43,7 @@ def closed(parts, stretch=1e-9):
         bow=np.stack([bow_of(local, 2 * sin(step / 2))] * parts),
         pulled=np.zeros(parts),
         bent=np.zeros((2, 3, 3, 3)),
+        soft=np.zeros((parts, 6)),
         across=np.zeros((3, 3)),
         mass=mass,
         turning=0 * mass,
