@@ -1,7 +1,7 @@
 """`hoop bench soft`: pulses of rings that bend and turn far, the chain against all nodes of the exact ring.
 
 Both stand on the same mesh, so what lies between them is the chain's own: what its parts leave out of the mesh. What
-the mesh leaves out is between two of all nodes, the second twice as fine around.
+the mesh leaves out is between two pulses of all nodes, one on twice as many elements around.
 """
 
 from __future__ import annotations
@@ -49,13 +49,10 @@ class Soft:
     """The same of the largest normal force."""
     hops_off: float | None = CLOSE
     """The same of the time off the floor."""
-    finer: bool = False
-    """Whether all nodes of a mesh twice as fine are run as well."""
 
-    def on(self, level: str, rtol: float, finer: int = 1) -> Scene:
+    def on(self, level: str, rtol: float) -> Scene:
         through = self.through if level == "exact" else None
-        mesh = {"elements": finer * self.around, "through": through}
-        return self.scene.replace(solve={"level": level, "rtol": rtol, **mesh})
+        return self.scene.replace(solve={"level": level, "rtol": rtol, "elements": self.around, "through": through})
 
 
 def _hoop(k: float, r: float, mass_ratio: float, bending: float, foundation: float, damping: float) -> Scene:
@@ -70,16 +67,20 @@ def softs(quick: bool) -> list[Soft]:
     thin = partial(_hoop, 0.1, 1.02, 0.05, foundation=1e8)
     undamped = [
         Soft("E I = 10, undamped", thin(bending=10, damping=0), off=CLOSE),
-        Soft("E I = 1, undamped", thin(bending=1, damping=0), off=CLOSE, finer=True),
+        Soft("E I = 1, undamped", thin(bending=1, damping=0), off=CLOSE, peak_off=CLOSE),
     ]
     if quick:
         return undamped
     thick = partial(_hoop, 0.2, mass_ratio=0.1, foundation=1e7, damping=1)
     rough = partial(Soft, rtol=FINE, known_to=FINE, off=0.015, hops_off=None)
+    twice = partial(Soft, around=480, rtol=USUAL)
     return [
         *undamped,
         Soft("E I = 3, undamped", thin(bending=3, damping=0)),
-        Soft("E I = 0.5, undamped", thin(bending=0.5, damping=0), off=0.05, finer=True),
+        Soft("E I = 0.5, undamped", thin(bending=0.5, damping=0), off=0.025),
+        twice("E I = 3, undamped, 480 around", thin(bending=3, damping=0), off=0.02),
+        twice("E I = 1, undamped, 480 around", thin(bending=1, damping=0), off=CLOSE),
+        twice("E I = 0.5, undamped, 480 around", thin(bending=0.5, damping=0), off=0.015, peak_off=0.03),
         Soft("E I = 10", thin(bending=10, damping=1), off=2 * CLOSE),
         Soft("E I = 3", thin(bending=3, damping=1)),
         Soft("E I = 1", thin(bending=1, damping=1), off=CLOSE),
@@ -142,8 +143,6 @@ def contestants(pulses: Iterable[Soft], truth: Truth, quick: bool) -> list[Conte
         add(NODES, f"rtol {pulse.known_to:.0e}", pulse.on("exact", pulse.known_to), is_truth=True)
         for rtol in (ROUGH, USUAL) if quick else (1e-2, ROUGH, USUAL, FINE):
             add(CHAIN, f"rtol {rtol:.0e}", pulse.on("chain", rtol), once=False)
-        if pulse.finer and not quick:
-            add(NODES, f"{2 * pulse.around} around", pulse.on("exact", pulse.known_to, 2))
     first = next(iter(pulses))
     step = partial(flexible.simulate, first.on("reduced", USUAL))
     entries.append(Contestant(LINEAR, f"rtol {USUAL:.0e}", first.name, step, lambda m: (nan, measures(m))))
