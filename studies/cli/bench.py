@@ -32,7 +32,7 @@ def bench(
     rigid     a first cycle against forty digits, beside scipy
     flexible  the pulse of a stiff ring against all nodes, knob by knob
     soft      pulses of rings that bend far, beside all nodes of the exact
-              ring; half an hour, four minutes with --quick
+              ring; 45 minutes, four with --quick
     scaling   cost against stiffness, turns, mesh, scenes and workers
     """
     from ..machine.processes import Processes
