@@ -8,14 +8,15 @@ from displacements, so that nothing cancels:
 
     e = (2 D.d + d.d)/(l' + l),   alpha = atan2(D x d, l^2 + D.d),   tau = phi - alpha,      d = u_2 - u_1.
 
-Three terms are not linear. A part that bends is longer than its chord: its line is stretched by x = e + tau.B.tau/2, in a
-thin part l (2 tau_1^2 - tau_1 tau_2 + 2 tau_2^2)/30 more than e; with it the chain is of the fourth order in its parts.
+Three terms are not linear. A part that bends is longer than its chord: its line is stretched by x = e + tau.B.tau/2, in
+a thin part l (2 tau_1^2 - tau_1 tau_2 + 2 tau_2^2)/30 more than e; with it the chain is of the fourth order in its
+parts.
 And a part that is pulled bends harder. Of a wall with Green's strain in plane stress, stretched by eps and bent by
 kappa, a fibre at z strains by eps + (1 + (1 - nu) eps) z kappa + (1 - nu) z^2 kappa^2/2 to second order (it gets
 thinner as it is pulled, and its middle moves), so that bending costs 1 + 3 (1 - nu) eps times as much. Strains of a
 hundredth, in a wall between disk and floor, change its stiffness by two. A part that bends far bends easier
-(:mod:`flexible.chain.rod.softening`). A part at the weld, which holds one side of
-the wall alone, bends easier one way than the other: there the first two are the mesh's (:mod:`flexible.chain.rod.ends`).
+(:mod:`flexible.chain.rod.softening`). A part at the weld, which holds one side of the wall alone, bends easier one way
+than the other: there the first two are the mesh's (:mod:`flexible.chain.rod.ends`).
 """
 
 from __future__ import annotations
