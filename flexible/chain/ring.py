@@ -207,9 +207,9 @@ class ChainRing:
         rod = unit._replace(
             local=unit.local * self.stiffness,
             pulled=unit.pulled * self.stiffness,
+            softening=unit.softening * self.stiffness,
             across=unit.across * self.stiffness,
             bent=unit.bent * self.stiffness,
-            soft=unit.soft * np.array([self.stiffness] * 5 + [1.0]),
             mass=unit.mass * mass,
             turning=unit.turning * mass,
         )

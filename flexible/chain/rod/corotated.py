@@ -49,10 +49,11 @@ class Rod(NamedTuple):
         Second derivatives of the stretch of each part's line by its angles.
     pulled : (n + 1,) array
         Bending stiffness of each part, in tau_2 - tau_1, that comes with x = 1.
+    softening, strained : (n + 1,) arrays
+        Bending stiffness that each part loses as it bends far, and how far that is: see
+        :mod:`flexible.chain.rod.softening`.
     bent : (2, 3, 3, 3) array
         Third derivatives of the energy of the first and of the last part by (x, tau_1, tau_2).
-    soft : (n + 1, 6) array
-        Their energy of fourth order, see :mod:`flexible.chain.rod.softening`.
     across : (3, 3) array
         Of the first part by the last one, through the wall over the weld.
     mass, turning : (n + 2,) arrays
@@ -72,8 +73,9 @@ class Rod(NamedTuple):
     local: Array
     bow: Array
     pulled: Array
+    softening: Array
+    strained: Array
     bent: Array
-    soft: Array
     across: Array
     mass: Array
     turning: Array
@@ -139,11 +141,11 @@ def stiffer(third: Any, x: float, tau_1: float, tau_2: float) -> tuple[float, fl
 def stress(rod: Any, p: int, x: float, tau_1: float, tau_2: float) -> tuple[float, float, float, float]:
     """Energy of a part with these strains, force along its line, and the moments at both ends without it."""
     s0, s1, s2 = _product(rod.local[p], x, tau_1, tau_2)
-    softer, t1, t2 = softened(rod.soft[p], tau_1, tau_2)
     pulled, bend = rod.pulled[p], tau_2 - tau_1
+    less, moment, _ = softened(rod.softening[p], rod.strained[p], bend)
     pull = pulled * x * bend
-    energy = (x * s0 + tau_1 * s1 + tau_2 * s2 + pull * bend) / 2 + softer
-    return energy, s0 + pulled * bend * bend / 2, s1 - pull + t1, s2 + pull + t2
+    energy = (x * s0 + tau_1 * s1 + tau_2 * s2 + pull * bend) / 2 + less
+    return energy, s0 + pulled * bend * bend / 2, s1 - pull - moment, s2 + pull + moment
 
 
 @loop
@@ -166,8 +168,8 @@ def stress_at_weld(rod: Any, q: Any, p: int, x: float, tau_1: float, tau_2: floa
     h1 = m01 * x + m11 * tau_1 + m12 * tau_2
     h2 = m02 * x + m12 * tau_1 + m22 * tau_2
     energy = (x * s0 + tau_1 * s1 + tau_2 * s2) / 2 + (x * h0 + tau_1 * h1 + tau_2 * h2) / 6
-    softer, t1, t2 = softened(rod.soft[p], tau_1, tau_2)
-    return energy + softer, s0 + h0 / 2, s1 + h1 / 2 + t1, s2 + h2 / 2 + t2
+    less, moment, _ = softened(rod.softening[p], rod.strained[p], tau_2 - tau_1)
+    return energy + less, s0 + h0 / 2, s1 + h1 / 2 - moment, s2 + h2 / 2 + moment
 
 
 @jit

@@ -11,7 +11,7 @@ from ...ring.fem import Ring
 from .corotated import Rod
 from .ends import bending, bow_of, chord_strains, ends, in_strains, is_jointed, pulled_of
 from .section import RodCompliance, radial
-from .softening import softening_of
+from .softening import softening_of, strained_of
 
 Array = NDArray[np.float64]
 
@@ -70,10 +70,9 @@ def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
         pulled=np.array(
             [0.0, *(pulled_of(p, c, ring.poisson) for p, c in zip(pieces, chords[1:-1], strict=True)), 0.0]
         ),
+        softening=np.array([softening_of(bending(p), ring.poisson) for p in every]),
+        strained=np.array([strained_of(chord, 1 - inner) for chord in chords]),
         bent=end.bent,
-        soft=np.array(
-            [softening_of(bending(p), c, 1 - inner, ring.poisson) for p, c in zip(every, chords, strict=True)]
-        ),
         across=end.local[:3, 3:].copy(),
         mass=mass,
         turning=mass * ((1 + inner**2) / 2 - a**2),

@@ -9,7 +9,7 @@ import numpy as np
 from rigid.kernel.compile import jit, loop, part
 
 from .corotated import outward, stiffer, strains, stress, stress_at_weld
-from .softening import softening
+from .softening import softened
 
 
 @loop
@@ -100,11 +100,11 @@ def _within(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None:
         else:
             _, s0, s1, s2 = stress_at_weld(rod, q, p, x, tau_1, tau_2)
             m00, m01, m02, m11, m12, m22 = stiffer(rod.bent[min(p, 1)], x, tau_1, tau_2)
-        n11, n12, n22 = softening(rod.soft[p], tau_1, tau_2)
+        _, _, less = softened(rod.softening[p], rod.strained[p], tau_2 - tau_1)
         second = (
             local[0, 0] + m00, local[0, 1] + m01, local[0, 2] + m02,
-            local[1, 1] + m11 + n11 + s0 * bow[0, 0], local[1, 2] + m12 + n12 + s0 * bow[0, 1],
-            local[2, 2] + m22 + n22 + s0 * bow[1, 1],
+            local[1, 1] + m11 + less + s0 * bow[0, 0], local[1, 2] + m12 - less + s0 * bow[0, 1],
+            local[2, 2] + m22 + less + s0 * bow[1, 1],
         )  # fmt: skip
         pulls = s0 / now, (s1 + s2 + s0 * (w1 + w2)) / (now * now)
         _add(_stiffness((t1, t2, now), (w1, w2), pulls, second), p, diagonal, up, down, 0 < p < last)

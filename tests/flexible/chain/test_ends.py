@@ -4,14 +4,12 @@ from math import cos, pi, sin
 
 import numpy as np
 import pytest
-from scipy.sparse.linalg import splu
+from pressing import pressed
 
-from flexible.chain.ring import _Shape, dense_stiffness, rim_matrix
-from flexible.chain.rod.corotated import elastic
+from flexible.chain.ring import _Shape
 from flexible.chain.rod.ends import chord_strains, ends, in_strains, is_jointed, third_of
 from flexible.chain.rod.second import second_order
 from flexible.chain.rod.section import radial, rod_compliance
-from flexible.ring.exact import ExactElasticity
 from flexible.ring.fem import Ring
 from meshes import ring_mesh
 
@@ -22,31 +20,13 @@ def shape_of(r, parts=120):
     return _Shape(Ring(ring_mesh(1 / r, 1.0, 240, 2, WELD), 0.3), parts)
 
 
-def displaced(shape, force, loaded, asked):
-    """Displacement of a node of the rim under a small force on another: of all nodes, and of the chain."""
-    ring = shape.ring
-    exact, u, load = ExactElasticity(ring), np.zeros(len(ring.free)), np.zeros(len(ring.free))
-    dofs = ring.rim_dofs.reshape(-1, 2)
-    load[dofs[loaded]] = force
-    for _ in range(6):
-        u -= splu(exact.tangent(u)).solve(exact.forces(u) - load)
-    q = np.zeros((len(shape.rod.theta), 3))
-    for _ in range(30):  # without what the force's own turning adds to the tangent, a hundredth of it
-        forces = np.zeros_like(q)
-        elastic(shape.rod, q, forces)
-        moved, by = rim_matrix(shape.rod, q, shape.nodes)
-        short = forces[1:-1].ravel() - by[2 * loaded : 2 * loaded + 2].T @ force
-        q[1:-1] -= np.linalg.solve(dense_stiffness(shape.rod, q)[3:-3, 3:-3], short).reshape(-1, 3)
-    return u[dofs[asked]], moved[asked]
-
-
 def both_ways(shape, angle, beyond):
     """u(f) + u(-f), of second order in the load, at ``beyond`` the load that is at ``angle`` behind the weld."""
     theta, wall = shape.ring.mesh.rim_theta, 1 - shape.ring.mesh.inner
     loaded, asked = (int(np.argmin(np.abs(theta - WELD - at))) for at in (angle, angle + beyond))
     force = -0.1 * wall**3 / 12 * np.array([cos(theta[loaded]), sin(theta[loaded])])
-    ways = displaced(shape, force, loaded, asked), displaced(shape, -force, loaded, asked)
-    return tuple(one + two for one, two in zip(*ways, strict=True))
+    push, pull = pressed(shape, force, loaded), pressed(shape, -force, loaded)
+    return tuple(one[asked] + two[asked] for one, two in zip(push, pull, strict=True))
 
 
 @pytest.mark.parametrize(("r", "within"), [(1.02, 5e-4), (1.1, 1e-2)])
