@@ -94,7 +94,8 @@ class Apart:
         files: dict[Any, list[pytest.Item]] = {}
         for item in session.items:
             files.setdefault(item.path, []).append(item)
-        waiting = list(files.values())
+        outer_first = sorted(files, key=lambda path: len(path.parts))  # they take longest
+        waiting = [files[path] for path in outer_first]
         try:
             while waiting or self.children:
                 while waiting and len(self.children) < self.at_once:

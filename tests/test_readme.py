@@ -55,6 +55,7 @@ def run(command: str, folder: Path) -> None:
     assert done.returncode == 0, f"{command}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}"
 
 
+@pytest.mark.slow
 def test_quick_commands_run_in_their_order(tmp_path: Path) -> None:
     found = [command for command in commands() if quick(command)]
     assert found, "the README shows no command"

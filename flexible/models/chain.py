@@ -60,7 +60,8 @@ class ChainHoop(RimContact):
         #: momenta of the slow vibrations, by which steps are chosen, of a rate of the sections
         self._slow = np.zeros((0, len(mass)))
         if scene.hoop.mass_ratio > 0:
-            self._slow = (mass[:, None] * self.ring.shape.shapes[:, :SLOW]).T / np.sqrt(scene.hoop.mass_ratio)
+            of_modes = (mass[:, None] * self.ring.shape.shapes[:, :SLOW]).T / np.sqrt(scene.hoop.mass_ratio)
+            self._slow = np.ascontiguousarray(of_modes)  # as of a ring without mass: compiled code is of one layout
 
     @property
     def coordinates(self) -> int:

@@ -21,6 +21,7 @@ def measures(scene, **solve):
     return [pulse.normal_impulse, ratio, pulse.friction_loss], pulse.peak_normal_force
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("r", "coarse", "fine"), [(1.001, 240, 720), (1.003, 240, 360), (1.008, 240, 360)])
 def test_a_pulse_of_a_thin_wall_is_that_of_a_finer_mesh(r, coarse, fine):
     """Of 26, 9 and 3 walls to an element, and of 9, 6 and 2: 1 to 3 % of what is lost, 5 % of the peak.

@@ -298,7 +298,7 @@ def test_a_motion_without_a_pulse_is_drawn_rigid(tmp_path):
     assert not series[2].blocks["ring"].point_data["displacement"].any()
 
 
-@pytest.mark.parametrize("level", ["full", "exact"])
+@pytest.mark.parametrize("level", ["full", pytest.param("exact", marks=pytest.mark.slow)])
 def test_every_level_of_the_hoop_has_its_fields(level, tmp_path):
     """The elements' energy is the level's own ring strain; of a stiff ring the levels' stresses agree to 1 %."""
     found = []

@@ -56,6 +56,7 @@ def agree_in(one, other, tolerance):
             assert np.allclose(found, value, rtol=tolerance, atol=tolerance, equal_nan=True), name
 
 
+@pytest.mark.slow  # the stage is compiled by itself for it
 @pytest.mark.parametrize("method", list(METHODS))
 @pytest.mark.parametrize("law", ["patch", "brush", "regularised"])
 @pytest.mark.parametrize("mass_ratio", [0.0, 0.1])
@@ -72,6 +73,7 @@ def test_a_step_on_the_floor(law, mass_ratio, method):
     agree(one, other, 1e-7)
 
 
+@pytest.mark.slow  # the stage is compiled by itself for it
 @pytest.mark.parametrize("law", ["patch", "brush"])
 @pytest.mark.parametrize("mass_ratio", [0.0, 0.1])
 def test_a_step_of_a_chain(law, mass_ratio):
@@ -86,6 +88,7 @@ def test_a_step_of_a_chain(law, mass_ratio):
     agree(one, other, 1e-7)
 
 
+@pytest.mark.slow
 def test_a_step_in_flight():
     """Nothing but inertia: to round-off."""
     hoop = ReducedHoop(HOOP)
@@ -121,10 +124,9 @@ def test_what_is_known_of_the_ring_is_no_part_of_a_step():
 
 
 @pytest.mark.parametrize("level", [ReducedHoop, ChainHoop])
-@pytest.mark.parametrize("mass_ratio", [0.0, 0.1])
-def test_steps_are_compiled_ahead_for_what_they_are_called_with(monkeypatch, level, mass_ratio):
-    """By the types of numba: of others the march would be compiled once more, behind the first one."""
-    run, types = adaptive.machine(level(HOOP.replace(hoop={"mass_ratio": mass_ratio})))[0], []
+def test_steps_are_compiled_ahead_for_what_they_are_called_with(monkeypatch, level):
+    """By the types of numba, for a hoop of any kind: of others the march would be compiled once more."""
+    run, types = adaptive.machine(level(HOOP))[0], []
 
     def take(*arguments):
         types.append([numba.typeof(argument) for argument in arguments])
@@ -132,10 +134,20 @@ def test_steps_are_compiled_ahead_for_what_they_are_called_with(monkeypatch, lev
 
     take.compile_for = lambda *arguments: types.append([numba.typeof(argument) for argument in arguments])
     monkeypatch.setattr(adaptive, "machine", lambda model: (take, model.arrays))
-    scene = HOOP.replace(hoop={"mass_ratio": mass_ratio})
-    compile_ahead(level(scene))
-    hoop, state = rolling(scene, level)
-    adaptive.march(hoop, state, Ends(t=state.t + 1e-4), 1e-3)
-    first, *later = types
-    assert len(later) > 1
-    assert all(each == first for each in later)
+    for kind in KINDS:
+        scene = HOOP.replace(**kind)
+        before = len(types)
+        compile_ahead(level(scene))
+        hoop, state = rolling(scene, level)
+        adaptive.march(hoop, state, Ends(t=state.t + 1e-4), 1e-3)
+        assert len(types) > before + 2, kind
+        assert all(each == types[0] for each in types), kind
+
+
+KINDS = [
+    {"hoop": {"mass_ratio": 0.0}},
+    {"hoop": {"mass_ratio": 0.1}},
+    {"hoop": {"r": 1.2}, "contact": {"law": "brush", "damping": 1.0}},
+    {"hoop": {"r": 1.003}, "solve": {"resolve": "all", "start": "undeformed"}},
+    {"friction": {"mu_s": 0.3}, "contact": {"law": "regularised"}, "solve": {"through": 2, "elements": 300}},
+]
