@@ -30,13 +30,8 @@ def pytest_runtestloop(session: pytest.Session) -> None:
     """
     if session.config.option.collectonly or "flexible" not in sys.modules:
         return  # no test that needs the dear one was collected
-    from studies.machine.processes import Processes, cores
-    from studies.running.solvers import LEVELS, compile_side_by_side, missing, prepare
+    from studies.machine.kernels import LEVELS, compile_on_all_cores, missing, prepare
 
-    if absent := missing(LEVELS):
-        processes = Processes(cores())
-        try:
-            compile_side_by_side(("rigid", *absent), processes.submit)
-        finally:
-            processes.stop()
+    if missing(LEVELS):
+        compile_on_all_cores(("rigid", *LEVELS))
     prepare(*LEVELS)

@@ -263,12 +263,14 @@ def test_the_environment_says_where(monkeypatch, tmp_path, variable):
 
 
 def test_workers_compile_once_for_all_what_the_cases_need(monkeypatch):
-    """The contact beside the steps of the level asked for first; the rest by one of them, when both are there."""
-    from studies.running import solvers, workers
+    """What is called by address beside the steps of the level asked for first; the rest by one of them, when all are
+    there."""
+    from studies.machine import kernels
+    from studies.machine.kernels import CONTACT, LEVELS, STAGE, compile_alone, prepare
+    from studies.running import workers
     from studies.running.case import Case
-    from studies.running.solvers import CONTACT, LEVELS, compile_alone, prepare
 
-    cold = {CONTACT, *LEVELS.values()}
+    cold = {CONTACT, STAGE, *LEVELS.values()}
 
     asked = []
 
@@ -279,12 +281,12 @@ def test_workers_compile_once_for_all_what_the_cases_need(monkeypatch):
         def submit(self, function, *arguments):
             asked.append((function, *arguments) if function in (prepare, compile_alone) else function)
             if function is compile_alone:
-                cold.discard(LEVELS.get(arguments[0], CONTACT))
+                cold.discard(LEVELS.get(arguments[0], arguments[0]))
             future = Future()
             future.set_result(None)
             return future
 
-    monkeypatch.setattr(solvers, "is_cold", cold.__contains__)
+    monkeypatch.setattr(kernels, "is_cold", cold.__contains__)
     monkeypatch.setattr(workers, "Processes", Processes)
     place = workers.Machine(2)
     scene = rigid.load_scene("paper-3.3-massless")
@@ -295,14 +297,15 @@ def test_workers_compile_once_for_all_what_the_cases_need(monkeypatch):
     first, *then = asked
     assert first == workers._awake  # both processes load, while this one is still busy with what they shall do
     linear = [(compile_alone, "reduced", False), (compile_alone, CONTACT, True), (prepare, "reduced")]
-    assert then == [first, run, *linear, run, run, (compile_alone, "chain", False), (prepare, "chain"), run]
+    exact = [(compile_alone, "chain", False), (compile_alone, STAGE, True), (prepare, "chain")]
+    assert then == [first, run, *linear, run, run, *exact, run]
 
 
 def test_each_level_is_known_to_be_compiled_by_its_own_step(monkeypatch):
     """A machine that has the steps of one level has still to compile those of the other, once for all its workers."""
     from flexible.time.advance import advance_reduced
     from flexible.time.chain_step import advance_chain
-    from studies.running.solvers import LEVELS, missing
+    from studies.machine.kernels import LEVELS, missing
 
     step_of = {"reduced": advance_reduced, "chain": advance_chain}
     homes = {level: Path(step.py_func.__code__.co_filename).parent for level, step in step_of.items()}

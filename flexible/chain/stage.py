@@ -11,19 +11,21 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit, part
+from rigid.kernel.compile import apart, jit, part
 
 from ..contact.forces import contact_forces
+from ..contact.forces import example as of_contact
 from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by, moved_damper
 from ..contact.guess import GUESSES, as_before, guess_again, held_again
 from ..contact.newton import breaks_loose, move, reached, round_off, share_before_bend
 from ..contact.points.data import MOST_ITERATIONS, Before, Bristles, Parameters, Rim, pulling
 from ..contact.points.rim import vertex_angle, window_around
-from ..contact.stage import Stage
+from ..contact.stage import Predictor, Stage
 from ..contact.vectors import eliminate, largest, plus, times
 from .bordered import FRAME, Factors, factor, nothing_factored, solve
-from .inertia import Chain
+from .inertia import Body, Chain
 from .rim import RimNodes, follow
+from .rod.corotated import Rod
 from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
 from .whole import balance, beside, lacking, moved, near_floor, reach, sections, tangent
 
@@ -98,7 +100,20 @@ def _close(core: Any, chained: Any, touch: Any, contact: Any, chain: Any, scale:
     add_rim(core, touch, contact.nodal, scale)
 
 
-@jit
+def example() -> tuple[tuple[Any, ...], Solved]:
+    """Arguments and a result, of the types that compiled code has."""
+    (row, table, rim, law, mode, before, damper, _), contact = of_contact()
+    count, cube = np.empty(0, np.int64), np.empty((0, 2, 2))
+    rod = Rod(
+        row, table, cube, cube, row, row, row, np.empty((0, 2, 2, 2)), table, row, row, table, 0.0, 0.0, 0,
+    )  # fmt: skip
+    chain, facing = Chain(Body(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), rod), Facing(rim, RimNodes(count, row, cube), table)
+    start = row, table, Foreseen(0.0, 0.0), 0.0
+    solved = Solved(0, row, table, nothing_factored(), contact)
+    return (chain, facing, law, mode, before, damper, Predictor(row, row, 0.0, row), start), solved
+
+
+@apart(example)
 def solve_stage(
     chain: Any, facing: Facing, law: Any, mode: int, before: Any, damper: Any, predictor: Any, start: Any
 ) -> Solved:
@@ -276,4 +291,4 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
     return found
 
 
-solved, solved_in_step = jit(_solved, needs=(contact_forces,)), part(_solved)
+solved, solved_in_step = jit(_solved, needs=(contact_forces, solve_stage)), part(_solved)

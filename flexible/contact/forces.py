@@ -238,7 +238,7 @@ def _touch(
     return res, outside, kept
 
 
-def _example() -> tuple[tuple[Any, ...], Contact]:
+def example() -> tuple[tuple[Any, ...], Contact]:
     """Arguments and a result, of the types that compiled code has."""
     count, number, row, table = np.empty(0, np.int64), 0, np.empty(0), np.empty((0, 2))
     bristles = Bristles(count, row, row, np.empty(0, np.int8))
@@ -247,7 +247,7 @@ def _example() -> tuple[tuple[Any, ...], Contact]:
     return (row, table, Rim(number, row), law, number, Before(row, table, bristles), UNDAMPED, False), contact
 
 
-@apart(_example)
+@apart(example)
 def contact_forces(
     pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper, differentiates: bool
 ) -> Contact:  # fmt: skip

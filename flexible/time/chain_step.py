@@ -18,6 +18,6 @@ take_chain = part(
     momentum_error=whole.momentum_error,
 )  # fmt: skip
 advance_chain = jit(
-    advance, module=__name__, needs=(contact_forces,), tried=take_chain, held=whole.held_by,
+    advance, module=__name__, needs=(contact_forces, stage.solve_stage), tried=take_chain, held=whole.held_by,
     energies_of=whole.energies_of, lacks=whole.lacks,
 )  # fmt: skip

@@ -35,9 +35,9 @@ def bench(
               ring; 45 minutes, four with --quick
     scaling   cost against stiffness, turns, mesh, scenes and workers
     """
+    from ..machine.kernels import prepare
     from ..machine.processes import Processes
     from ..running.progress import bar
-    from ..running.solvers import prepare
 
     target = results_folder(out)
     apart = Processes(1)  # a process that has compiled holds memory, which is measured here

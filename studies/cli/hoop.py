@@ -154,15 +154,10 @@ def compile_(shared: bool) -> None:
     """Compile both solvers for this machine now, not at their first use."""
     from rigid.kernel.store import share
 
-    from ..machine.processes import Processes, cores
-    from ..running.solvers import LEVELS, compile_side_by_side, prepare
+    from ..machine.kernels import LEVELS, compile_on_all_cores, prepare
 
     start = time.perf_counter()
-    processes = Processes(min(cores(), len(LEVELS) + 2))
-    try:
-        compile_side_by_side(("rigid", *LEVELS), processes.submit)
-    finally:
-        processes.stop()
+    compile_on_all_cores(("rigid", *LEVELS))
     place = prepare("rigid", *LEVELS)
     kept = share() if shared else place
     click.echo(f"Both solvers are compiled, in {kept}: it took {time.perf_counter() - start:.0f} s.")

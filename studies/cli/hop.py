@@ -11,8 +11,9 @@ import click
 from rigid import Run, Scene, SceneError, load_scene
 from rigid.elastic import LAWS
 
+from ..machine.kernels import compile_side_by_side, levels_of, prepare
 from ..running.files import to_json, write_text
-from ..running.solvers import compile_side_by_side, ensure_accepts, levels_of, prepare
+from ..running.solvers import ensure_accepts
 from .shared.options import SceneKey, SceneName, as_json, out_folder, results_folder, scheduler, workers
 
 if TYPE_CHECKING:

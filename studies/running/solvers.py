@@ -10,16 +10,14 @@ built-in solvers alone.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterable
-from concurrent.futures import Future
+from collections.abc import Callable
 from functools import cache
 from importlib import import_module, metadata
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Protocol
 
 from rigid import Motion, Scene
-from rigid.kernel.store import is_cold
 from rigid.output.file import version
 
 from .files import StudyError
@@ -46,109 +44,6 @@ def flexible(scene: Scene, *, history: bool = False, progress: Progress | None =
     from flexible import simulate
 
     return simulate(scene, history=history, states=False, progress=progress)
-
-
-LEVELS = {"reduced": "flexible.time.advance", "chain": "flexible.time.chain_step"}
-"""Levels of the flexible solver that have compiled code of their own, and the module whose code is compiled last."""
-
-CONTACT = "flexible.contact.forces"  # whose code they share
-DEAREST = ("chain", "rigid", "reduced")  # to compile, some 30, 25 and 10 s, and the contact 7
-
-
-def levels_of(scenes: Iterable[Scene]) -> list[str]:
-    """Those that the flexible solver needs for these scenes."""
-    from flexible.models.select import level_of
-
-    found = {level_of(scene.to_dimensionless()) for scene in scenes}
-    return [level for level in LEVELS if level in found]
-
-
-def missing(levels: Iterable[str]) -> list[str]:
-    """Those of the levels for which this machine has no compiled code yet."""
-    found = []
-    for level in levels:
-        import_module(LEVELS[level])  # which knows where its kernels are
-        if is_cold(LEVELS[level]):
-            found.append(level)
-    return found
-
-
-def _short() -> Scene:
-    """A scene that is soon over."""
-    import rigid
-
-    return rigid.load_scene("paper-3.3-light").replace(solve={"rtol": 1e-2}, run=rigid.Run(until="pulse"))
-
-
-def prepare(*names: str) -> Path:
-    """Compile what "rigid", or a level of the flexible solver, needs and this machine does not have yet.
-
-    Returns
-    -------
-    Path
-        The folder where it is kept.
-    """
-    import rigid
-    from rigid.kernel.compile import patience
-    from rigid.kernel.store import user_cache
-
-    assert set(names) <= {"rigid", *LEVELS}
-    scene = _short()
-    if "rigid" in names:
-        rigid.simulate_batch([scene], workers=1)
-        patience.renew(0)
-        rigid.simulate(scene).at(0.0)
-    for level in LEVELS:
-        if level in names:
-            flexible(scene.replace(solve={"level": level}))
-    return user_cache()[0]
-
-
-def compile_alone(name: str, told: bool) -> None:
-    """Compile the contact, or a level's steps without it, and nothing else.
-
-    What others have ``told`` of is not told again.
-    """
-    from rigid.kernel.announce import is_told
-
-    if told:
-        is_told("flexible")
-    if name == CONTACT:
-        from flexible.contact.forces import contact_forces
-
-        contact: Any = contact_forces
-        contact.load()
-        return
-    from flexible.handover import compile_ahead
-    from flexible.models.select import hoop_of
-
-    compile_ahead(hoop_of(_short().replace(solve={"level": name}).to_dimensionless()))
-
-
-def compile_side_by_side(names: Iterable[str], submit: Callable[..., Future[Any]]) -> list[str]:
-    """Compile the dear parts of what :func:`prepare` does, in the processes that ``submit`` has call functions.
-
-    Returns
-    -------
-    list of str
-        What is left to ``prepare``: the levels of which this machine had no compiled code, and "rigid" if it is named.
-    """
-    names = list(names)
-    levels = missing(level for level in LEVELS if level in names)
-    cold = [name for name in names if name == "rigid" or name in levels]
-    parts = sorted(cold, key=DEAREST.index)
-    if levels and is_cold(CONTACT):
-        parts.append(CONTACT)
-    waiting, told = [], False
-    for part in parts:
-        if part == "rigid":
-            waiting.append(submit(prepare, part))
-        else:
-            waiting.append(submit(compile_alone, part, told))
-            told = True
-    for future in waiting:
-        future.result()
-    return cold
 
 
 NAMED = {"rigid": f"{__name__}:rigid", "flexible": f"{__name__}:flexible"}

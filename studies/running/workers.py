@@ -10,10 +10,11 @@ from typing import Protocol, TypeVar
 
 from rigid import scene_to_dict
 
+from ..machine.kernels import compile_side_by_side, levels_of, prepare
 from ..machine.processes import Processes, WorkerDied, cores
 from .case import Case, OtherBuild, Outcome, run_case
 from .files import StudyError, plain
-from .solvers import compile_side_by_side, levels_of, prepare, version
+from .solvers import version
 
 T = TypeVar("T")
 

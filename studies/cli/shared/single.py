@@ -16,7 +16,7 @@ from rigid import Motion, Scene
 
 from ...running.files import StudyError, to_json
 from ...running.progress import bar
-from ...running.solvers import solver
+from ...running.solvers import ensure_accepts, solver
 from .options import results_folder
 
 if TYPE_CHECKING:
@@ -48,8 +48,12 @@ def one_flexible(
     """
     from flexible import simulate
 
+    from ...machine.kernels import compile_on_all_cores, levels_of
+
     resume = None if earlier is None else _earlier(earlier)
     target = results_folder(out if out is not None else earlier)
+    ensure_accepts("flexible", scene)
+    compile_on_all_cores(levels_of([scene]))
     with bar("flexible hoop") as progress, _interrupts(target is not None) as stop:
         try:
             motion = simulate(scene, history=target is not None, progress=progress, resume=resume, stop=stop)
