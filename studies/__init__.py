@@ -13,6 +13,7 @@
 ``paper``      every number and figure of the paper again
 ``validate``   everything published or provable beside what the solvers find
 ``bench``      run time against error;  ``stress``  thousands of scenes and what must hold of them
+``machine``    processes side by side, and what is compiled for them
 ``running``    scenes through solvers, in processes, kept in a folder, whatever the study
 ``plots``      what all figures share
 ``examples``   programs of twenty lines

@@ -16,8 +16,9 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "same"))
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):  # read when numpy is imported: files
-        os.environ.setdefault(name, "1")  # share the cores already, and two threads of each wait for one another
+    from studies.machine import one_blas_thread
+
+    one_blas_thread()
     if can_fork(config):
         config.pluginmanager.register(Apart())
 

@@ -4,12 +4,12 @@ import os
 import sys
 from collections.abc import Sequence
 
+from ..machine import one_blas_thread
+
 
 def main() -> None:
     """Entry point of the command ``hoop``."""
-    # read when numpy is imported: on arrays as small as a ring's a second thread costs its core and saves no time
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
+    one_blas_thread()
     # read when numba is imported, for LLVM: compiles in a tenth less time than its 3, to code as fast
     os.environ.setdefault("NUMBA_OPT", "2")
     sys.exit(run())
