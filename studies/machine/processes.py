@@ -7,6 +7,7 @@ once.
 
 from __future__ import annotations
 
+import logging
 import multiprocessing
 import os
 import queue
@@ -25,6 +26,7 @@ from . import BLAS_THREADS
 _ONE_THREAD = dict.fromkeys((*BLAS_THREADS, "NUMBA_NUM_THREADS"), "1")
 
 _STARTING = threading.Lock()
+_LOGGER = logging.getLogger("hoop-pulse")
 
 Task = tuple[Callable[..., Any], tuple[Any, ...]]
 
@@ -97,7 +99,7 @@ class Processes:
         # spawn: nothing of this process, its threads least of all, is inherited but the environment
         context = multiprocessing.get_context("spawn")
         ours, theirs = context.Pipe()
-        worker = context.Process(target=_work, args=(theirs,), daemon=True)
+        worker = context.Process(target=_work, args=(theirs, _LOGGER.level), daemon=True)
         with _STARTING, _one_thread():
             if self._closing.is_set():
                 raise WorkerDied("the pool is closed")
@@ -119,9 +121,13 @@ class Processes:
         raise WorkerDied("its worker process died")
 
 
-def _work(pipe: Connection) -> None:
-    """What a worker does: leave interrupts to the parent, end with it even if it is killed, and answer."""
+def _work(pipe: Connection, level: int) -> None:
+    """What a worker does: leave interrupts to the parent, end with it even if it is killed, and answer.
+
+    It is as quiet about compiling as its parent, whose logger has that ``level``.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    _LOGGER.setLevel(level)
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()

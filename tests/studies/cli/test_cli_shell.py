@@ -17,6 +17,7 @@ from command_line import HANGS, ROOT, SCENE, command, environment, is_one_senten
 
 from rigid import scene_names
 from studies.cli.shared.options import number_keys
+from studies.machine.processes import Processes
 from studies.running import progress
 
 # what the standard library of Windows does not have
@@ -87,6 +88,17 @@ def test_quiet_holds_back_what_is_said_of_compiling(caplog):
     assert not caplog.records
     logging.getLogger("hoop-pulse").warning("compiling")
     assert len(caplog.records) == 1
+
+
+def test_workers_are_as_quiet_as_who_has_them():
+    """They compile too."""
+    level = logging.getLogger("hoop-pulse").getEffectiveLevel
+    with progress.quietly():
+        workers = Processes(1)
+        try:
+            assert workers.submit(level).result() == level() == logging.ERROR
+        finally:
+            workers.stop()
 
 
 def test_what_went_wrong_is_said_however_quiet(hoop):
