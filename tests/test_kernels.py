@@ -9,7 +9,6 @@ import re
 import shutil
 import subprocess
 import sys
-from concurrent.futures import Future
 from pathlib import Path
 from typing import NamedTuple
 
@@ -260,58 +259,6 @@ def test_the_environment_says_where(monkeypatch, tmp_path, variable):
         assert store._wanted_cache() == tmp_path / "kernels" / store.NAME
     else:
         assert store.NAME in store._wanted_cache().parts
-
-
-def test_workers_compile_once_for_all_what_the_cases_need(monkeypatch):
-    """What is called by address beside the steps of the level asked for first; the rest by one of them, when all are
-    there."""
-    from studies.machine import kernels
-    from studies.machine.kernels import CONTACT, LEVELS, STAGE, compile_alone, prepare
-    from studies.running import workers
-    from studies.running.case import Case
-
-    cold = {CONTACT, STAGE, *LEVELS.values()}
-
-    asked = []
-
-    class Processes:
-        def __init__(self, count):
-            pass
-
-        def submit(self, function, *arguments):
-            asked.append((function, *arguments) if function in (prepare, compile_alone) else function)
-            if function is compile_alone:
-                cold.discard(LEVELS.get(arguments[0], arguments[0]))
-            future = Future()
-            future.set_result(None)
-            return future
-
-    monkeypatch.setattr(kernels, "is_cold", cold.__contains__)
-    monkeypatch.setattr(workers, "Processes", Processes)
-    place = workers.Machine(2)
-    scene = rigid.load_scene("paper-3.3-massless")
-    soft = scene.replace(ring={"bending_stiffness": 10.0})  # for which "auto" takes the chain
-    for solver, hoop in (("rigid", soft), ("flexible", scene), ("flexible", scene), ("flexible", soft)):
-        place.submit(Case(solver, hoop))
-    run = workers.run_case
-    first, *then = asked
-    assert first == workers._awake  # both processes load, while this one is still busy with what they shall do
-    linear = [(compile_alone, "reduced", False), (compile_alone, CONTACT, True), (prepare, "reduced")]
-    exact = [(compile_alone, "chain", False), (compile_alone, STAGE, True), (prepare, "chain")]
-    assert then == [first, run, *linear, run, run, *exact, run]
-
-
-def test_each_level_is_known_to_be_compiled_by_its_own_step(monkeypatch):
-    """A machine that has the steps of one level has still to compile those of the other, once for all its workers."""
-    from flexible.time.advance import advance_reduced
-    from flexible.time.chain_step import advance_chain
-    from studies.machine.kernels import LEVELS, missing
-
-    step_of = {"reduced": advance_reduced, "chain": advance_chain}
-    homes = {level: Path(step.py_func.__code__.co_filename).parent for level, step in step_of.items()}
-    for level, other in (("reduced", "chain"), ("chain", "reduced")):
-        monkeypatch.setattr(store, "is_compiled", lambda place, absent=homes[other]: place != absent)
-        assert missing(LEVELS) == [other], level
 
 
 def test_seconds_of_compiling_are_no_run_time(monkeypatch, caplog):

@@ -69,11 +69,11 @@ def prepare(*names: str) -> Path:
         rigid.simulate_batch([scene], workers=1)
         patience.renew(0)
         rigid.simulate(scene).at(0.0)
-    for level in LEVELS:
-        if level in names:
-            from flexible import simulate
-
-            simulate(scene.replace(solve={"level": level}), states=False)
+    levels = [level for level in LEVELS if level in names]
+    if levels:
+        from flexible import simulate
+    for level in levels:
+        simulate(scene.replace(solve={"level": level}), states=False)
     return user_cache()[0]
 
 
@@ -120,14 +120,13 @@ def compile_side_by_side(names: Iterable[str], submit: Callable[..., Future[Any]
     return cold
 
 
-def compile_on_all_cores(names: Iterable[str]) -> list[str]:
-    """The same in processes of its own, one for each core; on a single core all is left to ``prepare``."""
+def compile_on_all_cores(names: Iterable[str]) -> None:
+    """The same in processes of its own, one for each core; one core alone has nothing to gain by it."""
     names = list(names)
-    count = min(cores(), 2 + len(names))
-    if count == 1 or not ("rigid" in names or missing(names)):
-        return names
-    processes = Processes(count)
+    if cores() == 1 or not ("rigid" in names or missing(names)):
+        return
+    processes = Processes(min(cores(), len(DEAREST)))
     try:
-        return compile_side_by_side(names, processes.submit)
+        compile_side_by_side(names, processes.submit)
     finally:
         processes.stop()

@@ -88,7 +88,7 @@ def test_a_step_of_a_chain(law, mass_ratio):
     agree(one, other, 1e-7)
 
 
-@pytest.mark.slow
+@pytest.mark.slow  # as above
 def test_a_step_in_flight():
     """Nothing but inertia: to round-off."""
     hoop = ReducedHoop(HOOP)
