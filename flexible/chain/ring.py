@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from ..ring.fem import Ring, membrane_stiffness
+from ..ring.mirror import positive_part
 from ..ring.reduction import body_of
 from .bordered import no_blocks
 from .inertia import Body, Chain
@@ -122,7 +123,7 @@ class _Shape:
         theta = self.ring.mesh.rim_theta
         loaded = np.array([int(np.argmin(np.abs(theta - angle))) for angle in LOADED])
         columns = (2 * loaded[:, None] + np.arange(2)).ravel()
-        moved = self.ring.rim_compliance[:, columns]
+        moved = self.ring.pressed(columns)
         turned = self.inverse @ rim_matrix(self.rod, self.still, self.nodes)[1][columns].T
         misfit = (moved - rim_matrix(self.rod, self.still, self.nodes)[1] @ turned).reshape(len(theta), 2, 6)
         clear = np.flatnonzero((np.abs(theta) > LOADED[0] / 4) & (np.abs(theta) < LOADED[0] * 0.8))
@@ -167,10 +168,8 @@ class _Shape:
             wall = 1 - self.ring.mesh.inner / self.ring.mesh.outer
             spread = np.linalg.inv(self.ring.rim_products.toarray())
             return np.asarray(PRESSED * wall * np.kron(spread, np.eye(2)), dtype=float)
-        answer, _ = self.ring.solve_rim(np.arange(len(self.rim)))
-        values, vectors = np.linalg.eigh((answer + answer.T) / 2 - self.rim @ self.inverse @ self.rim.T)
-        positive = values > 0
-        return np.asarray((vectors[:, positive] * values[positive]) @ vectors[:, positive].T, dtype=float)
+        held = np.kron(self.ring.given_within, np.eye(2)) + self.rim @ self.inverse @ self.rim.T
+        return positive_part(self.ring.rim_compliance - held, self.ring.mirror)
 
 
 @lru_cache(maxsize=8)

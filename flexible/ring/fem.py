@@ -22,6 +22,7 @@ from meshes import RingMesh, ring_mesh
 from rigid import Scene
 
 from .corners import corners
+from .mirror import Mirror, half_of, mirror_of, mirrored
 from .possible import ensure_thick
 
 Array = NDArray[np.float64]
@@ -32,6 +33,8 @@ MESH_ERROR, MESH_ORDER = 3e-5, 3.4  # with so many, of the impulses over J_N; or
 MESH_WALL, MESH_THIN = 0.02, 1.75  # wall over R at which it is that, power with which it grows as the wall gets thinner
 MESH_SOFT = 400.0  # bending stiffness from which on it is less, like its root
 MOST_AROUND, MOST_THROUGH = 1200, 6  # the compliance of so long a rim is 180 MB
+FAR_ERROR, FAR_SOFT, FAR_SOFTER = 1e-4, 10.0, 1.6  # a ring that bends far: its error at so small an E I, and its power
+MOST_FAR = 480  # around such a ring: its sections pay in every step
 LOT = 24  # of modes that are found together
 WITHIN, THIN = 0.05, 2.5  # share of a half-plane's give under the shortest waves of the rim's nodes; see Ring.within
 
@@ -139,18 +142,28 @@ class Ring:
         for group in np.unique(columns // COLUMNS):
             if not known[group]:
                 some = np.arange(COLUMNS * group, min(COLUMNS * (group + 1), len(compliance)))
-                load = np.zeros((len(self.free), len(some)))
-                load[self.rim_dofs[some], np.arange(len(some))] = 1.0
-                compliance[:, some] = self.solve(load)[self.rim_dofs] - self._by_itself(some)
+                compliance[:, some] = self.pressed(some) - self._by_itself(some)
                 known[group] = True
         return compliance, known
+
+    @cached_property
+    def mirror(self) -> Mirror:
+        """The rim's components and their mirror images."""
+        return mirror_of(self.mesh.rim_theta)
 
     @property
     def rim_compliance(self) -> Array:
         """Displacement of the rim under unit forces on it, (2 n_rim, 2 n_rim), in the order of ``rim_dofs``."""
-        every = np.arange(len(self.rim_dofs))
-        compliance = self.solve_rim(every)[0] + self._by_itself(every)
+        half = half_of(self.mirror)
+        columns = [self.pressed(some) for some in np.split(half, range(COLUMNS, len(half), COLUMNS))]
+        compliance = mirrored(np.concatenate(columns, axis=1), half, self.mirror)
         return (compliance + compliance.T) / 2
+
+    def pressed(self, columns: NDArray[np.int64]) -> Array:
+        """Displacement of the rim under unit forces on some of its components, (2 n_rim, m)."""
+        load = np.zeros((len(self.free), len(columns)))
+        load[self.rim_dofs[columns], np.arange(len(columns))] = 1.0
+        return np.asarray(self.solve(load)[self.rim_dofs])
 
     @property
     def within(self) -> float:
@@ -163,13 +176,19 @@ class Ring:
         h, mesh = 2 * pi / len(self.mesh.rim_nodes), self.mesh
         return WITHIN * 2 * h / pi if mesh.outer - mesh.inner > THIN * h else 0.0
 
-    def _by_itself(self, columns: NDArray[np.int64]) -> Array:
-        """What is ``within`` of the displacement of the rim's dofs, under unit forces on some of them."""
-        load = np.zeros((len(self.mesh.rim_nodes), 2, len(columns)))
+    @cached_property
+    def given_within(self) -> Array:
+        """What is ``within`` of the displacement of a rim's node under unit forces on it and others, (n_rim, n_rim)."""
         if self.within == 0:
-            return load.reshape(-1, len(columns))
-        load[columns // 2, columns % 2, np.arange(len(columns))] = self.within
-        return np.asarray(splu(self.rim_products).solve(load.reshape(len(load), -1))).reshape(-1, len(columns))
+            return np.zeros(self.rim_products.shape)
+        return np.asarray(splu(self.rim_products).solve(self.within * np.eye(len(self.mesh.rim_nodes))))
+
+    def _by_itself(self, columns: NDArray[np.int64]) -> Array:
+        """The same of the rim's components, under unit forces on some of them."""
+        moved = np.zeros((len(self.mesh.rim_nodes), 2, len(columns)))
+        for way in (0, 1):
+            moved[:, way, columns % 2 == way] = self.given_within[:, columns[columns % 2 == way] // 2]
+        return moved.reshape(-1, len(columns))
 
     @cached_property
     def rim_products(self) -> sp.csc_matrix:
@@ -254,11 +273,17 @@ def elements_around(rtol: float, bending_stiffness: float, wall: float) -> int:
     return min(max(AROUND, ceil(AROUND * (3 * error / rtol) ** (1 / MESH_ORDER))), MOST_AROUND)
 
 
-def ring_of(scene: Scene, through: int = 1, around: int | None = None) -> Ring:
+def elements_bent_far(rtol: float, bending_stiffness: float) -> int:
+    """The same around a ring whose sections turn far, 240 to 480; what they leave is of the first order."""
+    error = FAR_ERROR * (FAR_SOFT / bending_stiffness) ** FAR_SOFTER
+    return min(max(AROUND, 2 * round(AROUND / 2 * 3 * error / rtol)), MOST_FAR)
+
+
+def ring_of(scene: Scene, through: int = 1, linear: bool = True) -> Ring:
     """The ring of a scene; one is built per shape, and shared by all stiffnesses, masses and contacts.
 
-    ``through`` is the least number of elements through the wall, ``around`` the number around the ring, unless the
-    scene says how many; by default its tolerance says both.
+    ``through`` is the least number of elements through the wall. Unless the scene says how many, its tolerance does,
+    and how many around: of a ``linear`` ring, or of one whose sections turn far.
 
     Raises
     ------
@@ -266,7 +291,9 @@ def ring_of(scene: Scene, through: int = 1, around: int | None = None) -> Ring:
         The wall is too thin for quads.
     """
     ensure_thick(scene.wall)
-    rtol = scene.solve.rtol if around is None else inf
-    through = scene.solve.through or max(through, elements_through(scene.wall, rtol))
-    around = scene.solve.elements or around or elements_around(rtol, scene.ring.bending_stiffness, scene.wall)
+    rtol, bending_stiffness = scene.solve.rtol, scene.ring.bending_stiffness
+    through = scene.solve.through or max(through, elements_through(scene.wall, rtol if linear else inf))
+    around = scene.solve.elements or (
+        elements_around(rtol, bending_stiffness, scene.wall) if linear else elements_bent_far(rtol, bending_stiffness)
+    )
     return _shared_ring(scene.wall, around, through, scene.ring.weld_half_angle, scene.ring.poisson)

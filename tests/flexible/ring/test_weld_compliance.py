@@ -61,7 +61,7 @@ def test_modes_and_residual_add_up_to_the_static_compliance():
     """Craig-Bampton with static correction is exact at rest, whatever the number of modes.
 
     To it belongs what the contact has point by point, whose answer to the nodes' loads is their shape functions' share
-    of it. How far rounding takes both from it is seen where reciprocity fails.
+    of it. How far rounding takes each from it is seen where reciprocity fails.
     """
     ring, stiffness = ring_of(SCENE), membrane_stiffness(SCENE)
     own = reduce(SCENE, 1).within * np.kron(np.linalg.inv(ring.rim_products.toarray()), np.eye(2))
@@ -75,7 +75,7 @@ def test_modes_and_residual_add_up_to_the_static_compliance():
         held = (reduced.rim_shapes / reduced.frame.modal[:, 0]) @ reduced.rim_shapes.T + reduced.compliance(
             every, every
         )
-        assert np.abs(held - exact).max() < rounding
+        assert np.abs(held - exact).max() < 3 * rounding, "half of the one is solved for, all of the other"
 
 
 def test_dynamic_compliance_lacks_what_the_left_out_modes_add():
