@@ -20,7 +20,7 @@ from ..chain.touch import turned
 from ..chain.whole import energies_of, floor_forces, held, momentum_error, moved, reach
 from ..contact.points.data import Damper
 from ..contact.stage import Predictor, Stage
-from ..ring.fem import AROUND, ring_of
+from ..ring.fem import ring_of
 from .rim_contact import RimContact
 from .state import Energies, State
 
@@ -52,8 +52,8 @@ class ChainHoop(RimContact):
     def __init__(
         self, scene: Scene, parts: int | None = None, points: int | None = None, through: int = THROUGH
     ) -> None:
-        parts = (scene.solve.elements or AROUND) // PER_PART if parts is None else parts
-        self.ring = ChainRing(scene, ring_of(scene, through, AROUND), parts)
+        ring = ring_of(scene, through, self.linear)
+        self.ring = ChainRing(scene, ring, ring.mesh.around // PER_PART if parts is None else parts)
         super().__init__(scene, self.ring.vertex, points, self.ring.within)
         rod = self.ring.chain.rod
         mass = np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1].ravel()

@@ -18,7 +18,7 @@ from ..contact.forces import contact_forces
 from ..contact.points.data import MOST_ITERATIONS, Before, Damper, Rim, pulling
 from ..contact.stage import Near, Predictor, Stage
 from ..contact.vectors import largest
-from ..ring.fem import AROUND, Ring, ring_of
+from ..ring.fem import Ring, ring_of
 from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
 from .rim_contact import RimContact
@@ -103,7 +103,7 @@ class FullHoop(RimContact):
     """
 
     def __init__(self, scene: Scene, points: int | None = None, through: int = 1) -> None:
-        self.ring = self._make_ring(scene, ring_of(scene, through, AROUND))
+        self.ring = self._make_ring(scene, ring_of(scene, through, self.linear))
         super().__init__(scene, self.ring.vertex, points)
         self._factored: _Factored | None = None
         #: momenta of the slow vibrations, by which steps are chosen, of a rate of the free dofs

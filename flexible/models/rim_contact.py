@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 
 LEAST = 8  # points to a patch: with fewer the force of a patch that moves is noise
 KNOWN = EXACTLY, 1e-4  # of 1 + N: Newton's least and largest tolerance on the forces of a step
+STEPS = 0.3, 10.0  # least share of a step's tolerance on a soft ring; E I from which on it may have all of it
 COARSE = 1e-3  # rtol at which a law has its number of points; their share of the error falls like its cube, and faster
 
 
@@ -89,6 +90,16 @@ def relaxation_time(scene: Scene) -> float:
     return 2 * scene.contact.damping * ((1 + scene.hoop.mass_ratio) / patch_stiffness(scene)) ** 0.5
 
 
+def share_of_steps(scene: Scene) -> float:
+    """Share of a step's tolerance by which the motion of a ring whose sections turn far is as exact as is asked for.
+
+    Of a softer ring more of a pulse hangs on the instants at which its wall comes down and leaves the floor. See
+    README.md, section 5.
+    """
+    least, all_of_it = STEPS
+    return min(max(least, scene.ring.bending_stiffness / all_of_it), 1.0) * LAWS[scene.contact.law].steps_of_soft
+
+
 class RimContact:
     """The rim of a scene's hoop as the floor sees it.
 
@@ -115,6 +126,7 @@ class RimContact:
         self.law = contact_law(scene, len(vertex), points, within, soft=not self.linear)
         self.element = 2 * pi / len(vertex)
         self.relaxation = relaxation_time(scene)
+        self.steps = 1.0 if self.linear else share_of_steps(scene)
 
     @property
     def arrays(self) -> Any:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from rigid import Scene, SceneError
 
+from ..ring.fem import Ring, ring_of
 from .reduced import ReducedHoop
 
 if TYPE_CHECKING:
@@ -36,6 +37,16 @@ def level_of(scene: Scene) -> str:
     if scene.solve.level == "auto":
         return "reduced" if scene.ring.bending_stiffness >= SOFT else "chain"
     return str(scene.solve.level)
+
+
+def ring_for(scene: Scene) -> Ring:
+    """The quads on which a scene without units stands, without the hoop."""
+    level = level_of(scene)
+    if level == "chain":
+        from .chain import THROUGH
+
+        return ring_of(scene, THROUGH, linear=False)
+    return ring_of(scene, linear=level != "exact")
 
 
 def hoop_of(scene: Scene) -> Hoop:

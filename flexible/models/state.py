@@ -79,6 +79,7 @@ class Model(Protocol):
     law: Law
     relaxation: float
     linear: bool  # whether the ring is
+    steps: float  # share of the tolerance that its steps may have
 
     @property
     def arrays(self) -> Any:

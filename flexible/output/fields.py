@@ -40,8 +40,8 @@ from meshes.draw.scales import tidy
 from meshes.draw.style import SI_UNITS, UNITS, unit
 from rigid import Scene
 
+from ..models.select import ring_for
 from ..motion import FlexibleMotion
-from ..ring.fem import ring_of
 from .curves import curves
 from .instants import Instant, instants_at, times_of
 from .interior import interior_of
@@ -152,7 +152,8 @@ class _Painter:
         x = [i.place.x_C for i in instants]
         R = self.length
         self.floor = floor_block((min(x) - 2) * R, (max(x) + 2) * R, 0.1 * R)
-        self.mesh = next((interior.mesh for interior in self.interiors.values()), ring_of(scene).mesh)
+        undeformed = ring_for(scene.to_dimensionless()).mesh
+        self.mesh = next((interior.mesh for interior in self.interiors.values()), undeformed)
         self.factor = np.array([self._display_factor(instants)])
 
     def frames(self, instants: list[Instant]) -> Iterator[Frame]:

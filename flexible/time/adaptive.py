@@ -178,7 +178,7 @@ def march(
         records += _records(rows[:1])
         if keep is not None:
             keep(now.state)
-    tolerance = method.tolerance(rtol) * (1.0 if model.linear else model.law.steps_of_soft)
+    tolerance = method.tolerance(rtol) * model.steps
     aims = Aims(tolerance, 1 / method.estimates, float(limits.longest), limits.most, model.relaxation)
     ends = Ends(float(ends.t), float(ends.low), float(ends.high), ends.turns)
     why, stood, behind, ended, lost = PAUSED, now, len(records), "", -np.inf

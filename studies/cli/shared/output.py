@@ -115,11 +115,11 @@ def write_mesh(scene: Scene, path: Path) -> str:
     StudyError
         A format that cannot be written.
     """
-    from flexible.ring.fem import ring_of
+    from flexible.models.select import ring_for
     from meshes import MeshError
     from meshes.exchange import save_mesh
 
-    ring = ring_of(scene).mesh
+    ring = ring_for(scene.to_dimensionless()).mesh
     try:
         save_mesh(ring, path)
     except MeshError as error:
