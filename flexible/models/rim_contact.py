@@ -21,7 +21,8 @@ Array = NDArray[np.float64]
 
 LEAST = 8  # points to a patch: with fewer the force of a patch that moves is noise
 KNOWN = EXACTLY, 1e-4  # of 1 + N: Newton's least and largest tolerance on the forces of a step
-STEPS = 0.3, 10.0  # least share of a step's tolerance on a soft ring; E I from which on it may have all of it
+#: least share of a step's tolerance on a soft ring; E I from which on it may have all of it, and rtol down from which
+STEPS = 0.3, 10.0, 3e-4
 COARSE = 1e-3  # rtol at which a law has its number of points; their share of the error falls like its cube, and faster
 
 
@@ -93,11 +94,12 @@ def relaxation_time(scene: Scene) -> float:
 def share_of_steps(scene: Scene) -> float:
     """Share of a step's tolerance by which the motion of a ring whose sections turn far is as exact as is asked for.
 
-    Of a softer ring more of a pulse hangs on the instants at which its wall comes down and leaves the floor. See
-    README.md, section 5.
+    In long steps instants at which the wall of a softer one comes down and leaves the floor are missed, on which the
+    rest of a pulse hangs. See README.md, section 5.
     """
-    least, all_of_it = STEPS
-    return min(max(least, scene.ring.bending_stiffness / all_of_it), 1.0) * LAWS[scene.contact.law].steps_of_soft
+    least, stiff, fine = STEPS
+    of_softer = min(max(least, scene.ring.bending_stiffness / stiff, fine / scene.solve.rtol), 1.0)
+    return of_softer * LAWS[scene.contact.law].steps_of_soft
 
 
 class RimContact:

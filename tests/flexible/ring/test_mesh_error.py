@@ -6,12 +6,17 @@ import pytest
 import flexible
 from flexible.ring.fem import (
     AROUND,
+    FAR_ERROR,
+    FAR_SOFT,
+    FAR_SOFTER,
     MESH_ERROR,
     MESH_ORDER,
     MESH_SOFT,
     MESH_THIN,
     MESH_WALL,
+    MOST_FAR,
     elements_around,
+    elements_bent_far,
     elements_through,
     ring_of,
 )
@@ -86,3 +91,51 @@ def _scene(rtol):
         ring=Ring(bending_stiffness=65.0),
         solve=Solve(rtol=rtol),
     )
+
+
+def soft_pulse(bending_stiffness, **solve):
+    """First pulse of an undamped hoop whose wall lies on the floor beside the weld."""
+    scene = Scene(
+        Hoop(k=0.1, r=1.02, mass_ratio=0.05), Friction(0.35, 0.3), Release(phi0_deg=10), Run(until="pulse"),
+        ring=Ring(bending_stiffness=bending_stiffness), contact=Contact(stiffness=1e8, damping=0.0),
+        solve=Solve(level="chain", **solve),
+    )  # fmt: skip
+    return flexible.simulate(scene).pulses[0]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("bending_stiffness", [10.0, 5.0, 1.0])
+def test_the_error_of_a_mesh_that_bends_far_is_no_more_than_elements_are_chosen_by(bending_stiffness):
+    """Impulses and loss over J_N with 240 elements, against as many as are chosen at most; a step's error beside it."""
+    coarse, fine = (soft_pulse(bending_stiffness, rtol=1e-4, elements=n) for n in (AROUND, MOST_FAR))
+    found = np.array([(p.normal_impulse, p.friction_impulse, p.friction_loss) for p in (coarse, fine)])
+    stated = FAR_ERROR * (FAR_SOFT / bending_stiffness) ** FAR_SOFTER
+    assert error(found[0], found[1]) < stated + 1e-4
+
+
+@pytest.mark.slow
+def test_tolerance_alone_tells_which_way_a_pulse_goes_on():
+    """At E I = 3 the hoop comes down beside the weld on a patch shorter than one of 240 elements, and goes on in one of
+    two ways, whose largest forces are a sixth apart: rough tolerances have to find the way of the finer ones.
+
+    Both hold their steps to a part of rtol. J_F, whose two ways all but cancel, is told by J_N.
+    """
+    rough, finer = (soft_pulse(3.0, rtol=rtol) for rtol in (1e-3, 3e-4))
+    assert rough.peak_normal_force == pytest.approx(finer.peak_normal_force, rel=0.01)
+    assert rough.normal_impulse == pytest.approx(finer.normal_impulse, rel=1e-3)
+    assert rough.friction_impulse == pytest.approx(finer.friction_impulse, abs=1e-3 * finer.normal_impulse)
+    assert rough.friction_loss == pytest.approx(finer.friction_loss, rel=0.02)
+
+
+def test_elements_of_a_ring_that_bends_far_follow_tolerance_and_stiffness():
+    """So many that a third of rtol is left, of an error of the first order: between 240 and twice as many."""
+    assert [elements_bent_far(1e-3, soft) for soft in (39.0, FAR_SOFT, 3.0, 0.5)] == [AROUND, AROUND, *[MOST_FAR] * 2]
+    between = elements_bent_far(2e-4, FAR_SOFT)
+    assert between == pytest.approx(AROUND * 3 * FAR_ERROR / 2e-4, abs=1)
+    assert between % 2 == 0, "a part has two"
+    assert elements_bent_far(2e-4, 2 * FAR_SOFT) == AROUND
+    assert elements_bent_far(1e-4, 1.5 * FAR_SOFT) == pytest.approx(AROUND * 3 / 1.5**FAR_SOFTER, abs=1)
+    assert elements_bent_far(1e-7, FAR_SOFT) == MOST_FAR
+    soft = {"ring": {"bending_stiffness": 5.0}}
+    assert ring_of(_scene(1e-4).replace(**soft), linear=False).mesh.around == MOST_FAR
+    assert ring_of(_scene(1e-4).replace(**soft)).mesh.around == AROUND, "a linear ring has no wall that lies down"
