@@ -8,7 +8,7 @@ import rigid
 from flexible.contact.laws.listing import LAWS
 from flexible.handover import hand_over
 from flexible.models.reduced import ReducedHoop
-from flexible.models.rim_contact import points_to_a_patch
+from flexible.models.rim_contact import points_to_a_patch, share_of_steps
 from flexible.ring.reduction import modes_for
 from flexible.time.adaptive import march
 from flexible.time.events import Ends
@@ -55,3 +55,17 @@ def _to_the_end(scene, modes):
     # steps a tenth as large as asked for: what is left is the modes'
     last = march(hoop, start, Ends(t=0.14), 0.1 * scene.solve.rtol).records[-1]
     return np.array([last.normal_impulse, last.friction_impulse, last.friction_loss])
+
+
+@pytest.mark.parametrize("law", ["patch", "brush"])
+def test_steps_of_soft_rings_have_a_part_of_a_rough_tolerance(law):
+    """Of what their law has: all of it from E I = 10 on, or where the tolerance is no rougher than 3e-4."""
+    whole = LAWS[law].steps_of_soft
+
+    def share(bending_stiffness, rtol):
+        ring = {"bending_stiffness": bending_stiffness}
+        return share_of_steps(HOOP.replace(ring=ring, contact={"law": law}, solve={"rtol": rtol}))
+
+    assert [share(soft, 1e-2) / whole for soft in (10.0, 5.0, 3.0, 0.5)] == pytest.approx([1, 0.5, 0.3, 0.3])
+    assert share(0.5, 3e-4) == share(0.5, 1e-6) == whole
+    assert share(0.5, 5e-4) * 5e-4 == pytest.approx(whole * 3e-4), "no longer steps than a tolerance of 3e-4 has"
