@@ -152,8 +152,8 @@ class _Painter:
         x = [i.place.x_C for i in instants]
         R = self.length
         self.floor = floor_block((min(x) - 2) * R, (max(x) + 2) * R, 0.1 * R)
-        undeformed = ring_for(scene.to_dimensionless()).mesh
-        self.mesh = next((interior.mesh for interior in self.interiors.values()), undeformed)
+        known = [interior.mesh for interior in self.interiors.values()]
+        self.mesh = known[0] if known else ring_for(scene.to_dimensionless()).mesh
         self.factor = np.array([self._display_factor(instants)])
 
     def frames(self, instants: list[Instant]) -> Iterator[Frame]:
