@@ -55,14 +55,14 @@ class Lens:
         return bool(np.linalg.norm(points - centre, axis=1).min() > (_RADIUS + 0.05) * shot.radius)
 
     def draw(self, picture: Image, shot: Shot, column: float, floor: float) -> tuple[float, float, str]:
-        """Put the lens into ``picture``, which has the contact at ``column`` and the floor at row ``floor``.
+        """Put the lens into ``picture``, which has the hoop's centre at ``column`` and the floor at row ``floor``.
 
         Returns
         -------
         column, row, caption
             What to print below the lens and where.
         """
-        self.renderer.show(shot, self.factor, float(shot.centre[0]))
+        self.renderer.show(shot, self.factor, shot.contact(self.factor))
         enlarged = self.renderer.image()
         middle = floor - _HEIGHT * shot.radius * self.scale
         top, left = round(middle - self.size / 2), round(column - self.size / 2)

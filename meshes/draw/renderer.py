@@ -150,7 +150,7 @@ class Renderer:
         if self._disk is not None and shot.disk is not None:
             self._disk.points = _at(np.asarray(shot.disk.points, dtype=float) + shift, "disk")
         self._lay_floor(middle)
-        self._point_arrows(shot)
+        self._point_arrows(shot, factor)
         y = self.height * (self.above - 0.5)
         self.plotter.camera_position = [(middle, y, 10 * self.R), (middle, y, 0.0), (0.0, 1.0, 0.0)]
         self.plotter.camera.parallel_scale = self.height / 2
@@ -184,8 +184,8 @@ class Renderer:
         ends[:, 1, 1] = -0.05 * R
         self._ticks.points = _at(ends.reshape(-1, 3), "edge")
 
-    def _point_arrows(self, shot: Shot) -> None:
-        R, foot = self.R / self.zoom, np.array([shot.centre[0], 0.0])
+    def _point_arrows(self, shot: Shot, factor: float) -> None:
+        R, foot = self.R / self.zoom, np.array([shot.contact(factor), 0.0])
         force = np.array([shot.friction_force or 0.0, shot.normal_force or 0.0])
         slip = np.array([shot.slip_velocity or 0.0, 0.0])
         for name, vector, reach, tail in (

@@ -39,6 +39,19 @@ class Shot:
         value = self.ring.point_data.get("displacement")
         return np.zeros((len(self.ring.points), 3)) if value is None else np.asarray(value, dtype=float)
 
+    def contact(self, factor: float) -> float:
+        """Abscissa of the contact's middle with the rim displaced ``factor`` times.
+
+        Below the centre where nothing of a pressure is known. The wall of a soft hoop touches far from there.
+        """
+        known = {} if self.rim is None else self.rim.point_data
+        if self.rim is None or not {"pressure", "theta", "displacement"} <= set(known):
+            return float(self.centre[0])
+        pressure, theta, moved = (np.asarray(known[name], float) for name in ("pressure", "theta", "displacement"))
+        x = np.asarray(self.rim.points, dtype=float)[:, 0] + factor * moved[:, 0]
+        weight = pressure * np.gradient(theta)
+        return float(weight @ x / weight.sum()) if weight.sum() > 0 else float(self.centre[0])
+
 
 @dataclass(frozen=True)
 class Curves:
