@@ -20,7 +20,7 @@ from ..chain.touch import turned
 from ..chain.whole import energies_of, floor_forces, held, momentum_error, moved, reach
 from ..contact.points.data import Damper
 from ..contact.stage import Predictor, Stage
-from ..ring.fem import ring_of
+from ..ring.choice import ring_of
 from .rim_contact import RimContact
 from .state import Energies, State
 

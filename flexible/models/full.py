@@ -18,7 +18,8 @@ from ..contact.forces import contact_forces
 from ..contact.points.data import MOST_ITERATIONS, Before, Damper, Rim, pulling
 from ..contact.stage import Near, Predictor, Stage
 from ..contact.vectors import largest
-from ..ring.fem import Ring, ring_of
+from ..ring.choice import ring_of
+from ..ring.fem import Ring
 from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
 from .rim_contact import RimContact

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from rigid import Scene, SceneError
 
-from ..ring.fem import Ring, ring_of
+from ..ring.choice import ring_of
+from ..ring.fem import Ring
 from .reduced import ReducedHoop
 
 if TYPE_CHECKING:

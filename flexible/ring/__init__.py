@@ -2,8 +2,9 @@
 
 ``possible``   which scenes have none
 ``corners``    what the wall yields besides at the corners of the weld
-``fem``        stiffness, mass, static compliance of the rim, vibration modes, stress, by scikit-fem
 ``mirror``     what half of a ring says of all of it
+``fem``        stiffness, mass, static compliance of the rim, vibration modes, stress, by scikit-fem
+``choice``     which of these a scene stands on: elements by tolerance, stiffness and wall
 ``exact``      its elasticity with Green's strain, where it turns far
 ``reduction``  fixed-interface modes, and the rest of the compliance as static
 ``frame``      inertia of disk and modes in axes that float on the disk

@@ -7,8 +7,8 @@ Plane stress; the weld (a short arc of the inner rim) is clamped to the disk's f
 
 from __future__ import annotations
 
-from functools import cached_property, lru_cache
-from math import ceil, inf, pi, sqrt
+from functools import cached_property
+from math import ceil, pi
 from typing import Any
 
 import numpy as np
@@ -18,23 +18,15 @@ from scipy.sparse.linalg import LinearOperator, eigsh, splu
 from skfem import Basis, BilinearForm
 from skfem.helpers import ddot, dot, sym_grad, trace
 
-from meshes import RingMesh, ring_mesh
+from meshes import RingMesh
 from rigid import Scene
 
 from .corners import corners
 from .mirror import Mirror, half_of, mirror_of, mirrored
-from .possible import ensure_thick
 
 Array = NDArray[np.float64]
 
 COLUMNS = 64  # of the rim's compliance are solved for together
-AROUND = 240  # elements where no tolerance asks for more
-MESH_ERROR, MESH_ORDER = 3e-5, 3.4  # with so many, of the impulses over J_N; order with which it falls
-MESH_WALL, MESH_THIN = 0.02, 1.75  # wall over R at which it is that, power with which it grows as the wall gets thinner
-MESH_SOFT = 400.0  # bending stiffness from which on it is less, like its root
-MOST_AROUND, MOST_THROUGH = 1200, 6  # the compliance of so long a rim is 180 MB
-FAR_ERROR, FAR_SOFT, FAR_SOFTER = 1e-4, 10.0, 1.6  # a ring that bends far: its error at so small an E I, and its power
-MOST_FAR = 480  # around such a ring: its sections pay in every step
 LOT = 24  # of modes that are found together
 WITHIN, THIN = 0.05, 2.5  # share of a half-plane's give under the shortest waves of the rim's nodes; see Ring.within
 
@@ -247,53 +239,3 @@ class Ring:
         full = np.zeros(self.basis.N)
         full[self.free] = displacement
         return full[self.mesh.node_dofs]
-
-
-@lru_cache(maxsize=8)
-def _shared_ring(wall: float, elements: int, through: int, weld_half_angle: float, poisson: float) -> Ring:
-    return Ring(ring_mesh(1 - wall, 1.0, elements, through, weld_half_angle), poisson)
-
-
-def elements_through(wall: float, rtol: float = inf) -> int:
-    """Elements through a wall, its thickness over R, by which the ring is good to 0.1 %; to less below rtol = 1e-4.
-
-    With t of them the frequencies n = 2...4 of a free ring, and its compliances to outer tractions cos n theta, are off
-    by at most 1.2 wall^2/t^4; that is ten times rtol, of which a pulse of a thin ring knows a fortieth (README.md,
-    section 2). No more than ``MOST_THROUGH``: of a solid disk 0.1 % takes as many.
-    """
-    return max(1, min(MOST_THROUGH, ceil((1.2 * wall**2 / min(1e-3, 10 * rtol)) ** 0.25)))
-
-
-def elements_around(rtol: float, bending_stiffness: float, wall: float) -> int:
-    """Elements around a ring whose mesh leaves no more than a third of ``rtol`` in the impulses of a pulse.
-
-    Found where it leaves most, at an undamped brush under a ring of E I = 65 with mass (README.md, section 2).
-    """
-    error = MESH_ERROR * (MESH_WALL / wall) ** MESH_THIN * min(1.0, sqrt(MESH_SOFT / bending_stiffness))
-    return min(max(AROUND, ceil(AROUND * (3 * error / rtol) ** (1 / MESH_ORDER))), MOST_AROUND)
-
-
-def elements_bent_far(rtol: float, bending_stiffness: float) -> int:
-    """The same around a ring whose sections turn far, 240 to 480; what they leave is of the first order."""
-    error = FAR_ERROR * (FAR_SOFT / bending_stiffness) ** FAR_SOFTER
-    return min(max(AROUND, 2 * round(AROUND / 2 * 3 * error / rtol)), MOST_FAR)
-
-
-def ring_of(scene: Scene, through: int = 1, linear: bool = True) -> Ring:
-    """The ring of a scene; one is built per shape, and shared by all stiffnesses, masses and contacts.
-
-    ``through`` is the least number of elements through the wall. Unless the scene says how many, its tolerance does,
-    and how many around: of a ``linear`` ring, or of one whose sections turn far.
-
-    Raises
-    ------
-    SceneError
-        The wall is too thin for quads.
-    """
-    ensure_thick(scene.wall)
-    rtol, bending_stiffness = scene.solve.rtol, scene.ring.bending_stiffness
-    through = scene.solve.through or max(through, elements_through(scene.wall, rtol if linear else inf))
-    around = scene.solve.elements or (
-        elements_around(rtol, bending_stiffness, scene.wall) if linear else elements_bent_far(rtol, bending_stiffness)
-    )
-    return _shared_ring(scene.wall, around, through, scene.ring.weld_half_angle, scene.ring.poisson)

@@ -18,7 +18,8 @@ from numpy.typing import NDArray
 from rigid import Scene
 from rigid.kernel.compile import jit, loop, part
 
-from .fem import COLUMNS, Ring, membrane_stiffness, ring_of
+from .choice import ring_of
+from .fem import COLUMNS, Ring, membrane_stiffness
 from .frame import Body, Frame
 
 Array = NDArray[np.float64]

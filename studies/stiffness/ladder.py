@@ -70,7 +70,7 @@ class Ladder:
         distance from the rigid hoop does, and is no step along the ladder.
         """
         from flexible.contact.laws.listing import LAWS
-        from flexible.ring.fem import AROUND
+        from flexible.ring.choice import AROUND
 
         law = LAWS[scene.contact.law]
         ratio = scene.ring.bending_stiffness / scene.contact.stiffness

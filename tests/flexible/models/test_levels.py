@@ -15,8 +15,8 @@ from flexible.models.exact import ExactHoop
 from flexible.models.full import FullHoop, NewtonMatrix, _Factored
 from flexible.models.reduced import ReducedHoop
 from flexible.models.select import FAR, Range, hoop_of
+from flexible.ring.choice import ring_of
 from flexible.ring.exact import ExactElasticity
-from flexible.ring.fem import ring_of
 from flexible.ring.nodal import inertia
 from flexible.time.adaptive import MarchError, march
 from flexible.time.events import Ends

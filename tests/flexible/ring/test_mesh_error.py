@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import flexible
-from flexible.ring.fem import (
+from flexible.ring.choice import (
     AROUND,
     FAR_ERROR,
     FAR_SOFT,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from flexible.ring.fem import ring_of
+from flexible.ring.choice import ring_of
 from flexible.ring.mirror import half_of, mirror_of, mirrored, positive_part
 from rigid import Friction, Hoop, Release, Scene, Solve
 

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from free_ring import frequencies, nodal, outer_traction, ring, solve
 
-from flexible.ring.fem import elements_through, ring_of
+from flexible.ring.choice import elements_through, ring_of
 from meshes import nodal_gradient
 from rigid import load_scene
 

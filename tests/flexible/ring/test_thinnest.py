@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import flexible
-from flexible.ring.fem import Ring, ring_of
+from flexible.ring.choice import ring_of
+from flexible.ring.fem import Ring
 from flexible.ring.possible import THINNEST
 from meshes import ring_mesh
 from rigid import Friction, Hoop, Release, Scene, SceneError

@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import trapezoid
 from scipy.linalg import eigvalsh, null_space
 
-from flexible.ring.fem import ring_of
+from flexible.ring.choice import ring_of
 from rigid import Friction, Hoop, Release, Run, Scene, simulate
 from studies.hop.rolling.rule import slowest_period
 from studies.hop.rolling.scaling import LEFT, SYMMETRIC, foreseen, pulse_time, relief, suddenness
