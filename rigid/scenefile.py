@@ -52,20 +52,14 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
         One sentence with the key, the value and what is allowed.
     """
     parts: dict[str, Any] = {}
+    _ensure_known(data)
     data = _without_section(data)
     for part, table in data.items():
-        if part not in PARTS:
-            raise unknown("part of a scene", part, list(PARTS))
-        if not isinstance(table, Mapping):
-            raise SceneError(f"{part} = {table!r} is not possible: {part} is a table, [{part}].")
         keys = _file_keys(part)
         values = {}
         for key, value in table.items():
-            if (key == "point_mass" and part == "hoop") or _IN_DEGREES.get(key) in table:
+            if _is_beside(part, key, table):
                 continue
-            if key not in keys:
-                known = [*keys, *SECTION] if part == "ring" else list(keys)
-                raise unknown(f"key of [{part}]", f"{part}.{key}", known)
             name, value = keys[key], plain(f"{part}.{key}", value)
             values[name] = in_radians(f"{part}.{key}", value) if name in _IN_DEGREES else value
         values |= _to_the_last_bit(part, table, values)
@@ -76,6 +70,24 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
             if _file_keys(part)[key] not in parts.get(part, {}):
                 raise SceneError(f"{part}.{key} is missing: a scene needs it.")
     return Scene(**{part: PARTS[part](**values) for part, values in parts.items()})
+
+
+def _ensure_known(data: Mapping[str, Any]) -> None:
+    """Whether all keys are a scene's, before what one that is written wrong leaves out is missed."""
+    for part, table in data.items():
+        if part not in PARTS:
+            raise unknown("part of a scene", part, list(PARTS))
+        if not isinstance(table, Mapping):
+            raise SceneError(f"{part} = {table!r} is not possible: {part} is a table, [{part}].")
+        known = [*_file_keys(part), *(SECTION if part == "ring" else ())]
+        for key in table:
+            if key not in known and not _is_beside(part, key, table):
+                raise unknown(f"key of [{part}]", f"{part}.{key}", known)
+
+
+def _is_beside(part: str, key: str, table: Mapping[str, Any]) -> bool:
+    """Whether a key says what another one does: a point mass, or an angle in radians beside its degrees."""
+    return (key == "point_mass" and part == "hoop") or _IN_DEGREES.get(key) in table
 
 
 def _without_section(data: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -70,6 +70,8 @@ def test_a_scene_survives_its_file_in_the_other_words():
         (TUBE | {"density": -1.0}, {}, "ring.density = -1.0 is not possible"),
         (TUBE | {"density": "light"}, {}, "ring.density = 'light' is not possible"),
         ({"youngs_modulu": 1e9}, {}, "did you mean 'youngs_modulus'?"),
+        ({"youngs_modulos": 1e9, "width": 0.01, "height": 0.002}, {}, "did you mean 'youngs_modulus'?"),
+        (TUBE | {"tube_wal": 0.002}, {}, "did you mean 'tube_wall'?"),
         (TUBE, {"r": "wide"}, "hoop.r = 'wide' is not possible"),
     ],
 )
