@@ -279,6 +279,18 @@ def test_seconds_of_compiling_are_no_run_time(monkeypatch, caplog):
     assert [record.name for record in caplog.records] == ["hoop-pulse"]
 
 
+def test_a_function_of_no_module_is_not_ours():
+    """numba's users make functions with exec, which stand in no file: their compiling is theirs to tell."""
+    import numba
+
+    announce.tell()
+    scope: dict = {"__name__": None}
+    exec("def twice(x):\n    return 2 * x", scope)
+    before = announce.compile_seconds()
+    assert numba.njit(scope["twice"])(2.0) == 4.0
+    assert announce.compile_seconds() == before
+
+
 def test_garbage_is_looked_for_less_often_while_compiling(monkeypatch):
     """As often as before afterwards, and where nobody looks for it nobody begins to."""
     monkeypatch.setattr(announce, "_told", {"flexible"})

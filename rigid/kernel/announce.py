@@ -34,7 +34,8 @@ def tell() -> None:
         """Told by numba at the beginning and end of each function that it compiles and does not find on disk."""
 
         def on_start(self, happening: Any) -> None:
-            _begin(happening.data["dispatcher"].py_func.__module__.partition(".")[0])
+            module = happening.data["dispatcher"].py_func.__module__ or ""  # none of what was made by exec
+            _begin(module.partition(".")[0])
 
         def on_end(self, happening: Any) -> None:
             _end()
