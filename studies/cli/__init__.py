@@ -4,12 +4,13 @@ import os
 import sys
 from collections.abc import Sequence
 
-from ..machine import one_blas_thread
+from ..machine import one_blas_thread, search_garbage_seldom
 
 
 def main() -> None:
     """Entry point of the command ``hoop``."""
     one_blas_thread()
+    search_garbage_seldom()
     # read when numba is imported, for LLVM: compiles in a tenth less time than its 3, to code as fast
     os.environ.setdefault("NUMBA_OPT", "2")
     sys.exit(run())

@@ -21,7 +21,7 @@ from multiprocessing.connection import wait as wait_for_any
 from multiprocessing.context import SpawnProcess
 from typing import Any
 
-from . import BLAS_THREADS
+from . import BLAS_THREADS, search_garbage_seldom
 
 _ONE_THREAD = dict.fromkeys((*BLAS_THREADS, "NUMBA_NUM_THREADS"), "1")
 
@@ -127,6 +127,7 @@ def _work(pipe: Connection, level: int) -> None:
     It is as quiet about compiling as its parent, whose logger has that ``level``.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    search_garbage_seldom()
     _LOGGER.setLevel(level)
     parent = multiprocessing.parent_process()
     if parent is not None:
