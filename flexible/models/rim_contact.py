@@ -35,15 +35,14 @@ def points_to_a_patch(law: type[Law], rtol: float, soft: bool = False) -> int:
     return ceil(max(LEAST, number * (COARSE / rtol) ** (1 / 3)))
 
 
-def known_to(rtol: float, soft: bool = False) -> float:
+def known_to(rtol: float) -> float:
     """Share of 1 + N to which Newton finds the forces of a step: what is left falls faster than the tolerance.
 
     A thirtieth of it at 1e-3, where all else errs as much as it may; a thousandth at 1e-6, where limits of stiff
-    floors are drawn from the differences of pulses. On a ``soft`` ring it is the least at any tolerance: there Newton
-    has its steps from bristles that break loose, and saves next to none.
+    floors are drawn from the differences of pulses.
     """
     least, most = KNOWN
-    return least if soft else min(max(least, rtol**1.5), most)
+    return min(max(least, rtol**1.5), most)
 
 
 def contact_law(scene: Scene, elements: int, points: int, within: float = 0.0, soft: bool = False) -> Law:
@@ -64,7 +63,7 @@ def contact_law(scene: Scene, elements: int, points: int, within: float = 0.0, s
         mu_s=float(friction.mu_s),
         mu=float(friction.mu),
         slip_scale=float(contact.slip_velocity_scale),
-        known=known_to(scene.solve.rtol, soft),
+        known=known_to(scene.solve.rtol),
     )
     return law(parameters)
 
