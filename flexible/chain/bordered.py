@@ -15,10 +15,11 @@ from numpy.typing import NDArray
 
 from rigid.kernel.compile import jit, loop, part
 
-from ..contact.vectors import solved_by
+from ..contact.vectors import flagged, solved_by
 
 Array = NDArray[np.float64]
 FRAME = 3
+WIDTH = 2 * FRAME  # of the border
 FADED = 1e-60  # smaller than any product with it could matter, and far from numbers without all their digits
 
 
@@ -30,8 +31,8 @@ class Blocks(NamedTuple):
     diagonal : (n + 2, 3, 3) array
     up, down : (n + 1, 3, 3) arrays
         Row i, column i + 1; and row i + 1, column i. Behind the last free section n comes the first.
-    columns, rows : (n + 2, 3, 6), (n + 2, 6, 3) arrays
-        Border: the frame, then a kept section (filled in by the elimination).
+    columns, rows : (n + 2, 3, 6) arrays
+        Border: the frame, then a kept section (filled in by the elimination); that below lies on its side.
     corner : (6, 6) array
     """
 
@@ -52,8 +53,8 @@ class Factors(NamedTuple):
         Eliminated sections in turn, and the section that each is passed on to.
     inverse, ahead, beside, back : (m, 3, 3), (m, 3, 3), (m, 3, 6), (m, 3, 3) arrays
         Inverse of the pivot; it times the block ahead and times the border; the block back from there.
-    rows : (m, 6, 3) array
-        Border below.
+    rows : (n + 2, 3, 6) array
+        Border below, of all sections.
     kept : (k,) int array
         Kept sections.
     far : int
@@ -81,7 +82,7 @@ def no_blocks(sections: int) -> Any:
     """All zero, for this number of sections, ends included."""
     return Blocks(
         np.zeros((sections, 3, 3)), np.zeros((sections - 1, 3, 3)), np.zeros((sections - 1, 3, 3)),
-        np.zeros((sections, 3, 6)), np.zeros((sections, 6, 3)), np.zeros((6, 6)),
+        np.zeros((sections, 3, WIDTH)), np.zeros((sections, 3, WIDTH)), np.zeros((WIDTH, WIDTH)),
     )  # fmt: skip
 
 
@@ -90,7 +91,7 @@ def nothing_factored() -> Any:
     """Factors of a matrix of no sections."""
     return Factors(
         np.empty((0, 2), np.int64), np.empty((0, 3, 3)), np.empty((0, 3, 3)), np.empty((0, 3, 6)),
-        np.empty((0, 3, 3)), np.empty((0, 6, 3)), np.empty(0, np.int64), 0, np.empty((0, 0)), np.empty(0, np.int64),
+        np.empty((0, 3, 3)), np.empty((0, 3, 6)), np.empty(0, np.int64), 0, np.empty((0, 0)), np.empty(0, np.int64),
     )  # fmt: skip
 
 
@@ -109,55 +110,51 @@ def _invert(matrix: Any, at: int, inverse: Any, to: int) -> None:
 
 
 @loop
-def _times(left: Any, right: Any, to: Any, columns: int) -> None:
-    """Product of a 3 x 3 block with the first columns of another."""
+def _fade(border: Any, below: Any) -> None:
+    """Where a section feels nothing any more of the kept one that it borders on, make it none at all."""
     for a in range(3):
-        x, y, z = left[a, 0], left[a, 1], left[a, 2]
-        for b in range(columns):
-            to[a, b] = x * right[0, b] + y * right[1, b] + z * right[2, b]
-
-
-@loop
-def _take(left: Any, right: Any, of: Any, rows: int, columns: int) -> None:
-    """Take the product of the first rows of one block with the first columns of another from a third."""
-    for a in range(rows):
-        x, y, z = left[a, 0], left[a, 1], left[a, 2]
-        for b in range(columns):
-            of[a, b] -= x * right[0, b] + y * right[1, b] + z * right[2, b]
-
-
-@loop
-def _fades(border: Any, below: Any) -> bool:
-    """Whether a section feels nothing any more of the kept one that it borders on."""
+        for b in range(FRAME, WIDTH):
+            if abs(border[a, b]) > FADED or abs(below[a, b]) > FADED:
+                return
     for a in range(3):
-        for b in range(3):
-            if abs(border[a, FRAME + b]) > FADED or abs(below[FRAME + a, b]) > FADED:
-                return False
-    return True
+        for b in range(FRAME, WIDTH):
+            border[a, b] = below[a, b] = 0.0
 
 
 @loop
 def _eliminate(blocks: Any, i: int, here: int, there: int, factors: Any) -> None:
-    """Eliminate one section: what it leaves for later, and what it adds to the next one and to the border."""
-    diagonal, columns, rows, corner = blocks.diagonal, blocks.columns, blocks.rows, blocks.corner
-    inverse, ahead, beside, back, below = factors
+    """Eliminate one section: what it leaves for later, and what it adds to the next one and to the border.
+
+    Loops over rows of a known length, from which compiled code takes several numbers at once.
+    """
+    inverse, ahead, beside, back = factors
     forth, at = (blocks.up, here) if there > here else (blocks.down, there)
     return_way = blocks.down if there > here else blocks.up
-    _invert(diagonal, here, inverse, i)
-    width = FRAME if _fades(columns[here], rows[here]) else 2 * FRAME
+    border, below, corner = blocks.columns, blocks.rows, blocks.corner
+    _invert(blocks.diagonal, here, inverse, i)
+    if abs(border[here, 0, FRAME]) < FADED:
+        _fade(border[here], below[here])
     for a in range(3):
+        x, y, z = inverse[i, a, 0], inverse[i, a, 1], inverse[i, a, 2]
         for b in range(3):
             back[i, a, b] = return_way[at, a, b]
-        for b in range(width):
-            below[i, b, a] = rows[here, b, a]
-        for b in range(width, 2 * FRAME):
-            beside[i, a, b] = below[i, b, a] = 0.0
-    _times(inverse[i], forth[at], ahead[i], 3)
-    _times(inverse[i], columns[here], beside[i], width)
-    _take(back[i], ahead[i], diagonal[there], 3, 3)
-    _take(back[i], beside[i], columns[there], 3, width)
-    _take(below[i], ahead[i], rows[there], width, 3)
-    _take(below[i], beside[i], corner, width, width)
+            ahead[i, a, b] = x * forth[at, 0, b] + y * forth[at, 1, b] + z * forth[at, 2, b]
+        for b in range(WIDTH):
+            beside[i, a, b] = x * border[here, 0, b] + y * border[here, 1, b] + z * border[here, 2, b]
+    for a in range(3):
+        x, y, z = back[i, a, 0], back[i, a, 1], back[i, a, 2]
+        for b in range(3):
+            blocks.diagonal[there, a, b] -= x * ahead[i, 0, b] + y * ahead[i, 1, b] + z * ahead[i, 2, b]
+        for b in range(WIDTH):
+            border[there, a, b] -= x * beside[i, 0, b] + y * beside[i, 1, b] + z * beside[i, 2, b]
+    for a in range(3):
+        x, y, z = ahead[i, 0, a], ahead[i, 1, a], ahead[i, 2, a]
+        for b in range(WIDTH):
+            below[there, a, b] -= x * below[here, 0, b] + y * below[here, 1, b] + z * below[here, 2, b]
+    for a in range(WIDTH):
+        x, y, z = below[here, 0, a], below[here, 1, a], below[here, 2, a]
+        for b in range(WIDTH):
+            corner[a, b] -= x * beside[i, 0, b] + y * beside[i, 1, b] + z * beside[i, 2, b]
 
 
 @part
@@ -184,7 +181,7 @@ def _border(blocks: Any, here: int, by: Any, of: Any, at: int) -> None:
     for a in range(3):
         for b in range(3):
             blocks.columns[here, a, FRAME + b] = by[at, a, b]
-            blocks.rows[here, FRAME + a, b] = of[at, a, b]
+            blocks.rows[here, b, FRAME + a] = of[at, a, b]
 
 
 @part
@@ -205,9 +202,9 @@ def _core(blocks: Any, kept: Any, place: int, size: int) -> Any:
                 i, at = kept[k], FRAME + 3 * k
                 core[at + a, at + b] += diagonal[i, a, b]
                 core[at + a, b] += columns[i, a, b]
-                core[a, at + b] += rows[i, a, b]
+                core[a, at + b] += rows[i, b, a]
                 core[at + a, f + b] += columns[i, a, FRAME + b]
-                core[f + a, at + b] += rows[i, FRAME + a, b]
+                core[f + a, at + b] += rows[i, b, FRAME + a]
                 if k > 0 and kept[k - 1] == i - 1:
                     core[at + a, at - 3 + b] += down[i - 1, a, b]
                     core[at - 3 + a, at + b] += up[i - 1, a, b]
@@ -236,12 +233,13 @@ def factor(blocks: Any, keeps: Any, rest: int) -> Any:
     order, far = _turns(keeps)
     m = order.shape[0]
     inverse, ahead, back = np.empty((m, 3, 3)), np.empty((m, 3, 3)), np.empty((m, 3, 3))
-    beside, below = np.empty((m, 3, 6)), np.empty((m, 6, 3))
-    _forward(blocks, order, far, (inverse, ahead, beside, back, below))
-    kept = np.flatnonzero(keeps)
+    beside = np.empty((m, 3, WIDTH))
+    _forward(blocks, order, far, (inverse, ahead, beside, back))
+    kept = flagged(keeps)
     place = keeps[:far].sum()
     core = _core(blocks, kept, place, FRAME + 3 * kept.shape[0] + rest)
-    return Factors(order, inverse, ahead, beside, back, below, kept, place, core, np.empty(core.shape[0], np.int64))
+    pivots = np.empty(core.shape[0], np.int64)
+    return Factors(order, inverse, ahead, beside, back, blocks.rows, kept, place, core, pivots)
 
 
 @part
@@ -252,7 +250,7 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]
     """
     order, inverse, ahead, beside, back, below, kept, far, core, pivots = factors
     size, m = core.shape[0], order.shape[0]
-    border = np.zeros(6)
+    border = np.zeros(WIDTH)
     right = sections.copy()
     for i in range(m):
         here, there = order[i, 0], order[i, 1]
@@ -261,8 +259,8 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]
             pivot += inverse[i, a, 2] * right[here, 2]
             for b in range(3):
                 right[there, b] -= back[i, b, a] * pivot
-            for b in range(6):
-                border[b] -= below[i, b, a] * pivot
+            for b in range(WIDTH):
+                border[b] -= below[here, a, b] * pivot
     known = np.zeros(size)
     for a in range(FRAME):
         known[a] = frame[a] + border[a]
@@ -288,7 +286,7 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]
             value = 0.0
             for b in range(3):
                 value += inverse[i, a, b] * right[here, b] - ahead[i, a, b] * x[there, b]
-            for b in range(6):
+            for b in range(WIDTH):
                 value -= beside[i, a, b] * border[b]
             x[here, a] = value
     vector = np.empty(FRAME + 3 * (x.shape[0] - 2))

@@ -182,12 +182,12 @@ def inertia_tangent(chain: Any, pose: Any, rates: Any, changes: Any, beta: float
         # by u1: (p1, p2) change by m (own, across), by u2: by m (-across, own)
         gx = m * (own * s + across * c)
         rows[i, 0, 0] += gx
-        rows[i, 1, 0] += m * (own * c - across * s)
-        rows[i, 2, 0] += gx + m * (y1 * across - y2 * own) + p2
+        rows[i, 0, 1] += m * (own * c - across * s)
+        rows[i, 0, 2] += gx + m * (y1 * across - y2 * own) + p2
         gx = m * (own * c - across * s)
-        rows[i, 0, 1] += gx
+        rows[i, 1, 0] += gx
         rows[i, 1, 1] -= m * (across * c + own * s)
-        rows[i, 2, 1] += gx + m * (y1 * own + y2 * across) - p1
+        rows[i, 1, 2] += gx + m * (y1 * own + y2 * across) - p1
         rows[i, 2, 2] += j * r2
     corner = blocks.corner
     for k in range(2):

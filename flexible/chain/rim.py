@@ -100,9 +100,10 @@ def _follow_part(rod: Any, q: Any, at: int, xi: float, moved: Any, by: Any) -> N
         x = xi if side == 0 else 1 - xi
         value = (1 - x) * (1 - x) * (1 + 2 * x)
         slope = x * (1 - x) * (1 - x) * (width if side == 0 else -width)
-        c, s = cos(rod.theta[i]), sin(rod.theta[i])
-        turn = q[i, 2]
-        ct, st, less = cos(turn), sin(turn), 2 * sin(turn / 2) ** 2
+        c, s = rod.place[i, 0] / (1 - rod.offset), rod.place[i, 1] / (1 - rod.offset)
+        half, co_half = sin(q[i, 2] / 2), cos(q[i, 2] / 2)
+        less, st = 2 * half * half, 2 * half * co_half
+        ct = 1 - less
         out1, out2 = c * ct - s * st, s * ct + c * st  # the section's outward direction now
         bend = bending(rod, q, i)
         stretch, thinner = rod.offset * bend, rod.pinch * bend

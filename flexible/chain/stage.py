@@ -27,7 +27,7 @@ from .inertia import Body, Chain
 from .rim import RimNodes, follow
 from .rod.corotated import Rod
 from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
-from .whole import balance, beside, lacking, moved, near_floor, reach, sections, tangent
+from .whole import balance, beside, lacking, moved, near_floor, reach, sections, tangent, whole
 
 GROWS = 2.0  # a step of Newton after which the forces are off by this many times as much is taken back to a half
 LATE = 12  # iterations after which it is where it leaves more at all: it goes to and fro
@@ -55,6 +55,7 @@ class Solved(NamedTuple):
 
     iterations: int  # Newton's; -1 when it did not converge, -2 when it did in too short a window
     d: Any
+    forces: Any  # of inertia, gravity and strain on frame and sections
     u: Any  # (m, 2) displacement of the window's nodes
     factors: Factors  # of Newton's last matrix
     contact: Any
@@ -105,11 +106,11 @@ def example() -> tuple[tuple[Any, ...], Solved]:
     (row, table, rim, law, mode, before, damper, _), contact = of_contact()
     count, cube = np.empty(0, np.int64), np.empty((0, 2, 2))
     rod = Rod(
-        row, table, cube, cube, row, row, row, np.empty((0, 2, 2, 2)), table, row, row, table, 0.0, 0.0, 0,
+        row, table, table, cube, cube, row, row, row, np.empty((0, 2, 2, 2)), table, row, row, table, 0.0, 0.0, 0,
     )  # fmt: skip
     chain, facing = Chain(Body(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), rod), Facing(rim, RimNodes(count, row, cube), table)
     start = row, table, Foreseen(0.0, 0.0), 0.0
-    solved = Solved(0, row, table, nothing_factored(), contact)
+    solved = Solved(0, row, row, table, nothing_factored(), contact)
     return (chain, facing, law, mode, before, damper, Predictor(row, row, 0.0, row), start), solved
 
 
@@ -134,7 +135,7 @@ def solve_stage(
     keeps, place = kept_by(rod.theta.shape[0], nodes.part)
     inner = FRAME + 3 * keeps.sum()
     update, update_u = np.zeros(d.shape[0]), np.zeros(2 * m)
-    iterations, damping, last = -1, 1.0, np.inf
+    iterations, damping, last, forces = -1, 1.0, np.inf, d
     way, reach, stuck, halved = 0.0, np.inf, 0.0, 0
     factors, stands, moved_before, stale = nothing_factored(), foreseen, False, True
     chained = factors.core
@@ -176,7 +177,7 @@ def solve_stage(
             if damper.pulls and res.eta < 0:
                 damper, last = pulling(damper, False), np.inf
                 continue
-            iterations = iteration
+            iterations, forces = iteration, whole(frame, force)
             break
         worst = lacks.forces
         if moves:
@@ -204,7 +205,7 @@ def solve_stage(
         move(d, u, -damping, update, update_u)
     if iterations >= 0 and contact.outside:
         iterations = -2
-    return Solved(iterations, d, u, factors, contact)
+    return Solved(iterations, d, forces, u, factors, contact)
 
 
 @part
@@ -243,7 +244,7 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         looked[0], looked[1] = low, high
     margin = 0.3 * (looked[1] - looked[0]) + 0.1 * arrays.element
     found = Stage(
-        False, expected, expected, nothing_factored(), old.window, old.u, old.nodal, old.res, old.bristles
+        False, expected, expected, expected, nothing_factored(), old.window, old.u, old.nodal, old.res, old.bristles
     )  # fmt: skip
     for _ in range(4):
         window = window_around(vertex, expected[2], looked[0], looked[1], margin)
@@ -265,7 +266,7 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         if massless:
             acc[FRAME:] = 0.0
         found = Stage(
-            False, d, acc, answer.factors, window, answer.u, contact.nodal, contact.res, contact.bristles
+            False, d, acc, answer.forces, answer.factors, window, answer.u, contact.nodal, contact.res, contact.bristles
         )  # fmt: skip
         if answer.iterations == -2:
             margin = 2 * margin + arrays.element
@@ -285,7 +286,8 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         begin, count = window_around(vertex, at[2], lower, higher, 0.0)
         if window[0] <= begin and begin + count <= window[0] + window[1]:
             return Stage(
-                True, d, acc, answer.factors, window, answer.u, contact.nodal, contact.res, contact.bristles
+                True, d, acc, answer.forces, answer.factors, window, answer.u, contact.nodal, contact.res,
+                contact.bristles,
             )  # fmt: skip
         looked[0], looked[1] = min(looked[0], lower), max(looked[1], higher)
     return found

@@ -45,6 +45,17 @@ def balance(chain: Any, pos: Any, vel: Any, acc: Any) -> Any:
 
 
 @part
+def whole(frame: Any, rows: Any) -> Any:
+    """One vector of what belongs to the frame and to the sections."""
+    vector = np.empty(FRAME + 3 * (rows.shape[0] - 2))
+    for a in range(FRAME):
+        vector[a] = frame[a]
+        for i in range(1, rows.shape[0] - 1):
+            vector[3 * i + a] = rows[i, a]
+    return vector
+
+
+@part
 def tangent(chain: Any, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     """Derivatives of the forces of :func:`balance` by an increment."""
     q = sections(pos)
@@ -77,10 +88,7 @@ def passed_on(factors: Any, chain: Any, pos: Any, error: Any, beta: float) -> An
 def floor_forces(arrays: Any, pos: Any, vel: Any, acc: Any) -> Any:
     """Forces of the floor on all coordinates that go with these accelerations."""
     _, frame, force = balance(arrays.chain, pos, vel, acc)
-    whole = np.empty(pos.shape[0])
-    for i in range(whole.shape[0]):
-        whole[i] = frame[i] if i < FRAME else force[i // 3, i % 3]
-    return whole
+    return whole(frame, force)
 
 
 @part

@@ -35,6 +35,7 @@ class Stage(NamedTuple):
     ok: bool
     d: Any = None  # increment of pos
     acc: Any = None
+    forces: Any = None  # of the floor on all coordinates
     matrix: Any = None  # Newton's; the model's own business
     window: Any = None  # first rim element and number of elements
     u: Any = None

@@ -68,6 +68,17 @@ def times(factor: float, values: Any) -> Any:
 
 
 @part
+def flagged(flags: Any) -> Any:
+    """Where the flags are set, in ascending order."""
+    where, count = np.empty(flags.shape[0], np.int64), 0
+    for i in range(flags.shape[0]):
+        if flags[i]:
+            where[count] = i
+            count += 1
+    return where[:count].copy()
+
+
+@part
 def eliminate(rows: Any, order: Any) -> None:
     """Factors of a matrix of some tens of unknowns in its place, by elimination with row pivots, for :func:`solved_by`.
 

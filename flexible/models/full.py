@@ -213,7 +213,8 @@ class FullHoop(RimContact):
         outside = contact.outside
         if self.ring.massless:
             acc[3:] = 0.0
-        found = Stage(ok and not outside, d, acc, matrix, window, u, contact.nodal, res, contact.bristles)
+        forces = np.concatenate([own.frame, own.ring])
+        found = Stage(ok and not outside, d, acc, forces, matrix, window, u, contact.nodal, res, contact.bristles)
         return found, outside
 
     def _factor(self, pos: Array, vel: Array, acc: Array, beta: float, anew: bool) -> _Factored:

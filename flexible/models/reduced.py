@@ -103,11 +103,13 @@ def _solved(
     margin = 0.3 * (high - low) + 0.1 * arrays.element
     deepest = least_gap(near.pos[1], near.pos[2], near.u, NearFloor(near.window[0], arrays.vertex))
     unknown = np.empty((0, 0)), np.empty(0, np.int64)
-    found = Stage(False, expected, expected, unknown, old.window, old.u, old.nodal, old.res, old.bristles)
+    found = Stage(False, expected, expected, expected, unknown, old.window, old.u, old.nodal, old.res, old.bristles)
     for _ in range(4):
         window = window_around(arrays.vertex, expected[2], low, high, margin)
         if not is_known(arrays.rim, window_dofs(arrays.vertex.shape[0], window)):
-            return Stage(False, expected, expected, found.matrix, window, old.u, old.nodal, old.res, old.bristles)
+            return Stage(
+                False, expected, expected, expected, found.matrix, window, old.u, old.nodal, old.res, old.bristles
+            )  # fmt: skip
         u_old = _moved(arrays, old, window)
         before = Before(old.pos[:3], u_old, old.bristles)
         u = near.u if near.window == window else u_old
@@ -121,8 +123,8 @@ def _solved(
             elastic = 0.0
         contact = answer.contact
         found = Stage(
-            answer.iterations >= 0, answer.d, answer.acc, answer.matrix, window, answer.u, contact.nodal, contact.res,
-            contact.bristles,
+            answer.iterations >= 0, answer.d, answer.acc, answer.forces, answer.matrix, window, answer.u, contact.nodal,
+            contact.res, contact.bristles,
         )  # fmt: skip
         if answer.iterations != -2:
             break

@@ -46,6 +46,7 @@ class Solved(NamedTuple):
     iterations: int  # Newton's; negative when it did not converge, or the window was too short
     d: Any
     acc: Any
+    forces: Any  # of inertia, gravity and strain on frame and modes
     u: Any  # (nodes, 2) displacement of the window's nodes
     matrix: Any  # factors of Newton's last, for the filter of the error estimate
     contact: Contact
@@ -132,7 +133,7 @@ def solve_stage(
     matrix, order = np.empty((size, size)), np.empty(size, np.int64)
     residual = np.empty(size)
     update = np.zeros(size)
-    iterations = -1
+    iterations, forces = -1, d
     damping, last = 1.0, np.inf
     way, reach = 0.0, np.inf
     stuck, halved = 0.0, 0
@@ -174,7 +175,7 @@ def solve_stage(
             if damper.pulls and res.eta < 0:
                 damper, last, asked = pulling(damper, False), np.inf, iteration > 0
                 continue
-            iterations = iteration
+            iterations, forces = iteration, own
             break
         load = 1 + abs(res.normal)
         worst = max(worst, astray) / load
@@ -198,7 +199,7 @@ def solve_stage(
         move(d, u, -damping, update[:m], update[m:])
     if contact.outside:
         iterations = -2
-    return Solved(iterations, d, reached(predictor, d)[2], u, (matrix, order), contact)
+    return Solved(iterations, d, reached(predictor, d)[2], forces, u, (matrix, order), contact)
 
 
 @part

@@ -72,10 +72,10 @@ class Aims(NamedTuple):
     alone: bool = False  # a single step, whatever its error and its events
 
 
-def tried(model: Any, old: State, h: float, table: Table, damping: Any, known_to: float) -> Taken:
+def tried(model: Any, old: State, h: float, table: Table, damping: Any, known_to: float, before: Any) -> Taken:
     """A step of a hoop in Python; what its sparse matrices raise is a step that could not be solved."""
     try:
-        return take(model, old, h, table, damping, known_to)
+        return take(model, old, h, table, damping, known_to, before)
     except np.linalg.LinAlgError:
         nothing: dict[str, Any] = {name: getattr(old, name, 0.0) for name in Taken._fields}
         return Taken(**{**nothing, "ok": False})
@@ -184,7 +184,7 @@ def advance(
     """
     state, h, pace, books, attempts, turns, stalls, cut = now
     written, span, window, search, event, why = 0, attempts + SPAN, state.window, NOWHERE, NO_EVENT, 0
-    asked, tries, grown, this, leap, wider = h, h, h, pace, 0.0, WIDER
+    asked, tries, grown, this, leap, wider, holds = h, h, h, pace, 0.0, WIDER, held(model, state.pos, state.vel)
     if _ended(state.t, state.pos[2], turns, ends):
         why = REACHED
     while why == 0:
@@ -203,7 +203,7 @@ def advance(
             attempts += 1
         # the forces of an instant by itself, and those by which it is found, are known as well as they can be
         known_to = EXACTLY if aims.alone or search.event != NO_EVENT else law.known
-        taken = tried(model, state, tries, table, _damping(aims, law, state), known_to)
+        taken = tried(model, state, tries, table, _damping(aims, law, state), known_to, holds)
         solved, lacking = taken.ok and isfinite(taken.error), not taken.ok and lacks(model, taken.window)
         if lacking or (aims.alone and not solved):
             why, window, attempts = LACKS if lacking else NO_FORCES, taken.window, attempts - 1
@@ -245,8 +245,8 @@ def advance(
         # rates in so short a step are round-off, and so are a damper's forces: the mode ends where it began
         if event != MODE_ENDS or length >= SHORTEST:
             books = _entered(books, state.res.bristle_energy, taken)
-            state = _reached(state, tries, taken, state.mode if aims.alone else free(law, seen))
-        energies = energies_of(model, state, held(model, state.pos, state.vel))
+            holds, state = taken.held, _reached(state, tries, taken, state.mode if aims.alone else free(law, seen))
+        energies = energies_of(model, state, holds)
         write(rows[written], state, energies, books, turned(model.theta, state.window, state.u))
         attempts, turns, written = attempts + search.tries, turns + (1 if event == TURN else 0), written + 1
         stalls, h, pace = stalls + 1 if length < SHORTEST else 0, grown, this

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rigid.kernel.compile import in_loops
+from rigid.kernel.compile import in_loops, loop
 
 
 def _store_each(rows: Any, i: int, values: Any) -> None:
@@ -46,3 +46,13 @@ def _along_each(force: Any, end: Any, start: Any) -> float:
 def along(force: Any, end: Any, start: Any) -> float:
     """Work of a force between two positions."""
     return float(force @ (end - start))
+
+
+@loop
+def work(weights: Any, force: Any, way: Any) -> float:
+    """Work of a force along a way, both known at the stages, by ``work`` of :class:`flexible.time.methods.Method`."""
+    total = 0.0
+    for i in range(force.shape[0]):
+        for j in range(way.shape[0]):
+            total += force[i] * weights[i, j] * way[j]
+    return total

@@ -17,7 +17,7 @@ from ..contact.points.data import UNKNOWN, Bristles, Damper, Rates, Resultants
 from ..contact.stage import Near, Predictor
 from ..contact.vectors import largest, plus, times
 from .methods import Table
-from .rows import advanced, along, store
+from .rows import advanced, along, store, work
 
 
 def solved(model: Any, old: Any, mode: int, damper: Damper, predictor: Predictor, near: Any, first: bool) -> Any:
@@ -79,6 +79,7 @@ class _Known(NamedTuple):
     pos: Any  # (stages, n)
     vel: Any
     acc: Any
+    force: Any  # of the floor
     normal: Any  # (stages,)
     friction: Any
     drag: Any
@@ -94,10 +95,10 @@ class _Known(NamedTuple):
 @part
 def _nothing_known(stages: int, n: int) -> _Known:
     """Room for so many stages."""
-    pos, vel, acc = np.zeros((stages, n)), np.zeros((stages, n)), np.zeros((stages, n))
+    pos, vel, acc, force = np.zeros((stages, n)), np.zeros((stages, n)), np.zeros((stages, n)), np.zeros((stages, n))
     rows = np.zeros((10, stages))
     return _Known(
-        pos, vel, acc, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8], rows[9]
+        pos, vel, acc, force, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6], rows[7], rows[8], rows[9]
     )
 
 
@@ -193,16 +194,6 @@ def _rates(table: Table, known: _Known, h: float, end: int, drag: float, length:
     return Rates(known.elastic_rate[end] + damped / h, -drag * slip / h, feet)
 
 
-@loop
-def _work(table: Table, force: Any, way: Any) -> float:
-    """Work of a force along a way, both known at the stages."""
-    total = 0.0
-    for i in range(force.shape[0]):
-        for j in range(way.shape[0]):
-            total += force[i] * table.work[i, j] * way[j]
-    return total
-
-
 @part
 def _posed(old: Any, h: float, table: Table, known: _Known, i: int, damping: Any) -> tuple[Predictor, Damper]:
     """What stage ``i`` of a step is to solve."""
@@ -227,7 +218,7 @@ def _at_once(old: Any, known: _Known) -> tuple[Predictor, Damper]:
     return Predictor(known.pos[0].copy(), known.vel[0].copy(), INSTANT, times(INSTANT**2, known.acc[0])), damper
 
 
-def take(model: Any, old: Any, h: float, table: Table, damping: Any, known_to: float) -> Taken:
+def take(model: Any, old: Any, h: float, table: Table, damping: Any, known_to: float, before: Any) -> Taken:
     """A step of length ``h`` of a model from ``old``; of no length, a single stage that brings forces up to date.
 
     Parameters
@@ -240,6 +231,8 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any, known_to: f
         The normal damper's time, and the coefficient of the sticking patch against slip.
     known_to : float
         Share of 1 + N to which forces are found.
+    before : (float, float, float)
+        What the coordinates of ``old`` hold, see ``held`` of :class:`flexible.models.state.Model`.
     """
     stages = table.c.shape[0]
     end = stages - 1 if h > 0 else 1
@@ -266,6 +259,7 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any, known_to: f
             break
         u, nodal, res, bristles = found.u, found.nodal, found.res, found.bristles
         _write_down(known, i, plus(pos, 1.0, found.d), plus(vel, 1 / beta, found.d), found.acc, res)
+        store(known.force, i, found.forces)
         pose, carried = known.pos[i], res.elastic
         known.elastic_rate[i] = (res.elastic - damper.elastic_0) / beta
         known.feet[i] = res.feet
@@ -280,19 +274,19 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any, known_to: f
     for i in range(stages):
         if known.normal[i] == 0:
             off_floor += h * table.b[i]
-    drag_work = _work(table, known.drag, known.way)
-    numerical, after = 0.0, (0.0, 0.0, 0.0)
+    drag_work = work(table.work, known.drag, known.way)
+    numerical, after = 0.0, before
     if ok and h > 0:
-        before, after = held(model, old.pos, old.vel), held(model, known.pos[end], known.vel[end])
+        store(known.force, 0, floor_forces(model, old.pos, old.vel, old.acc))
+        after = held(model, known.pos[end], known.vel[end])
         numerical = before[0] + before[1] + before[2] - (after[0] + after[1] + after[2])
         for i in range(stages):
-            force = floor_forces(model, known.pos[i], known.vel[i], known.acc[i])
             for j in range(1, stages):
-                numerical += table.work[i, j] * along(force, known.pos[j], known.pos[0])
+                numerical += table.work[i, j] * along(known.force[i], known.pos[j], known.pos[0])
     return Taken(
         ok, known.pos[end].copy(), known.vel[end].copy(), known.acc[end].copy(), window, u, nodal, res, bristles,
         known.slip_velocity[end], known.elastic_rate[end], rates, jerk, bend, error,
         _sum(h, table.b, known.normal, stages), _sum(h, table.b, known.friction, stages),
-        res.beyond + _work(table, known.friction, known.way) - drag_work, _damped(table, known) - drag_work,
+        res.beyond + work(table.work, known.friction, known.way) - drag_work, _damped(table, known) - drag_work,
         numerical, off_floor, after,
     )  # fmt: skip

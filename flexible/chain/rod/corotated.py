@@ -21,7 +21,7 @@ than the other: there the first two are the mesh's (:mod:`flexible.chain.rod.end
 
 from __future__ import annotations
 
-from math import atan2, sqrt
+from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 
 from rigid.kernel.compile import jit, loop
 
+from .angle import angle
 from .softening import softened
 
 Array = NDArray[np.float64]
@@ -43,6 +44,8 @@ class Rod(NamedTuple):
         Angle of each section, ascending from one end of the weld round to the other.
     place : (n + 2, 2) array
         Its centre of mass, undeformed.
+    chord : (n + 1, 3) array
+        The way from each section to the next, undeformed, and its length.
     local : (n + 1, 3, 3) array
         Stiffness of each part in (e, tau_1, tau_2).
     bow : (n + 1, 2, 2) array
@@ -70,6 +73,7 @@ class Rod(NamedTuple):
 
     theta: Array
     place: Array
+    chord: Array
     local: Array
     bow: Array
     pulled: Array
@@ -88,14 +92,15 @@ class Rod(NamedTuple):
 @loop
 def chord(rod: Any, q: Any, p: int) -> tuple[float, float, float, float, float, float]:
     """Direction and length of a part's chord, and the three strains of the part."""
-    a1, a2 = rod.place[p + 1, 0] - rod.place[p, 0], rod.place[p + 1, 1] - rod.place[p, 1]
+    a1, a2, rest = rod.chord[p, 0], rod.chord[p, 1], rod.chord[p, 2]
     d1, d2 = q[p + 1, 0] - q[p, 0], q[p + 1, 1] - q[p, 1]
-    dot, square = a1 * d1 + a2 * d2, a1 * a1 + a2 * a2
+    dot = a1 * d1 + a2 * d2
     x1, x2 = a1 + d1, a2 + d2
     now = sqrt(x1 * x1 + x2 * x2)
-    alpha = atan2(a1 * d2 - a2 * d1, square + dot)
-    longer = (2 * dot + d1 * d1 + d2 * d2) / (now + sqrt(square))
-    return x1 / now, x2 / now, now, longer, q[p, 2] - alpha, q[p + 1, 2] - alpha
+    share = 1 / now
+    alpha = angle(a1 * d2 - a2 * d1, rest * rest + dot)
+    longer = (2 * dot + d1 * d1 + d2 * d2) / (now + rest)
+    return x1 * share, x2 * share, now, longer, q[p, 2] - alpha, q[p + 1, 2] - alpha
 
 
 @loop

@@ -58,13 +58,15 @@ def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
         for angle in np.diff(theta)[1:-1]
     ]
     end = ends(compliance, weld, float(theta[1]))
-    chords = np.hypot(*np.diff(place, axis=0).T)
+    ways = np.diff(place, axis=0)
+    chords = np.hypot(*ways.T)
     every = [end.local[:3, :3], *pieces, end.local[3:, 3:]]
     mass = np.zeros(parts + 1)
     mass[1:-1] = (theta[2:] - theta[:-2]) / (4 * pi)
     return Rod(
         theta,
         place,
+        chord=np.column_stack([ways, chords]),
         local=np.stack(every),
         bow=np.stack([end.bow[0], *map(bow_of, pieces, chords[1:-1]), end.bow[1]]),
         pulled=np.array(

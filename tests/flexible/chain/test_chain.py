@@ -53,7 +53,7 @@ def test_tangent_of_the_inertia(hoop):
     exact = np.zeros_like(way)
     exact[:3] = blocks.corner[:3, :3] @ way[:3]
     rows = way[3:].reshape(-1, 3)
-    exact[:3] += np.einsum("iab,ib->a", blocks.rows[1:-1, :3], rows)
+    exact[:3] += np.einsum("iba,ib->a", blocks.rows[1:-1, :, :3], rows)
     exact[3:] = (np.einsum("iab,ib->ia", blocks.diagonal[1:-1], rows) + blocks.columns[1:-1, :, :3] @ way[:3]).ravel()
     step = 1e-6 * way
     after, before = (forces(hoop, pos + d, vel + d / beta, acc + d / beta**2, beta)[0] for d in (step, -step))

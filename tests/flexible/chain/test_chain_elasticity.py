@@ -39,6 +39,7 @@ def closed(parts, stretch=1e-9):
     return Rod(
         theta,
         place,
+        chord=np.column_stack([np.diff(place, axis=0), np.full(parts, 2 * sin(step / 2))]),
         local=np.stack([local] * parts),
         bow=np.stack([bow_of(local, 2 * sin(step / 2))] * parts),
         pulled=np.zeros(parts),
@@ -338,7 +339,7 @@ def test_bordered_elimination(kept):
     rng = np.random.default_rng(len(kept))
     blocks = Blocks(*(rng.standard_normal(part.shape) for part in no_blocks(n + 2)))
     blocks.diagonal[:] += 8 * np.eye(3)
-    blocks.columns[:, :, FRAME:], blocks.rows[:, FRAME:], blocks.corner[FRAME:] = 0, 0, 0
+    blocks.columns[:, :, FRAME:], blocks.rows[:, :, FRAME:], blocks.corner[FRAME:] = 0, 0, 0
     blocks.corner[:, FRAME:] = 0
     blocks.corner[:FRAME, :FRAME] += 8 * np.eye(3)
     size = 3 + 3 * n
@@ -349,7 +350,7 @@ def test_bordered_elimination(kept):
         dense[at, at] += blocks.diagonal[i]
         dense[at, behind] += blocks.up[i]
         dense[behind, at] += blocks.down[i]
-        dense[at, :3], dense[:3, at] = blocks.columns[i, :, :3], blocks.rows[i, :3]
+        dense[at, :3], dense[:3, at] = blocks.columns[i, :, :3], blocks.rows[i, :, :3].T
     keeps = np.zeros(n + 2, bool)
     keeps[[1, *kept]] = True
     known = rng.standard_normal((n + 2, 3))
