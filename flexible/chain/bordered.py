@@ -243,6 +243,17 @@ def factor(blocks: Any, keeps: Any, rest: int) -> Any:
 
 
 @part
+def as_one(frame: Any, sections: Any) -> Any:
+    """One vector of what belongs to the frame, first in its own, and to the sections but those of the weld."""
+    vector = np.empty(FRAME + 3 * (sections.shape[0] - 2))
+    for a in range(FRAME):
+        vector[a] = frame[a]
+        for i in range(1, sections.shape[0] - 1):
+            vector[3 * i + a] = sections[i, a]
+    return vector
+
+
+@part
 def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]:
     """Solve for one right-hand side: frame (3,), sections (n + 2, 3), rest (r,); the solution as (3 + 3 n,) and (r,).
 
@@ -250,8 +261,7 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]
     """
     order, inverse, ahead, beside, back, below, kept, far, core, pivots = factors
     size, m = core.shape[0], order.shape[0]
-    border = np.zeros(WIDTH)
-    right = sections.copy()
+    border, right = np.zeros(WIDTH), sections.copy()
     for i in range(m):
         here, there = order[i, 0], order[i, 1]
         for a in range(3):
@@ -261,7 +271,7 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]
                 right[there, b] -= back[i, b, a] * pivot
             for b in range(WIDTH):
                 border[b] -= below[here, a, b] * pivot
-    known = np.zeros(size)
+    known, after = np.zeros(size), FRAME + 3 * kept.shape[0]
     for a in range(FRAME):
         known[a] = frame[a] + border[a]
     for k in range(kept.shape[0]):
@@ -269,11 +279,9 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]
             known[FRAME + 3 * k + a] = right[kept[k], a]
             if k == far:
                 known[FRAME + 3 * k + a] += border[FRAME + a]
-    after = FRAME + 3 * kept.shape[0]
     for a in range(rest.shape[0]):
         known[after + a] = rest[a]
-    found = solved_by((core, pivots), known)
-    x = np.zeros(right.shape)
+    found, x = solved_by((core, pivots), known), np.zeros(right.shape)
     for k in range(kept.shape[0]):
         for a in range(3):
             x[kept[k], a] = found[FRAME + 3 * k + a]
@@ -289,9 +297,4 @@ def solve(factors: Any, frame: Any, sections: Any, rest: Any) -> tuple[Any, Any]
             for b in range(WIDTH):
                 value -= beside[i, a, b] * border[b]
             x[here, a] = value
-    vector = np.empty(FRAME + 3 * (x.shape[0] - 2))
-    for a in range(3):
-        vector[a] = found[a]
-        for i in range(1, x.shape[0] - 1):
-            vector[3 * i + a] = x[i, a]
-    return vector, found[after:].copy()
+    return as_one(found, x), found[after:].copy()

@@ -22,12 +22,12 @@ from ..contact.points.data import MOST_ITERATIONS, Before, Bristles, Parameters,
 from ..contact.points.rim import vertex_angle, window_around
 from ..contact.stage import Predictor, Stage
 from ..contact.vectors import eliminate, largest, plus, times
-from .bordered import FRAME, Factors, factor, nothing_factored, solve
+from .bordered import FRAME, Factors, as_one, factor, nothing_factored, solve
 from .inertia import Body, Chain
 from .rim import RimNodes, follow
 from .rod.corotated import Rod
 from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
-from .whole import balance, beside, lacking, moved, near_floor, reach, sections, tangent, whole
+from .whole import balance, beside, lacking, moved, near_floor, reach, sections, tangent
 
 GROWS = 2.0  # a step of Newton after which the forces are off by this many times as much is taken back to a half
 LATE = 12  # iterations after which it is where it leaves more at all: it goes to and fro
@@ -177,7 +177,7 @@ def solve_stage(
             if damper.pulls and res.eta < 0:
                 damper, last = pulling(damper, False), np.inf
                 continue
-            iterations, forces = iteration, whole(frame, force)
+            iterations, forces = iteration, as_one(frame, force)
             break
         worst = lacks.forces
         if moves:

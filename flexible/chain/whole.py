@@ -14,7 +14,7 @@ from rigid.kernel.compile import jit, part
 from ..contact.points.data import Rim
 from ..contact.points.detection import least_gap
 from ..contact.vectors import largest, times
-from .bordered import FRAME, no_blocks, solve
+from .bordered import FRAME, as_one, no_blocks, solve
 from .inertia import energies, inertia, inertia_tangent, momenta
 from .lowest import lowest
 from .rim import RimNodes, follow
@@ -42,17 +42,6 @@ def balance(chain: Any, pos: Any, vel: Any, acc: Any) -> Any:
     elastic(chain.rod, q, force)
     inertia(chain, (pos, q), (vel, sections(vel)), (acc, sections(acc)), frame, force)
     return q, frame, force
-
-
-@part
-def whole(frame: Any, rows: Any) -> Any:
-    """One vector of what belongs to the frame and to the sections."""
-    vector = np.empty(FRAME + 3 * (rows.shape[0] - 2))
-    for a in range(FRAME):
-        vector[a] = frame[a]
-        for i in range(1, rows.shape[0] - 1):
-            vector[3 * i + a] = rows[i, a]
-    return vector
 
 
 @part
@@ -88,7 +77,7 @@ def passed_on(factors: Any, chain: Any, pos: Any, error: Any, beta: float) -> An
 def floor_forces(arrays: Any, pos: Any, vel: Any, acc: Any) -> Any:
     """Forces of the floor on all coordinates that go with these accelerations."""
     _, frame, force = balance(arrays.chain, pos, vel, acc)
-    return whole(frame, force)
+    return as_one(frame, force)
 
 
 @part

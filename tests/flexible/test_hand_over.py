@@ -60,21 +60,21 @@ def test_a_soft_ring_rests_on_a_foundation_however_stiff():
 
     Its load turns the rim at the floor by 0.1, hundreds of lengths of the patch, which is no loss of equilibrium. The
     wall gives way more than the floor and in series with it, so that the patch keeps its length: per ten times the
-    foundation the change falls by ten. Where the points lie is 3 % of the changes (160 to 1280 of them), and a ring at
-    rest is known to some 1e-10, which is 2 % of the second and too much of the third.
+    foundation the change falls by ten. Points are as far apart on all, so that where they lie is in no change; from
+    1e10 to 1e12, some 160 to each patch, that left the ratio anything from 8 to 10.5.
     """
     scene = Scene(Hoop(0.25, 1.18), Friction(0.26, 0.25), Release(radians(8)), Run(until="pulse"))
     scene = scene.replace(ring={"bending_stiffness": 1.13})
     motion = rigid.simulate(scene)
     pose = pose_at(motion, 0.45 * motion.t_end)
     bent = []
-    for stiffness in (1e9, 1e10, 1e11, 1e12):
-        state = equilibrium(ChainHoop(scene.replace(contact={"stiffness": stiffness}), points=160), pose)
+    for stiffness in (2e9, 2e10, 2e11, 1e12):
+        points = round(2700 * (2e11 / stiffness) ** (1 / 3))
+        state = equilibrium(ChainHoop(scene.replace(contact={"stiffness": stiffness}), points=points), pose)
         assert state.normal_force == pytest.approx(pose.normal_force, rel=1e-6)
         bent.append(state.pos[3:])
     changes = np.abs(np.diff(bent, axis=0)).max(axis=1)
-    assert changes[0] / changes[1] == pytest.approx(10, rel=0.05)
-    assert changes[2] == pytest.approx(changes[1] / 10, abs=2e-10)
+    assert changes[0] / changes[1] == pytest.approx(10, rel=0.02)
 
 
 def test_acceleration_of_a_flexible_motion():

@@ -21,7 +21,7 @@ than the other: there the first two are the mesh's (:mod:`flexible.chain.rod.end
 
 from __future__ import annotations
 
-from math import sqrt
+from math import atan2, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,7 +29,6 @@ from numpy.typing import NDArray
 
 from rigid.kernel.compile import jit, loop
 
-from .angle import angle
 from .softening import softened
 
 Array = NDArray[np.float64]
@@ -98,7 +97,7 @@ def chord(rod: Any, q: Any, p: int) -> tuple[float, float, float, float, float, 
     x1, x2 = a1 + d1, a2 + d2
     now = sqrt(x1 * x1 + x2 * x2)
     share = 1 / now
-    alpha = angle(a1 * d2 - a2 * d1, rest * rest + dot)
+    alpha = atan2(a1 * d2 - a2 * d1, rest * rest + dot)
     longer = (2 * dot + d1 * d1 + d2 * d2) / (now + rest)
     return x1 * share, x2 * share, now, longer, q[p, 2] - alpha, q[p + 1, 2] - alpha
 
