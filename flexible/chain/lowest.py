@@ -9,7 +9,9 @@ import numpy as np
 
 from rigid.kernel.compile import jit, loop
 
-from .rim import rim_point
+from .rim import chords_around, rim_point
+
+THINNER = 0.1  # of its offset a rim is nearer to the centres, or farther, for its strains: nu times a third
 
 
 @loop
@@ -40,29 +42,31 @@ def lowest(rod: Any, q: Any, nodes: Any, theta: Any, phi: float, height: float) 
     """Angles from the bottom, in (-pi, pi], between which rim nodes that follow the sections are below the floor.
 
     Of the lowest node if none is. Only where the sections at both ends of a part are clear of the floor by no more than
-    the part can hang through, its width squared, its nodes are looked at.
+    the part can hang through, its width squared and what its wall is thicker, its nodes are looked at.
     """
     found = np.empty(2)
-    _lowest(rod, q, nodes, (theta, phi, height), (np.empty(rod.theta.shape[0]), np.empty(2), np.empty((2, 18))), found)
+    room = np.empty(rod.theta.shape[0]), np.empty((3, 6)), np.empty(2), np.empty((2, 18))
+    _lowest(rod, q, nodes, (theta, phi, height), room, found)
     return found[0], found[1]
 
 
 @loop
 def _lowest(rod: Any, q: Any, nodes: Any, pose: Any, room: Any, found: Any) -> None:
     theta, phi, height = pose
-    above, moved, by = room
+    above, chords, moved, by = room
     s, c = sin(phi), cos(phi)
     limit = max(_above(rod, q, phi, height, above), 0.0)
     low, high, least, at_least = np.inf, -np.inf, np.inf, 0.0
     for k in range(theta.shape[0]):
         part = max(nodes.part[k], 0)
         if nodes.part[k] >= 0:
-            hangs = (rod.theta[part + 1] - rod.theta[part]) ** 2
+            hangs = (rod.theta[part + 1] - rod.theta[part]) ** 2 + 2 * THINNER * rod.offset
             if min(above[part], above[part + 1]) > limit + hangs:
                 continue
         elif min(above[0], above[above.shape[0] - 1]) > limit + (rod.theta[0]) ** 2:
             continue
-        rim_point(rod, q, nodes.part[k], nodes.xi[k], nodes.root[k], moved, by)
+        chords_around(rod, q, nodes.part[k], chords)
+        rim_point(rod, q, nodes.part[k], nodes.xi[k], (nodes.root[k], nodes.bow[k]), chords, moved, by)
         angle = phi - np.pi + theta[k]
         psi = angle - 2 * np.pi * np.round(angle / (2 * np.pi))
         gap = height + 2 * sin(angle / 2) ** 2 + moved[0] * c - moved[1] * s

@@ -14,6 +14,7 @@ from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eigh
 
 from rigid import Scene
 
@@ -21,7 +22,9 @@ from ..ring.fem import Ring, membrane_stiffness
 from ..ring.mirror import positive_part
 from ..ring.reduction import body_of
 from .bordered import no_blocks
-from .inertia import Body, Chain
+from .corner import bow_of_rim
+from .mass.ends import EndMass, end_mass
+from .mass.inertia import Body, Chain
 from .rim import RimNodes, follow
 from .rod.corotated import Rod
 from .rod.ends import chord_strains
@@ -31,6 +34,7 @@ from .rod.tangent import elastic_tangent
 
 Array = NDArray[np.float64]
 
+PULLED = (*LOADED, 2.6, -2.6)  # angles of loads far away: of six alone one pair may strain the ends as another does
 PRESSED = 0.4  # walls by which a slender ring yields to p/E: 13/32 beside a beam's middle, along it (1 + nu)/4
 
 
@@ -60,6 +64,20 @@ def dense_stiffness(rod: Rod, q: Array) -> Array:
     matrix[here, :, there, :] += blocks.up
     matrix[there, :, here, :] += blocks.down
     return matrix.reshape(3 * sections, 3 * sections)
+
+
+def inverse_of(strains: Array) -> Array:
+    """Of the strains at the weld under more loads than there are strains, by least squares."""
+    size = np.abs(strains).max(axis=1)
+    return np.asarray(np.linalg.pinv(strains / size[:, None]) / size, dtype=float)
+
+
+def mass_matrix(rod: Rod, ends: EndMass) -> Array:
+    """Of the free sections, (3 n, 3 n)."""
+    matrix = np.diag(np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1].ravel())
+    beside = np.r_[0:3, len(matrix) - 3 : len(matrix)]
+    matrix[np.ix_(beside, beside)] += ends.mass
+    return matrix
 
 
 def rim_matrix(rod: Rod, q: Array, nodes: RimNodes) -> tuple[Array, Array]:
@@ -98,12 +116,14 @@ class _Shape:
         self.ring = ring
         self.compliance = rod_compliance(ring, 2 * (pi - mesh.weld_half_angle) / parts / FINER)
         self.rod = make_rod(self.compliance, ring, parts)
+        self.ends = end_mass(self.compliance, float(self.rod.theta[1]))
         theta = mesh.rim_theta % (2 * pi)
         inside = np.abs(mesh.rim_theta) > mesh.weld_half_angle
         part = np.clip(np.searchsorted(self.rod.theta, theta, side="right") - 1, 0, parts - 1)
         xi = (theta - self.rod.theta[part]) / np.diff(self.rod.theta)[part]
         self.still = np.zeros((parts + 1, 3))
-        self.nodes = RimNodes(np.where(inside, part, -1), np.where(inside, xi, 0.0), np.zeros((len(theta), 2, 6)))
+        root, bow = np.zeros((len(theta), 2, 6)), np.zeros((len(theta), 2, 2, 3, 3))
+        self.nodes = RimNodes(np.where(inside, part, -1), np.where(inside, xi, 0.0), root, bow)
         self.slender = is_slender(ring)
         if not self.slender:
             self._complete()
@@ -115,33 +135,24 @@ class _Shape:
         return np.asarray(inverse, dtype=float)
 
     def _complete(self) -> None:
-        """How the mesh's rim moves more than the chain's under loads far away; by least squares.
+        """How the rim near the weld moves with the first and the last part under loads far away, by least squares.
 
-        It sinks with the bending, which is ``pinch``, and near the weld it follows the first and the last part, which
-        is ``root``.
+        All else of it the chain has, see :mod:`flexible.chain.rod.surface`.
         """
         theta = self.ring.mesh.rim_theta
-        loaded = np.array([int(np.argmin(np.abs(theta - angle))) for angle in LOADED])
+        loaded = np.array([int(np.argmin(np.abs(theta - angle))) for angle in PULLED])
         columns = (2 * loaded[:, None] + np.arange(2)).ravel()
-        moved = self.ring.pressed(columns)
-        turned = self.inverse @ rim_matrix(self.rod, self.still, self.nodes)[1][columns].T
-        misfit = (moved - rim_matrix(self.rod, self.still, self.nodes)[1] @ turned).reshape(len(theta), 2, 6)
-        clear = np.flatnonzero((np.abs(theta) > LOADED[0] / 4) & (np.abs(theta) < LOADED[0] * 0.8))
-        outward = np.stack([np.cos(theta[clear]), np.sin(theta[clear])], axis=1)
-        sunk = -np.einsum("ni,nim->nm", outward, misfit[clear])
-        bend = np.gradient(turned.reshape(-1, 3, 6)[:, 2], self.rod.theta[1:-1], axis=0)
-        at = theta[clear] % (2 * pi)
-        there = np.stack([np.interp(at, self.rod.theta[1:-1], column) for column in bend.T], axis=1)
-        self.rod = self.rod._replace(pinch=float((sunk * there).sum() / (there * there).sum()))
-
-        turned = self.inverse @ rim_matrix(self.rod, self.still, self.nodes)[1][columns].T
-        misfit = (moved - rim_matrix(self.rod, self.still, self.nodes)[1] @ turned).reshape(len(theta), 2, 6)
+        by_sections = rim_matrix(self.rod, self.still, self.nodes)[1]
+        turned = self.inverse @ by_sections[columns].T
+        misfit = (self.ring.pressed(columns) - by_sections @ turned).reshape(len(theta), 2, len(columns))
         first, last = turned[:3], turned[-3:]
         place = self.rod.place
         strains = [chord_strains(place[0], place[1], 2) @ first, chord_strains(place[-2], place[-1], 1) @ last]
-        root = misfit @ np.linalg.inv(np.concatenate(strains))
+        root = misfit @ inverse_of(np.concatenate(strains))
         _end_without_a_step(root, theta, self.ring.mesh.weld_half_angle, self.compliance.weld)
         self.nodes = self.nodes._replace(root=np.ascontiguousarray(root))
+        if self.ring.mesh.weld_half_angle > 1 - self.ring.mesh.inner / self.ring.mesh.outer:
+            self.nodes = self.nodes._replace(bow=bow_of_rim(self.rod, self.compliance, self.nodes, theta))
 
     @cached_property
     def rim(self) -> Array:
@@ -151,9 +162,8 @@ class _Shape:
     @cached_property
     def shapes(self) -> Array:
         """Vibrations of the undeformed chain, (3 n, 3 n), the slowest first, orthonormal in the mass."""
-        weight = np.column_stack([self.rod.mass, self.rod.mass, self.rod.turning])[1:-1].ravel() ** -0.5
-        matrix = weight[:, None] * dense_stiffness(self.rod, self.still)[3:-3, 3:-3] * weight
-        return np.asarray(weight[:, None] * np.linalg.eigh(matrix)[1], dtype=float)
+        stiffness = dense_stiffness(self.rod, self.still)[3:-3, 3:-3]
+        return np.asarray(eigh(stiffness, mass_matrix(self.rod, self.ends), driver="gvd")[1], dtype=float)
 
     @cached_property
     def missing(self) -> Array:
@@ -212,7 +222,8 @@ class ChainRing:
             mass=unit.mass * mass,
             turning=unit.turning * mass,
         )
-        self.chain = Chain(make_body(scene, rod), rod)
+        ends = EndMass(*(mass * entry for entry in self.shape.ends))
+        self.chain = Chain(make_body(scene, rod), rod, ends)
         self.nodes = self.shape.nodes
         self.vertex = np.ascontiguousarray(ring.mesh.rim_theta[::2])
         self._windows: dict[tuple[int, int], tuple[NDArray[np.int64], RimNodes]] = {}
@@ -228,7 +239,10 @@ class ChainRing:
         if key not in self._windows:
             number = np.arange(2 * key[0], 2 * (key[0] + count) + 1) % (2 * len(self.vertex))
             every = self.nodes
-            self._windows[key] = number, RimNodes(every.part[number], every.xi[number], every.root[number])
+            self._windows[key] = (
+                number,
+                RimNodes(every.part[number], every.xi[number], every.root[number], every.bow[number]),
+            )
         return self._windows[key]
 
     def missing(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> Array:

@@ -23,7 +23,8 @@ from ..contact.points.rim import vertex_angle, window_around
 from ..contact.stage import Predictor, Stage
 from ..contact.vectors import eliminate, largest, plus, times
 from .bordered import FRAME, Factors, as_one, factor, nothing_factored, solve
-from .inertia import Body, Chain
+from .mass.ends import EndMass
+from .mass.inertia import Body, Chain
 from .rim import RimNodes, follow
 from .rod.corotated import Rod
 from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
@@ -105,10 +106,10 @@ def example() -> tuple[tuple[Any, ...], Solved]:
     """Arguments and a result, of the types that compiled code has."""
     (row, table, rim, law, mode, before, damper, _), contact = of_contact()
     count, cube = np.empty(0, np.int64), np.empty((0, 2, 2))
-    rod = Rod(
-        row, table, table, cube, cube, row, row, row, np.empty((0, 2, 2, 2)), table, row, row, table, 0.0, 0.0, 0,
-    )  # fmt: skip
-    chain, facing = Chain(Body(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), rod), Facing(rim, RimNodes(count, row, cube), table)
+    seen, none = np.empty((0, 2, 4, 3)), (0.0,) * 6
+    rod = Rod(row, table, table, cube, cube, row, row, row, seen, table, row, row, table, 0.0, 0.0, 0.0, seen, 0)
+    chain = Chain(Body(*none), rod, EndMass(table, table, table, row, row))
+    facing = Facing(rim, RimNodes(count, row, cube, np.empty((0, 2, 2, 3, 3))), table)
     start = row, table, Foreseen(0.0, 0.0), 0.0
     solved = Solved(0, row, row, table, nothing_factored(), contact)
     return (chain, facing, law, mode, before, damper, Predictor(row, row, 0.0, row), start), solved

@@ -15,8 +15,8 @@ from ..contact.points.data import Rim
 from ..contact.points.detection import least_gap
 from ..contact.vectors import largest, times
 from .bordered import FRAME, as_one, no_blocks, solve
-from .inertia import energies, inertia, inertia_tangent, momenta
 from .lowest import lowest
+from .mass.inertia import energies, inertia, inertia_tangent, momenta
 from .rim import RimNodes, follow
 from .rod.corotated import elastic, strain_energy
 from .rod.tangent import elastic_tangent
@@ -108,14 +108,18 @@ def near_floor(arrays: Any, window: tuple[int, int]) -> tuple[Any, RimNodes]:
     """Rim nodes of a window: their numbers, and what they follow."""
     count, every = 2 * window[1] + 1, arrays.nodes
     number, at = np.empty(count, np.int64), np.empty(count, np.int64)
-    xi, root = np.empty(count), np.empty((count, 2, 6))
+    xi, root, bow = np.empty(count), np.empty((count, 2, 6)), np.empty((count, 2, 2, 3, 3))
     for k in range(count):
         number[k] = (2 * window[0] + k) % arrays.theta.shape[0]
         at[k], xi[k] = every.part[number[k]], every.xi[number[k]]
         for a in range(2):
             for i in range(6):
                 root[k, a, i] = every.root[number[k], a, i]
-    return number, RimNodes(at, xi, root)
+            for i in range(3):
+                for j in range(3):
+                    bow[k, a, 0, i, j] = every.bow[number[k], a, 0, i, j]
+                    bow[k, a, 1, i, j] = every.bow[number[k], a, 1, i, j]
+    return number, RimNodes(at, xi, root, bow)
 
 
 @part

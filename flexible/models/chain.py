@@ -13,7 +13,7 @@ from rigid import Scene
 
 from ..chain.bordered import Factors
 from ..chain.rim import follow
-from ..chain.ring import ChainRing, dense_stiffness, rim_matrix
+from ..chain.ring import ChainRing, dense_stiffness, mass_matrix, rim_matrix
 from ..chain.rod.corotated import elastic
 from ..chain.stage import Arrays, solved
 from ..chain.touch import turned
@@ -55,12 +55,11 @@ class ChainHoop(RimContact):
         ring = ring_of(scene, through, self.linear)
         self.ring = ChainRing(scene, ring, ring.mesh.around // PER_PART if parts is None else parts)
         super().__init__(scene, self.ring.vertex, points, self.ring.within)
-        rod = self.ring.chain.rod
-        mass = np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1].ravel()
         #: momenta of the slow vibrations, by which steps are chosen, of a rate of the sections
-        self._slow = np.zeros((0, len(mass)))
+        self._slow = np.zeros((0, self.coordinates))
         if scene.hoop.mass_ratio > 0:
-            of_modes = (mass[:, None] * self.ring.shape.shapes[:, :SLOW]).T / np.sqrt(scene.hoop.mass_ratio)
+            chain, slow = self.ring.chain, self.ring.shape.shapes[:, :SLOW]
+            of_modes = (mass_matrix(chain.rod, chain.ends) @ slow).T / scene.hoop.mass_ratio**0.5
             self._slow = np.ascontiguousarray(of_modes)  # as of a ring without mass: compiled code is of one layout
 
     @property
@@ -131,7 +130,7 @@ class RestingChain:
 
     def __init__(self, ring: ChainRing, omega: float, alpha: float, acceleration: Array) -> None:
         self.ring = ring
-        rod = ring.chain.rod
+        _, rod, ends = ring.chain
         self.coordinates = np.zeros(3 * ring.sections)
         turn = alpha * np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 0]]) - omega**2 * np.diag([1.0, 1, 0])
         y = np.column_stack([rod.place, np.ones(len(rod.mass))])[1:-1]
@@ -139,6 +138,9 @@ class RestingChain:
         load = y @ turn.T + np.array([*acceleration, alpha])
         self.load = (weights * load).ravel()
         self.inertia = np.kron(np.diag(rod.mass[1:-1]), turn)
+        beside = np.r_[0:3, len(self.load) - 3 : len(self.load)]
+        self.load[beside] += ends.first.T @ acceleration + alpha * ends.turning - omega**2 * ends.stretching
+        self.inertia[np.ix_(beside, beside)] += alpha * ends.gyro - omega**2 * ends.mass
 
     def _padded(self) -> Array:
         return np.concatenate([np.zeros(3), self.coordinates, np.zeros(3)]).reshape(-1, 3)

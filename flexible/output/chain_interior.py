@@ -19,9 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..chain.rim import follow
+from ..chain.ring import PULLED, inverse_of
 from ..chain.rod.corotated import bends_and_stretches, chord
 from ..chain.rod.ends import chord_strains
-from ..chain.rod.section import LOADED
 from ..chain.whole import sections
 from ..models.chain import ChainHoop
 from ..models.state import State
@@ -61,20 +61,20 @@ class ChainInterior(ExactInterior):
         """What the nodes near the weld move by the strains of the first and the last part, (n_nodes, 2, 6)."""
         shape, ring = self.chain.shape, self.ring
         theta = ring.mesh.rim_theta
-        loaded = [int(np.argmin(np.abs(theta - angle))) for angle in LOADED]
+        loaded = [int(np.argmin(np.abs(theta - angle))) for angle in PULLED]
         dofs = np.array([2 * node + way for node in loaded for way in (0, 1)])
-        load = np.zeros((len(ring.free), 6))
-        load[ring.rim_dofs[dofs], np.arange(6)] = 1.0
+        load = np.zeros((len(ring.free), len(dofs)))
+        load[ring.rim_dofs[dofs], np.arange(len(dofs))] = 1.0
         answers = shape.inverse @ shape.rim[dofs].T
         still = np.zeros_like(shape.still)
-        misfit = np.zeros_like(self._root)
+        misfit = np.zeros((len(self._moves), 2, len(dofs)))
         for k, (moved, answer) in enumerate(zip(ring.solve(load).T, answers.T, strict=True)):
             misfit[:, :, k] = ring.expand(moved) - self._way(
                 still, np.vstack([[still[0]], answer.reshape(-1, 3), [still[0]]])
             )
         place = shape.rod.place
         first, last = chord_strains(place[0], place[1], 2), chord_strains(place[-2], place[-1], 1)
-        root = misfit @ np.linalg.inv(np.concatenate([first @ answers[:3], last @ answers[-3:]]))
+        root = misfit @ inverse_of(np.concatenate([first @ answers[:3], last @ answers[-3:]]))
         root[np.abs(np.angle(np.exp(1j * ring.mesh.theta))) > shape.compliance.weld] = 0.0
         return np.asarray(root, dtype=float)
 

@@ -4,6 +4,8 @@
 ``second``     how a section near the weld moves to second order
 ``ends``       the first and the last part, with the joint at the weld
 ``parts``      where the ring is cut, and all its parts
+``surface``    what the rim shows of their strains
+``softening``  what bends far bends easier
 ``corotated``  how they turn and move far
 ``tangent``    their stiffness where they are
 """

@@ -66,6 +66,10 @@ class Rod(NamedTuple):
         Of the rim from the centres of mass.
     pinch : float
         What the rim sinks where the ring bends by dphi/dtheta = 1, for a wall that is stretched gets thinner.
+    reach : float
+        Share of the first and the last part over which what bending makes of the rim at their sections dies out.
+    seen : (n + 2, 2, 4, 3) array
+        What the rim has at each section of the strains of the parts there: see :mod:`flexible.chain.rod.surface`.
     rooted : int
         Parts from the weld, on either side, whose rim is moved by what the weld does to the wall too.
     """
@@ -85,6 +89,8 @@ class Rod(NamedTuple):
     curve: Array
     offset: float
     pinch: float
+    reach: float
+    seen: Array
     rooted: int
 
 

@@ -21,9 +21,7 @@ from .section import RodCompliance, radial, transfer
 Array = NDArray[np.float64]
 
 _MIRROR = np.diag([1.0, -1.0, -1.0])  # of displacement (y1, y2) and rotation, or of force and moment
-_BACK = np.array(
-    [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0]]
-)  # of strains: the angles change places and signs
+BACK = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0]])  # of strains: the angles change places and signs
 
 
 class Ends(NamedTuple):
@@ -113,7 +111,7 @@ def ends(compliance: RodCompliance, weld: float, first: float) -> Ends:
     bow = third[0, 1:, 1:].copy()
     third[0, 1:, 1:] = third[1:, 0, 1:] = third[1:, 1:, 0] = 0.0
     bent = _by(third, np.array([own[0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]))
-    return Ends(local, np.stack([bow, bow[::-1, ::-1]]), np.stack([bent, _by(bent, _BACK)]))
+    return Ends(local, np.stack([bow, bow[::-1, ::-1]]), np.stack([bent, _by(bent, BACK)]))
 
 
 def third_of(answers: SecondOrder, own: Array, by: Array, chord: Array) -> Array:

@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 from ...ring.fem import Ring
 from .corotated import Rod
 from .ends import bending, bow_of, chord_strains, ends, in_strains, is_jointed, pulled_of
-from .section import RodCompliance, radial
+from .section import RodCompliance, is_slender, radial
 from .softening import softening_of, strained_of
+from .surface import pinch_of, seen_of
 
 Array = NDArray[np.float64]
 
 FINER, FADES = 3.0, 0.2  # parts at the weld, see cuts
-JOINTED = 0.04  # thickest wall whose first section is a wall behind the weld, not where what the weld does has faded
+JOINTED, LONGEST = 0.04, 0.2  # see behind_weld
 
 
 def cuts(begin: float, parts: int) -> Array:
@@ -35,6 +36,15 @@ def cuts(begin: float, parts: int) -> Array:
     return np.concatenate([half, behind[1:] if parts % 2 == 0 else behind])
 
 
+def behind_weld(wall: float) -> float:
+    """How far behind the weld the first section is at least: a wall, and in walls above ``JOINTED`` two.
+
+    Two are what the wall there has of the third order best, see :mod:`flexible.chain.rod.second`; of a part longer than
+    ``LONGEST`` the own vibrations are missed.
+    """
+    return wall if wall <= JOINTED else max(wall, min(2 * wall, LONGEST))
+
+
 def curve_weights(theta: Array) -> Array:
     """Weights of the parabola's slope through three neighbours, (n, 3); zero at the ends."""
     weights = np.zeros((len(theta), 3))
@@ -45,12 +55,20 @@ def curve_weights(theta: Array) -> Array:
     return weights
 
 
+def section_masses(theta: Array) -> Array:
+    """Mass of each section, (n,), of a ring of unit mass; none of the first and the last, nor of the parts there."""
+    halves = np.diff(theta) / (4 * pi)
+    halves[0] = halves[-1] = 0.0
+    masses: Array = np.concatenate([[0.0], halves[1:] + halves[:-1], [0.0]])
+    return masses
+
+
 def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
-    """The ring between the ends of the weld as a chain at E b = 1 and unit mass of the ring; ``pinch`` is left at 0."""
+    """The ring between the ends of the weld as a chain at E b = 1 and unit mass of the ring."""
     inner, weld, a = ring.mesh.inner / ring.mesh.outer, ring.mesh.weld_half_angle, compliance.radius
     first = compliance.weld
-    if 1 - inner <= JOINTED and is_jointed(compliance, weld, 1 - inner):
-        first = min(first, max(float(cuts(weld, parts)[1]), weld + 1 - inner))
+    if is_jointed(compliance, weld, 1 - inner):
+        first = min(first, max(float(cuts(weld, parts)[1]), weld + behind_weld(1 - inner)))
     theta = np.concatenate([[weld], cuts(first, parts - 2), [2 * pi - weld]])
     place = a * np.column_stack([np.cos(theta), np.sin(theta)])
     pieces = [
@@ -60,19 +78,18 @@ def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
     end = ends(compliance, weld, float(theta[1]))
     ways = np.diff(place, axis=0)
     chords = np.hypot(*ways.T)
-    every = [end.local[:3, :3], *pieces, end.local[3:, 3:]]
-    mass = np.zeros(parts + 1)
-    mass[1:-1] = (theta[2:] - theta[:-2]) / (4 * pi)
+    local = np.stack([end.local[:3, :3], *pieces, end.local[3:, 3:]])
+    mass = section_masses(theta)
     return Rod(
         theta,
         place,
         chord=np.column_stack([ways, chords]),
-        local=np.stack(every),
+        local=local,
         bow=np.stack([end.bow[0], *map(bow_of, pieces, chords[1:-1]), end.bow[1]]),
         pulled=np.array(
             [0.0, *(pulled_of(p, c, ring.poisson) for p, c in zip(pieces, chords[1:-1], strict=True)), 0.0]
         ),
-        softening=np.array([softening_of(bending(p), ring.poisson) for p in every]),
+        softening=np.array([softening_of(bending(p), ring.poisson) for p in local]),
         strained=np.array([strained_of(chord, 1 - inner) for chord in chords]),
         bent=end.bent,
         across=end.local[:3, 3:].copy(),
@@ -80,6 +97,10 @@ def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
         turning=mass * ((1 + inner**2) / 2 - a**2),
         curve=curve_weights(theta),
         offset=1 - a,
-        pinch=0.0,
+        pinch=0.0 if is_slender(ring) else pinch_of(inner, ring.poisson),
+        reach=float(min(1.0, (theta[2] - theta[1]) / (theta[1] - theta[0]))),
+        seen=np.zeros((parts + 1, 2, 4, 3))
+        if is_slender(ring)
+        else seen_of(local, chords, a, compliance.section[1, 1], ring.poisson),
         rooted=int(np.searchsorted(theta, compliance.weld - 1e-9)),
     )

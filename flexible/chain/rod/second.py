@@ -13,6 +13,7 @@ one; and it turns as its points turn about their mean.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -38,15 +39,19 @@ class SecondOrder(NamedTuple):
         Its displacement (y1, y2) and rotation, by the load.
     second : (3, 3, 3) array
         The same to second order, by two loads.
+    rim : (n_rim, 2, 3, 3) array
+        Displacement of the rim's nodes to second order.
     moment : (3, 3) array
         By how much the moment about the displaced section is more than the load, by two loads.
     """
 
     first: Array
     second: Array
+    rim: Array
     moment: Array
 
 
+@lru_cache(maxsize=4)
 def second_order(compliance: RodCompliance, theta: float) -> SecondOrder:
     """Answers of the section at ``theta``, loaded by dead forces far behind it."""
     ring = compliance.ring
@@ -59,7 +64,7 @@ def second_order(compliance: RodCompliance, theta: float) -> SecondOrder:
     solve = splu(stiffness[dofs][:, dofs].tocsc()).solve
 
     fields = np.zeros((len(whole.free), 3))
-    fields[dofs] = compliance.answers[dofs] @ np.linalg.inv(transfer(compliance.radius, theta, compliance.weld).T)
+    fields[dofs] = compliance.answers[dofs, :3] @ np.linalg.inv(transfer(compliance.radius, theta, compliance.weld).T)
     size = np.abs(fields).max(axis=0)
     fields /= size
 
@@ -71,24 +76,35 @@ def second_order(compliance: RodCompliance, theta: float) -> SecondOrder:
         full[whole.free] = u
         return full[mesh.node_dofs]
 
-    line = _Line(mesh, compliance.radius, theta)
+    line = Line(mesh, compliance.radius, theta)
     moved = [at_nodes(u) for u in fields.T]
     borne = [at_nodes(stiffness @ u) for u in fields.T]
     first = np.stack([line.mean(u) for u in moved], axis=1)
     second, moment = np.empty((3, 3, 3)), np.empty((3, 3))
+    rim = np.empty((len(mesh.rim_theta), 2, 3, 3))
     for a in range(3):
         for b in range(a + 1):
             bent = np.zeros(len(fields))
             bent[dofs] = -solve((square(fields[:, a] + fields[:, b]) - square(fields[:, a] - fields[:, b]))[dofs] / 4)
             second[:, a, b] = second[:, b, a] = line.mean(at_nodes(bent)) + line.turned(moved[a], moved[b])
+            rim[..., a, b] = rim[..., b, a] = at_nodes(bent)[mesh.rim_nodes]
             one = _crossed(moved[a] - first[:2, a], borne[b]).sum()
             moment[a, b] = moment[b, a] = (one + _crossed(moved[b] - first[:2, b], borne[a]).sum()) / 2
     both = np.outer(size, size)
-    return SecondOrder(first * size, second * both, moment * both)
+    return SecondOrder(first * size, second * both, rim * both, moment * both)
 
 
-class _Line:
-    """The points of a section's undeformed line, by those of the mesh."""
+class Line:
+    """The points of a section's undeformed line, by those of the mesh.
+
+    Parameters
+    ----------
+    mesh : RingMesh
+    radius : float
+        Of the centres of mass.
+    theta : float
+        Angle of the section, from -pi to pi.
+    """
 
     def __init__(self, mesh: RingMesh, radius: float, theta: float) -> None:
         vertex = mesh.rim_theta[::2]

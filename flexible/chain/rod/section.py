@@ -60,9 +60,9 @@ class RodCompliance:
         them; the two feel each other through the wall over the weld.
     ring : Ring
         The one that was measured.
-    answers : (n_free, 3) array
-        Displacement of its free dofs, as far as no load of the six is near, under unit forces and a unit moment on the
-        section at ``weld``.
+    answers : (n_free, 6) array
+        Displacement of its free dofs, as far as no load of the six is near, under the unit forces and moments that
+        ``ends`` is of.
     misfit : float
         Largest error of the form ``section`` on the pieces it was fitted to, relative to the largest energy.
     """
@@ -199,7 +199,7 @@ def rod_compliance(ring: Ring, end: float) -> RodCompliance:
     inside = stressed.energy[np.abs(stressed.theta) < last].sum(axis=0) + stressed.corners
     whole = inverse.T @ inside @ inverse
     ends = (whole + whole.T) / 2
-    answers = stressed.moved[ring.free] @ inverse[:, :3]
+    answers = stressed.moved[ring.free] @ inverse
     return RodCompliance(radius, section, last, ends, ring, answers, misfit)
 
 

@@ -1,7 +1,8 @@
 """Inertia of the disk and of the ring's sections in the frame that floats on the disk.
 
 The frame and its unknowns are those of :mod:`flexible.ring.frame`. The ring's mass sits at its sections, at their
-centres of mass y = Y + u, where it turns as well; that of the weld and the half parts beside it belongs to the frame.
+centres of mass y = Y + u, where it turns as well; that of the weld belongs to the frame, and that of the wall beside it
+moves with the first and the last section (:mod:`flexible.chain.mass.beside`).
 Per unit mass the force on a section is
 
     A + alpha J y + 2 omega J u' - omega^2 y + u'',        and the moment alpha + phi'' about its centre,
@@ -16,7 +17,9 @@ from typing import Any, NamedTuple
 
 from rigid.kernel.compile import loop
 
-from .rod.corotated import Rod
+from ..rod.corotated import Rod
+from .beside import add_derivatives, add_inertia, moving
+from .ends import EndMass
 
 
 class Body(NamedTuple):
@@ -27,7 +30,7 @@ class Body(NamedTuple):
     offset, disk_inertia : float
         Of the disk's centre from C; about itself (m = 1).
     weld_mass, weld_moment, weld_inertia : float
-        Of the ring at the weld: mass, first moment along y1 and moment of inertia about C.
+        Of the ring at the weld and beside it: mass, first moment along y1 and moment of inertia about C, undeformed.
     ring_mass : float
         All of the ring.
     """
@@ -45,6 +48,7 @@ class Chain(NamedTuple):
 
     body: Body
     rod: Rod
+    ends: EndMass
 
 
 @loop
@@ -67,7 +71,7 @@ def inertia(chain: Any, pose: Any, rates: Any, changes: Any, frame: Any, force: 
     frame, force : (3,), (n + 2, 3) arrays
         Generalised forces on the frame, forces and moment on the sections.
     """
-    body, rod = chain
+    body, rod, ends = chain
     (pos, q), (vel, qv), (acc, qa) = pose, rates, changes
     s, c, a1, a2 = _seen(pos, acc)
     w, alpha, offset = vel[2], acc[2], body.offset
@@ -81,6 +85,8 @@ def inertia(chain: Any, pose: Any, rates: Any, changes: Any, frame: Any, force: 
     f1 = body.weld_mass * a1 - w * w * body.weld_moment
     f2 = body.weld_mass * a2 + alpha * body.weld_moment
     moment = body.weld_moment * a2 + body.weld_inertia * alpha
+    more = add_inertia(ends, (a1, a2, alpha), w, (q, qv, qa), force)
+    f1, f2, moment = f1 + more[0], f2 + more[1], moment + more[2]
     mass, turning, place = rod.mass, rod.turning, rod.place
     for i in range(1, mass.shape[0] - 1):
         m = mass[i]
@@ -133,7 +139,7 @@ def inertia_tangent(chain: Any, pose: Any, rates: Any, changes: Any, beta: float
     blocks : Blocks
         Of which diagonal, columns, rows and corner are added to.
     """
-    body, rod = chain
+    body, rod, ends = chain
     (pos, q), (vel, qv), (acc, qa) = pose, rates, changes
     _disk_tangent(body, pos, vel, acc, beta, blocks.corner)
     if body.ring_mass == 0:
@@ -148,7 +154,9 @@ def inertia_tangent(chain: Any, pose: Any, rates: Any, changes: Any, beta: float
     f1_phi = body.weld_mass * a1_phi - 2 * w * r1 * body.weld_moment
     f2_phi = body.weld_mass * a2_phi + r2 * body.weld_moment
     moment_phi = body.weld_moment * a2_phi + body.weld_inertia * r2
-    sum1, sum2 = body.weld_moment, 0.0
+    more = add_derivatives(ends, (a1, a2, alpha, a1_phi, a2_phi), (s, c, w), (r1, r2), (q, qv, qa), blocks)
+    f1, f2, f1_phi, f2_phi = f1 + more[0], f2 + more[1], f1_phi + more[2], f2_phi + more[3]
+    moment_phi, sum1, sum2 = moment_phi + more[4], body.weld_moment + more[5], more[6]
     own, across = r2 - w * w, alpha + 2 * w * r1
     diagonal, columns, rows = blocks.diagonal, blocks.columns, blocks.rows
     mass, turning, place = rod.mass, rod.turning, rod.place
@@ -205,7 +213,7 @@ def inertia_tangent(chain: Any, pose: Any, rates: Any, changes: Any, beta: float
 @loop
 def energies(chain: Any, pos: Any, q: Any, vel: Any, qv: Any) -> tuple[float, float]:
     """Kinetic energy and gravity (0 with the hoop's centre at the floor)."""
-    body, rod = chain
+    body, rod, ends = chain
     offset = body.offset
     s, c = sin(pos[2]), cos(pos[2])
     w = vel[2]
@@ -218,7 +226,9 @@ def energies(chain: Any, pos: Any, q: Any, vel: Any, qv: Any) -> tuple[float, fl
         return kinetic, gravity
     c1, c2 = vx * s + vy * c, vx * c - vy * s
     kinetic += body.weld_mass * (vx * vx + vy * vy) / 2 + body.weld_moment * c2 * w + body.weld_inertia * w * w / 2
-    gravity += body.weld_mass * height + body.weld_moment * c
+    more, sum1, sum2 = moving(ends, c1, c2, w, q, qv)
+    kinetic += more
+    gravity += body.weld_mass * height + (body.weld_moment + sum1) * c - sum2 * s
     for i in range(1, rod.mass.shape[0] - 1):
         y1, y2 = rod.place[i, 0] + q[i, 0], rod.place[i, 1] + q[i, 1]
         v1, v2 = c1 + qv[i, 0] - w * y2, c2 + qv[i, 1] + w * y1
@@ -231,7 +241,7 @@ def energies(chain: Any, pos: Any, q: Any, vel: Any, qv: Any) -> tuple[float, fl
 @loop
 def momenta(chain: Any, pos: Any, q: Any, error: Any, qe: Any, frame: Any, force: Any) -> None:
     """Mass matrix times a rate: (3,), (n + 2, 3), filled in; rates of the frame are those of (V, h, phi)."""
-    body, rod = chain
+    body, rod, ends = chain
     offset = body.offset
     s, c = sin(pos[2]), cos(pos[2])
     ax, ay, alpha = error[0] + error[2], error[1], error[2]
@@ -254,6 +264,8 @@ def momenta(chain: Any, pos: Any, q: Any, error: Any, qe: Any, frame: Any, force
         f1 += force[i, 0]
         f2 += force[i, 1]
         moment += y1 * force[i, 1] - y2 * force[i, 0] + force[i, 2]
+    more = add_inertia(ends, (a1, a2, alpha), 0.0, (q, q, qe), force)
+    f1, f2, moment = f1 + more[0], f2 + more[1], moment + more[2]
     frame[0] += f1 * s + f2 * c
     frame[1] += f1 * c - f2 * s
     frame[2] += f1 * s + f2 * c + moment
