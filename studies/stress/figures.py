@@ -72,7 +72,10 @@ def margins(report: Report) -> Figure:
         FigureCanvasAgg(figure)
         for axes, name, plane in zip(figure.subplots(1, 3), *zip(*_PLANES.items(), strict=True), strict=True):
             mine = report.of(name)
-            _panel(figure, axes, mine, plane)
+            if mine:  # of a few scenes a solver may have drawn none, and a logarithmic axis wants some
+                _panel(figure, axes, mine, plane)
+            else:
+                axes.set_axis_off()
             axes.set_title(f"{_TITLES[name]}: {len(mine)} scenes")
         return figure
 

@@ -10,7 +10,7 @@ from math import inf
 import pytest
 
 from rigid import scene_from_dict
-from studies.stress import checks, draws, run
+from studies.stress import checks, draws, figures, run
 from studies.stress.flexible import flexible_margins
 from studies.stress.run import Finding, Report
 from studies.stress.work import Work
@@ -47,6 +47,13 @@ def test_a_failure_prints_a_scene_that_can_be_run_again():
     text = Finding("flexible", 0, scene, "ended", 0.1, {"energy": 3.0}).text()
     assert scene_from_dict(tomllib.loads(text)) == scene
     assert "energy by 3" in text
+
+
+def test_a_map_of_scenes_of_one_kind_is_drawn(tmp_path):
+    """Of one scene two solvers draw none: their panels are empty, and no logarithmic axis looks for a number there."""
+    scene = next(draws.rigid_scenes(1, 0))
+    report = Report(0, [Finding("rigid", 0, scene, "ended", 0.1, {"energy": 0.3})])
+    assert figures.draw(report, tmp_path).stat().st_size > 10_000
 
 
 def test_what_is_wrong_is_found(monkeypatch):
