@@ -42,7 +42,8 @@ def lowest(rod: Any, q: Any, nodes: Any, theta: Any, phi: float, height: float) 
     """Angles from the bottom, in (-pi, pi], between which rim nodes that follow the sections are below the floor.
 
     Of the lowest node if none is. Only where the sections at both ends of a part are clear of the floor by no more than
-    the part can hang through, its width squared and what its wall is thicker, its nodes are looked at.
+    the part can hang through, its width squared and what its wall is thicker, its nodes are looked at, and always those
+    beside a thin wall's weld.
     """
     found = np.empty(2)
     room = np.empty(rod.theta.shape[0]), np.empty((3, 6)), np.empty(2), np.empty((2, 18))
@@ -59,7 +60,9 @@ def _lowest(rod: Any, q: Any, nodes: Any, pose: Any, room: Any, found: Any) -> N
     low, high, least, at_least = np.inf, -np.inf, np.inf, 0.0
     for k in range(theta.shape[0]):
         part = max(nodes.part[k], 0)
-        if nodes.part[k] >= 0:
+        if nodes.bow[k, 0, 0, 0, 0] != 0 or nodes.bow[k, 0, 1, 0, 0] != 0:
+            pass  # the strains there move it by their squares, however large they are
+        elif nodes.part[k] >= 0:
             hangs = (rod.theta[part + 1] - rod.theta[part]) ** 2 + 2 * THINNER * rod.offset
             if min(above[part], above[part + 1]) > limit + hangs:
                 continue

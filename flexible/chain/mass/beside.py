@@ -36,6 +36,14 @@ def _sums(ends: Any, i: int, q: Any, qv: Any) -> tuple[float, float, float, floa
 
 
 @loop
+def _on_frame(ends: Any, i: int, seen: Any, p: float, v: float, a: float) -> tuple[float, float]:
+    """Force along y1 and y2 that is by the i-th coordinate, its rate and its acceleration."""
+    (alpha, w), l1, l2 = seen, ends.first[0, i], ends.first[1, i]
+    f1 = l1 * a - 2 * w * l2 * v - (alpha * l2 + w * w * l1) * p
+    return f1, l2 * a + 2 * w * l1 * v + (alpha * l1 - w * w * l2) * p
+
+
+@loop
 def add_inertia(ends: Any, seen: Any, w: float, rows: Any, force: Any) -> tuple[float, float, float]:
     """Add the forces on the two sections; those on the frame along y1 and y2, and the moment about C.
 
@@ -61,8 +69,8 @@ def add_inertia(ends: Any, seen: Any, w: float, rows: Any, force: Any) -> tuple[
         for k in range(6):
             own += ends.mass[i, k] * _of(qa, k)
         force[1 if i < 3 else last, i % 3] += own
-        f1 += l1 * a - 2 * w * l2 * v - (alpha * l2 + w * w * l1) * p
-        f2 += l2 * a + 2 * w * l1 * v + (alpha * l1 - w * w * l2) * p
+        more1, more2 = _on_frame(ends, i, (alpha, w), p, v, a)
+        f1, f2 = f1 + more1, f2 + more2
         moment += (l1 * a2 - l2 * a1 + alpha * (2 * h + mp)) * p + 2 * w * (h + mp) * v + (g + gp) * a
     return f1, f2, moment
 
@@ -120,9 +128,8 @@ def add_derivatives(
         borders[at, b, 0] += by1 * s + by2 * c
         borders[at, b, 1] += by1 * c - by2 * s
         borders[at, b, 2] += by1 * s + by2 * c + moment
-        a = _of(qa, i)
-        f1 += l1 * a - 2 * w * l2 * v - (alpha * l2 + w * w * l1) * p
-        f2 += l2 * a + 2 * w * l1 * v + (alpha * l1 - w * w * l2) * p
+        more1, more2 = _on_frame(ends, i, (alpha, w), p, v, _of(qa, i))
+        f1, f2 = f1 + more1, f2 + more2
         f1_phi -= r2 * l2 * p + 2 * r1 * (l2 * v + w * l1 * p)
         f2_phi += r2 * l1 * p + 2 * r1 * (l1 * v - w * l2 * p)
         moment_phi += (l1 * a2_phi - l2 * a1_phi + r2 * (2 * h + mp)) * p + 2 * r1 * (h + mp) * v

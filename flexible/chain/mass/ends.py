@@ -15,13 +15,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..rod.second import Line
+from ..rod.ends import MIRROR
+from ..rod.second import Line, quadratic
 from ..rod.section import RodCompliance, transfer
 
 Array = NDArray[np.float64]
 
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(3)
-_MIRROR = np.diag([1.0, -1.0, -1.0])  # of displacement (y1, y2) and rotation
 
 
 class EndMass(NamedTuple):
@@ -53,7 +53,7 @@ def end_mass(compliance: RodCompliance, theta: float) -> EndMass:
     away = np.linalg.inv(transfer(radius, theta, compliance.weld)).T
     full = np.zeros((ring.basis.N, 6))
     full[ring.free, :3] = compliance.answers[:, :3] @ away
-    full[ring.free, 3:] = compliance.answers[:, 3:] @ (_MIRROR @ away @ _MIRROR)
+    full[ring.free, 3:] = compliance.answers[:, 3:] @ (MIRROR @ away @ MIRROR)
     moved = full[mesh.node_dofs]
     lines = Line(mesh, radius, theta), Line(mesh, radius, -theta)
     sections = np.stack([np.concatenate([line.mean(u) for line in lines]) for u in np.moveaxis(moved, 2, 0)], axis=1)
@@ -82,10 +82,10 @@ def _points(compliance: RodCompliance, theta: float) -> tuple[tuple[NDArray[np.i
     for i in range(first, behind):
         low, high = max(vertex[i], -theta), min(vertex[i + 1], theta)
         at = (low + high) / 2 + (high - low) / 2 * _POINTS
-        around = _quadratic(2 * (at - vertex[i]) / (vertex[i + 1] - vertex[i]) - 1)
+        around = quadratic(2 * (at - vertex[i]) / (vertex[i + 1] - vertex[i]) - 1)
         for k in range(1, len(radii), 2):
             half = (radii[k + 1] - radii[k - 1]) / 2
-            rho, through = radii[k] + half * _POINTS, _quadratic(_POINTS)
+            rho, through = radii[k] + half * _POINTS, quadratic(_POINTS)
             nodes = mesh.grid[k - 1 : k + 2, 2 * i : 2 * i + 3].ravel()
             shape = np.einsum("pi,qj->pqij", through, around).reshape(9, 9)
             mass = np.outer(half * _WEIGHTS * rho, (high - low) / 2 * _WEIGHTS).ravel() / whole
@@ -93,8 +93,3 @@ def _points(compliance: RodCompliance, theta: float) -> tuple[tuple[NDArray[np.i
             found.append((np.tile(nodes, (9, 1)), place, shape, mass))
     nodes, place, shapes, mass = (np.concatenate(column) for column in zip(*found, strict=True))
     return (nodes, place), shapes, mass
-
-
-def _quadratic(x: Array) -> Array:
-    """The three shape functions between -1 and 1, (n, 3)."""
-    return np.stack([x * (x - 1) / 2, 1 - x * x, x * (x + 1) / 2], axis=1)

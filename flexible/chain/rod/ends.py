@@ -20,7 +20,7 @@ from .section import RodCompliance, radial, transfer
 
 Array = NDArray[np.float64]
 
-_MIRROR = np.diag([1.0, -1.0, -1.0])  # of displacement (y1, y2) and rotation, or of force and moment
+MIRROR = np.diag([1.0, -1.0, -1.0])  # of displacement (y1, y2) and rotation, or of force and moment
 BACK = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0]])  # of strains: the angles change places and signs
 
 
@@ -163,8 +163,8 @@ def _at(compliance: RodCompliance, theta: float) -> Array:
     rod, back = np.zeros((6, 6)), np.zeros((6, 6))
     piece = _piece(compliance, theta, compliance.weld)
     away = np.linalg.inv(transfer(compliance.radius, theta, compliance.weld))
-    rod[:3, :3], rod[3:, 3:] = piece, _MIRROR @ piece @ _MIRROR
-    back[:3, :3], back[3:, 3:] = away, _MIRROR @ away @ _MIRROR
+    rod[:3, :3], rod[3:, 3:] = piece, MIRROR @ piece @ MIRROR
+    back[:3, :3], back[3:, 3:] = away, MIRROR @ away @ MIRROR
     return np.asarray(back @ (compliance.ends - rod) @ back.T)
 
 

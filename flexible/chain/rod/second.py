@@ -112,7 +112,7 @@ class Line:
         low, high = vertex[i], vertex[(i + 1) % len(vertex)]
         x = 2 * (theta - low) / (high - low) - 1
         self.nodes = mesh.grid[:, 2 * i + np.arange(3)]
-        self.shape = np.array([x * (x - 1) / 2, 1 - x**2, x * (x + 1) / 2])
+        self.shape = quadratic(x)
         self.outward = radial(theta)
         self.onward = np.array([-self.outward[1], self.outward[0]])
         z = mesh.radius[mesh.grid[:, 0]] / mesh.outer - radius
@@ -151,10 +151,15 @@ class Line:
         return total / 2
 
 
+def quadratic(x: Array | float) -> Array:
+    """The shape functions of three nodes from -1 to 1, (..., 3)."""
+    return np.stack([x * (x - 1) / 2, 1 - x * x, x * (x + 1) / 2], axis=-1)
+
+
 def _weights(z: Array, density: Callable[[Array], Array]) -> Array:
     """Weights of the nodes for the mean, of a density, of what is quadratic between every other of them."""
     weights = np.zeros_like(z)
-    shapes = np.stack([_POINTS * (_POINTS - 1) / 2, 1 - _POINTS**2, _POINTS * (_POINTS + 1) / 2])
+    shapes = quadratic(_POINTS).T
     for k in range(1, len(z), 2):
         half = (z[k + 1] - z[k - 1]) / 2
         weights[k - 1 : k + 2] += shapes @ (half * _WEIGHTS * density(z[k] + half * _POINTS))

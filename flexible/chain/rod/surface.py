@@ -2,12 +2,11 @@
 
 A wall that is bent gets thinner outside: beside where a section stands, the mean on which a shear force does work, its
 surface sinks by some nu h^2/10 times dphi/dtheta. One that is pulled by N gets thinner on either side, by
-nu N/(2 E b). One that bears a shear force Q
-warps: of the shift u = (2 + nu) Q z^3/(6 E I) of Saint-Venant's cantilever (Timoshenko and Goodier, Theory of
-Elasticity, 21) its surface is (2 + nu) Q/(10 E b) behind the plane that turns with it. The last two are a fifth of
-what a load of a unit dents a wall, small beside a bent ring, and many times the depth of a patch on a stiff floor. And
-between two sections the rim runs as the line between them does: it is stretched as that is, and slopes against the
-normal of the sections by the shear.
+nu N/(2 E b). One that bears a shear force Q warps: of the shift u = (2 + nu) Q z^3/(6 E I) of Saint-Venant's cantilever
+(Timoshenko and Goodier, Theory of Elasticity, 21) its surface is (2 + nu) Q/(10 E b) behind the plane that turns with
+it. The last two are a fifth of what a load of a unit dents a wall, small beside a bent ring, and many times the depth
+of a patch on a stiff floor. And between two sections the rim runs as the line between them does: it is stretched as
+that is, and slopes against the normal of the sections by the shear.
 
 Without all that the rod gave way under a load on the rim in other places than the wall does, by 0.2/(E b) to 1/(E b).
 """

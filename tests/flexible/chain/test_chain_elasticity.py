@@ -306,6 +306,9 @@ def test_the_rim_has_no_step_at_the_end_of_the_weld(side):
         q = np.zeros_like(shape.still)
         q[1:-1, :2] = way
         moved = follow(rod, q, shape.nodes)[0] / np.linalg.norm(way)
+        off, end = np.linalg.norm(moved - way / np.linalg.norm(way), axis=1), shape.compliance.weld
+        assert off[(theta > end - 1e-9) & (theta < end + 0.1)].max() < 1e-12
+        assert off[(theta > rod.theta[1]) & (theta < end)].max() < 5e-3  # cubics between sections have no more
         near = np.flatnonzero((theta > 0) & (theta < 1))
         steps = np.diff(moved[near[np.argsort(theta[near])]], axis=0)
         most.append(np.linalg.norm(steps, axis=1).max())

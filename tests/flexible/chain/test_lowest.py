@@ -19,7 +19,7 @@ def shape(request):
 
 
 def bulging(shape, size, seed):
-    """Sections on a ring bent to and fro by ``size``, less and less towards the weld, its walls turning with it."""
+    """Sections on a ring bent to and fro by ``size``, its walls turning with it."""
     rng = np.random.default_rng(seed)
     theta, q = shape.rod.theta, np.zeros_like(shape.still)
     for n in range(2, 6):
@@ -28,7 +28,6 @@ def bulging(shape, size, seed):
         q[:, 0] += out * np.cos(theta) - along * np.sin(theta)
         q[:, 1] += out * np.sin(theta) + along * np.cos(theta)
         q[:, 2] += turn
-    q *= np.sin((theta - theta[0]) / (theta[-1] - theta[0]) * pi)[:, None] ** 2
     q[[0, -1]] = 0.0
     return q
 
