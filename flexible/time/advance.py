@@ -57,6 +57,8 @@ FARTHEST = 1e-4  # a leap over an instant to which no step however short leads
 WIDER, CLOSER = 10.0, 1.5  # is each leap than the one before it; closer where those led nowhere
 DARING, RASH = 3.0, 30.0  # times its tolerance a leap may err, and one of those: it is that, or the end of the run
 MOST_STALLS = 50  # events within a shortest step of each other
+CAUGHT = 7  # a slide that the shortest step ends counts for so many
+RESTS = 1e-8  # a step after which the count begins anew
 SPAN = 25  # steps tried between two looks at what else the machine has to do: 0.1 s at most
 COLUMNS = len(Record._fields) + 1  # of a row: a record, and the rotation of the rim at the floor
 
@@ -164,6 +166,16 @@ def _farther(leap: float, wider: float) -> tuple[float, float]:
 
 
 @loop
+def _stalled(stalls: int, length: float, slid: bool) -> int:
+    """The count of events that lead nowhere, after a step, and whether a slide ended in it."""
+    if length < SHORTEST:
+        return stalls + 1
+    if slid and length < SHORT:
+        return stalls + CAUGHT
+    return stalls if length < RESTS else 0
+
+
+@loop
 def _sight(there: Any, mode: int) -> Sight:
     """What tells of events before a step, or behind it."""
     return Sight(mode, there.pos[2], there.vel[2], there.res, there.slip_velocity, there.rates)
@@ -249,7 +261,7 @@ def advance(
         energies = energies_of(model, state, holds)
         write(rows[written], state, energies, books, turned(model.theta, state.window, state.u))
         attempts, turns, written = attempts + search.tries, turns + (1 if event == TURN else 0), written + 1
-        stalls, h, pace = stalls + 1 if length < SHORTEST else 0, grown, this
+        stalls, h, pace = _stalled(stalls, length, event == MODE_ENDS and not sticks(law, state.mode)), grown, this
         if aims.alone or _ended(state.t, state.pos[2], turns, ends):
             why = REACHED
         elif stalls > MOST_STALLS:

@@ -22,7 +22,9 @@ BESIDE = 0.09  # of the spot from the middle of the weld, whose end is at 0.052
 
 
 def compliance(hoop, theta):
-    """Static displacements of a rim point, up and along, under a force up: C_nn, C_nt of a hoop that stands at it."""
+    """Static displacements of a rim point, up and along under a force up, and along under one along: C_nn, C_nt, C_tt
+    of a hoop that stands at it.
+    """
     first = int(np.searchsorted(hoop.vertex, theta)) - 1
     hoop.learns((first, 1))
     begin, end = hoop.vertex[first : first + 2]
@@ -31,7 +33,7 @@ def compliance(hoop, theta):
     s, c = sin(pi - theta), cos(pi - theta)
     block = hoop.ring.window(first, 1)[1]
     up, along = np.kron(shape, [c, -s]), np.kron(shape, [s, c])
-    return up @ block @ up, along @ block @ up
+    return up @ block @ up, along @ block @ up, along @ block @ along
 
 
 def landed(model, scene, side, beside=BESIDE, end=1e-3):
@@ -47,12 +49,28 @@ def landed(model, scene, side, beside=BESIDE, end=1e-3):
     return [record for record in records if record.normal_force > 0], records
 
 
+def breaks(records):
+    """Normal forces at which a patch that stuck broke loose, in order."""
+    return [
+        old.normal_force for old, new in itertools.pairwise(records)
+        if new.t == old.t and old.mode == STICK != new.mode
+    ]  # fmt: skip
+
+
+def snaps_of(records):
+    """Pairs of records, at one instant, between which friction turns round."""
+    return [
+        (old, new) for old, new in itertools.pairwise(records)
+        if new.t == old.t and old.friction_force * new.friction_force < 0
+    ]  # fmt: skip
+
+
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("mu", [0.1, 0.6])
 def test_a_spot_that_friction_pulls_down_as_much_as_pressure_lifts_it_lands_sticking(mu, side):
     """Under N and F = -mu N it rises by (C_nn - mu C_nt) N: where that is negative no N keeps a sliding one up."""
     scene = THICK.replace(friction={"mu": mu, "mu_s": mu + 0.2})
-    lift, along = compliance(ReducedHoop(scene), -side * BESIDE)
+    lift, along, _ = compliance(ReducedHoop(scene), -side * BESIDE)
     assert (mu * abs(along) > lift) == (mu > 0.5)
     on_floor, records = landed(ReducedHoop, scene, side)
     first = on_floor[0]
@@ -77,10 +95,7 @@ def test_a_spot_that_breaks_loose_where_friction_drives_it_on_snaps_off(beside, 
     """
     scene = THICK.replace(friction={"mu_s": 0.6, "mu": 0.6})
     _, records = landed(ReducedHoop, scene, side, beside, 3e-3)
-    snaps = [
-        (old, new) for old, new in itertools.pairwise(records)
-        if new.t == old.t and old.friction_force * new.friction_force < 0
-    ]  # fmt: skip
+    snaps = snaps_of(records)
     assert len(snaps) == 1
     old, new = snaps[0]
     assert old.friction_force * side < 0 < new.friction_force * side
@@ -94,6 +109,43 @@ def test_a_spot_that_breaks_loose_where_friction_drives_it_on_snaps_off(beside, 
     begin, end = records[0], records[-1]
     lost = end.friction_loss + end.damping_loss + end.numerical_loss
     assert energy(begin) - energy(end) == pytest.approx(lost, abs=scene.solve.rtol * begin.kinetic)
+
+
+@pytest.mark.parametrize("beside", [0.06, 0.1])
+@pytest.mark.parametrize("side", [1, -1])
+def test_stick_and_slip_that_would_follow_each_other_without_end_are_few(beside, side):
+    """With mu_s > mu a spot that friction drives on breaks loose and is caught again and again as N falls to nothing.
+
+    It sticks from F = mu N to F = mu_s N at one place, so that dF = c dN, c of its compliances C_nt and C_tt alone:
+    each time N is left as q = (mu - c)/(mu_s - c) of what it was, infinitely often before it leaves the floor. The q of
+    two thresholds has one c; a patch gives way along less than the point at its middle, whose c is a little less.
+    After a few of them it snaps off, once.
+    """
+    mu, found = 0.6, []
+    for mu_s in (0.65, 0.7):
+        scene = THICK.replace(friction={"mu_s": mu_s, "mu": mu})
+        _, records = landed(ReducedHoop, scene, side, beside, 3e-3)
+        normal = np.array(breaks(records))
+        most = max(record.normal_force for record in records)
+        assert 5 < len(normal) < 20  # 50 and more with every one of them down to round-off
+        q = (normal[-1] / normal[1]) ** (1 / (len(normal) - 2))
+        assert normal[2:] / normal[1:-1] == pytest.approx(q, rel=5e-3)
+        found.append((mu - q * mu_s) / (1 - q))
+        snaps = snaps_of(records)
+        assert len(snaps) == 1
+        old, new = snaps[0]
+        assert old.friction_force * side < 0 < new.friction_force * side
+        # what was left of the friction impulse, mu N over the time of a few of the last ones, is nothing
+        assert new.normal_force < 1e-3 * most
+        after = records[records.index(new) + 1 :]
+        assert all(r.slip_velocity * side < 0 for r in after if r.normal_force > 0)
+        assert after[-1].normal_force == 0
+        begin, end = records[0], records[-1]
+        lost = end.friction_loss + end.damping_loss + end.numerical_loss
+        assert energy(begin) - energy(end) == pytest.approx(lost, abs=scene.solve.rtol * begin.kinetic)
+    _, across, along = compliance(ReducedHoop(scene), -side * beside)
+    assert found[0] == pytest.approx(found[1], rel=0.02)  # q to 1e-3 of 1 - q, a tenth and more
+    assert 1 < found[1] / (abs(across) / along) < 1.15
 
 
 @pytest.mark.slow
