@@ -177,7 +177,7 @@ def energies_of(arrays: Arrays, state: State, held: Energies) -> Energies:
 class ReducedHoop(RimContact):
     """Frame, modes and residual static compliance of a scene's hoop."""
 
-    def __init__(self, scene: Scene, modes: int | None = None, points: int | None = None) -> None:
+    def __init__(self, scene: Scene, modes: int | None = None, points: float | None = None) -> None:
         self.ring: ReducedRing = reduce(scene, modes)
         super().__init__(scene, self.ring.vertex, points, self.ring.within)
         self._blocks: dict[tuple[int, int], tuple[Array, Array]] = {}

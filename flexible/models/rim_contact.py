@@ -45,7 +45,7 @@ def known_to(rtol: float) -> float:
     return min(max(least, rtol**1.5), most)
 
 
-def contact_law(scene: Scene, elements: int, points: int, within: float = 0.0, soft: bool = False) -> Law:
+def contact_law(scene: Scene, elements: int, points: float, within: float = 0.0, soft: bool = False) -> Law:
     """The scene's friction law, with ``points`` to the patch of a rigid hoop under the disk's weight.
 
     ``within`` is what the rim's wall gives way by point by point, besides the foundation and its bristles; ``soft`` is
@@ -108,7 +108,7 @@ class RimContact:
     ----------
     vertex : (n_elements,) array
         Angles at which rim elements begin.
-    points : int, optional
+    points : float, optional
         Contact points to a patch; by default what the scene's tolerance asks for.
     within : float
         What the wall gives way by within an element, in R per pressure: the foundation and its bristles do in addition.
@@ -117,7 +117,7 @@ class RimContact:
     linear = True
     """Whether rotations of the ring's sections against one are neglected."""
 
-    def __init__(self, scene: Scene, vertex: Array, points: int | None, within: float = 0.0) -> None:
+    def __init__(self, scene: Scene, vertex: Array, points: float | None, within: float = 0.0) -> None:
         self.scene = scene
         self.vertex = vertex
         middle = (vertex + np.append(vertex[1:], vertex[0] + 2 * pi)) / 2

@@ -5,7 +5,7 @@ A point is a setting; the line of a solver is its envelope, the least error to b
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import isfinite, log10
 from pathlib import Path
 from typing import Any
@@ -62,13 +62,18 @@ def work_precision(rows: Sequence[Row], title: str) -> Figure:
         _ticks(panels[0].yaxis)
         for axes in panels[::across]:
             axes.set_ylabel("seconds")
-        handles: dict[str, Any] = {}
-        for axes in panels:
-            for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
-                handles.setdefault(label, handle)
-        figure.legend(list(handles.values()), list(handles), loc="outside right upper")
+        _legend(figure, panels)
         figure.suptitle(title)
         return figure
+
+
+def _legend(figure: Figure, panels: Iterable[Any]) -> None:
+    """What is drawn in any of the panels, once, beside them."""
+    handles: dict[str, Any] = {}
+    for axes in panels:
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
+            handles.setdefault(label, handle)
+    figure.legend(list(handles.values()), list(handles), loc="outside right upper")
 
 
 def envelope(errors: Sequence[float], seconds: Sequence[float]) -> list[tuple[float, float]]:
@@ -114,9 +119,41 @@ def cost(rows: Sequence[Row], exponents: dict[str, float]) -> Figure:
         return figure
 
 
+def budget(rows: Sequence[Row], parts: Sequence[str]) -> Figure:
+    """The parts of the error and all of it against the tolerance, one panel for each scene."""
+    shown = [row for row in rows if isfinite(row.error)]
+    scenes = list(dict.fromkeys(row.scene for row in shown))
+    across = min(max(len(scenes), 1), _ACROSS)
+    down = max(-(-len(scenes) // across), 1)
+    with matplotlib.rc_context(STYLE):
+        figure = Figure(figsize=(3.4 * across + 1.6, 3.4 * down), layout="constrained")
+        FigureCanvasAgg(figure)
+        panels = np.atleast_1d(figure.subplots(down, across, sharex=True, sharey=True)).ravel()
+        for axes, scene in zip(panels, scenes, strict=False):
+            mine = sorted((row for row in shown if row.scene == scene), key=lambda row: row.more["rtol"])
+            rtol = [row.more["rtol"] for row in mine]
+            axes.plot(rtol, rtol, color="0.7", linestyle="--", label="rtol")
+            for number, part in enumerate(parts):
+                y = [max(row.more[part], _FLOOR) if part in row.more else np.nan for row in mine]
+                if not np.isnan(y).all():
+                    axes.plot(rtol, y, marker=_MARKERS[number], color=_COLOURS[number], markersize=5, label=part)
+            axes.plot(rtol, [row.error for row in mine], color="black", linewidth=2, label="all", zorder=1)
+            axes.set(xscale="log", yscale="log", xlabel="rtol")
+            axes.set_title(scene, fontsize=10)
+            axes.tick_params(labelbottom=True)
+        for axes in panels[len(scenes) :]:
+            axes.set_axis_off()
+        for axes in panels[::across]:
+            axes.set_ylabel("error over J_N")
+        _legend(figure, panels)
+        return figure
+
+
 def draw(what: str, result: Result, out: Path) -> list[Path]:
     """All figures of a benchmark into a folder."""
     if what == "scaling":
         return [save(cost(result.rows, result.exponents), out / "bench-scaling.png")]
+    if result.parts:
+        return [save(budget(result.rows, result.parts), out / f"bench-{what}.png")]
     against = "difference from all nodes" if what == "soft" else "error"
     return [save(work_precision(result.rows, f"{what}: run time against {against}"), out / f"bench-{what}.png")]

@@ -86,6 +86,8 @@ class Result:
     exponents: dict[str, float] = field(default_factory=dict)
     compared: tuple[str, ...] = ()
     """Entries of ``Row.more`` with a table of their own, and how far ``"NAME off"`` says that they are off."""
+    parts: tuple[str, ...] = ()
+    """Entries of ``Row.more`` of which the error is made up."""
 
     def to_dict(self) -> dict[str, Any]:
         """What ``--json`` prints."""

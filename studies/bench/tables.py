@@ -29,6 +29,9 @@ def bench_tables(result: Result) -> list[Any]:
     shown: list[Any] = [Sheet("Run time against error", keys, columns)]
     if result.compared:
         shown.append(_compared(result))
+    if result.parts:
+        parts = [Column(name, [_number(row.more.get(name, NAN), 2) for row in rows]) for name in result.parts]
+        shown.append(Sheet("What the error is made up of", keys, [*parts, Column("error", columns[3].cells)]))
     if result.exponents:
         against = [Column("cost against", list(result.exponents), words=True)]
         powers = [Column("exponent", [f"{power:.2f}" for power in result.exponents.values()])]

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("what", type=click.Choice(["rigid", "flexible", "soft", "scaling"]))
+@click.argument("what", type=click.Choice(["rigid", "flexible", "knobs", "soft", "scaling"]))
 @as_json
 @out_folder("Write table and figures into this folder.")
 @click.option("--peers", "peers_too", is_flag=True, help="Also the other solvers that are installed (Exudyn).")
@@ -31,8 +31,10 @@ def bench(
     \b
     rigid     a first cycle against forty digits, beside scipy
     flexible  the pulse of a stiff ring against all nodes, knob by knob
+    knobs     what elements, modes, contact points and steps each leave at
+              the tolerance that chose them; ten minutes, one with --quick
     soft      pulses of rings that bend far, beside all nodes of the exact
-              ring; 45 minutes, four with --quick
+              ring; half an hour, six minutes with --quick
     scaling   cost against stiffness, turns, mesh, scenes and workers
     """
     from ..machine.kernels import prepare

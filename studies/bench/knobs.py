@@ -1,0 +1,180 @@
+"""`hoop bench knobs`: what elements, modes, points and steps each leave of a pulse, at the tolerance that chose them.
+
+One knob, ``rtol``, turns four. Each of them is made finer by itself, with steps so short that they do not matter, and
+what that changes is its error; that of the steps is what shorter ones change. In impulses and loss, over J_N.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from math import inf
+
+import numpy as np
+
+import rigid
+from flexible.contact.laws.listing import LAWS
+from flexible.handover import hand_over
+from flexible.models.reduced import ReducedHoop
+from flexible.models.rim_contact import points_to_a_patch
+from flexible.ring.choice import elements_around, elements_through
+from flexible.ring.reduction import modes_for
+from flexible.segment import peak
+from flexible.solve import LEAD
+from flexible.time.adaptive import march
+from flexible.time.events import Ends
+from rigid import Scene
+
+from .race import Claim, Result, Row
+from .truth.reference import Measured, errors, massless_pulse, scene_b
+
+KNOBS = ("elements", "modes", "points", "steps")
+FINER = 3  # times as many elements around and through, and modes
+MOST_AROUND = 1440  # however: the compliance of a longer rim is half a GB
+SHIFTS = (1.0037, 1.0071, 2.0)  # of the number of points: parts of a thousand put them anywhere in the patch
+SHORT = 1 / 30  # of the tolerance: steps that do not matter
+SHORTEST = 3e-7
+MOST = 1.5  # times its tolerance a knob may leave, in walls that a floor does not dent by more than it bends the ring
+THICK = 1.06  # r from which on it does, and elements narrower than the patch would be needed
+
+
+@dataclass(frozen=True)
+class Pulse:
+    """A scene to the end of its first pulse, or to its ``t_end`` from an undeformed ring."""
+
+    name: str
+    scene: Scene
+    stated: bool = True
+    """Whether a bound is stated of its knobs."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """The four knobs."""
+
+    around: int
+    through: int
+    modes: int
+    points: float
+    rtol: float
+
+    @classmethod
+    def of(cls, scene: Scene, rtol: float) -> Setting:
+        """As ``rtol`` chooses them."""
+        soft, wall = scene.ring.bending_stiffness, scene.wall
+        points = points_to_a_patch(LAWS[scene.contact.law], rtol)
+        around, through = elements_around(rtol, soft, wall), elements_through(wall, rtol)
+        return cls(around, through, modes_for(rtol) if scene.hoop.mass_ratio > 0 else 0, points, rtol)
+
+
+def pulses(quick: bool) -> list[Pulse]:
+    """Rings that ring and do not, on patch and brush; thin walls and thick ones."""
+    massless = massless_pulse().replace(contact={"damping": 1.0})
+    stiff = scene_b().replace(ring={"bending_stiffness": 1e4}, contact={"damping": 1.0})
+    few = [
+        Pulse("scene B", scene_b()),
+        Pulse("massless, patch", massless),
+    ]
+    if quick:
+        return few
+    return [
+        *few,
+        Pulse("massless, brush", massless.replace(contact={"law": "brush"})),
+        Pulse("scene B, E I = 10⁴, damped", stiff),
+        *(Pulse(f"scene B, r = {r:g}", scene_b().replace(hoop={"r": r}), r < THICK) for r in (1.005, 1.05, 1.1, 1.2)),
+    ]
+
+
+def measure(scene: Scene, setting: Setting) -> Measured:
+    """Impulses, loss and largest force of a pulse with these knobs.
+
+    Raises
+    ------
+    RuntimeError
+        The run did not come to its end.
+    """
+    solve = {"rtol": setting.rtol, "elements": setting.around, "through": setting.through}
+    scene = scene.replace(solve=solve)
+    hoop = ReducedHoop(scene, setting.modes, setting.points)
+    motion = rigid.simulate(scene)
+    if scene.run.t_end is not None:
+        start, ends = 0.0, Ends(t=scene.run.t_end)
+    else:
+        pulse = motion.pulses[0]
+        start, ends = pulse.t_start - LEAD * (pulse.t_end - pulse.t_start), Ends(high=pulse.phi_end)
+    marched = march(hoop, hand_over(hoop, motion, start), ends, setting.rtol)
+    if marched.ended:
+        raise RuntimeError(marched.ended)
+    last = marched.records[-1]
+    t, normal = (np.array([getattr(record, name) for record in marched.records]) for name in ("t", "normal_force"))
+    return Measured(last.normal_impulse, last.friction_impulse, last.friction_loss, peak(t, normal))
+
+
+@dataclass
+class Budget:
+    """What the knobs of a pulse leave at a tolerance."""
+
+    parts: dict[str, float] = field(default_factory=dict)
+    all: float = inf
+    """What finer ones change together."""
+    all_peak: float = inf
+    """That of the largest normal force, relative."""
+    seconds: float = 0.0
+    """Of the run with the chosen ones, the ring taken from the cache."""
+
+
+def budget(scene: Scene, rtol: float, done: Callable[[], None] = lambda: None) -> Budget:
+    """Turn one knob after the other; ``done`` is called after each run."""
+
+    def run(setting: Setting) -> Measured:
+        found = measure(scene, setting)
+        done()
+        return found
+
+    def changed(**to: float) -> Setting:
+        return Setting(**{**vars(still), **to})
+
+    chosen = Setting.of(scene, rtol)
+    still = Setting(**{**vars(chosen), "rtol": max(SHORT * rtol, SHORTEST)})
+    mesh = {"around": min(FINER * chosen.around, MOST_AROUND), "through": FINER * chosen.through}
+    true = run(still)  # on a ring that is made now
+    start = time.process_time()
+    found = run(chosen)
+    seconds = time.process_time() - start
+    off: dict[str, float] = {"elements": errors(run(changed(**mesh)), true)[0]}
+    if chosen.modes:
+        off["modes"] = errors(run(changed(modes=FINER * chosen.modes)), true)[0]
+    off["points"] = max(errors(run(changed(points=by * chosen.points)), true)[0] for by in SHIFTS)
+    off["steps"] = errors(found, true)[0]
+    finest = run(changed(**mesh, modes=FINER * chosen.modes, points=2 * chosen.points))
+    return Budget(off, *errors(found, finest), seconds)
+
+
+def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[float], None] | None = None) -> Result:
+    """The budget of every pulse at every tolerance, and what is stated of it."""
+    jobs = [(pulse, rtol) for pulse in pulses(quick) for rtol in ((1e-3, 1e-4) if quick else (1e-2, 1e-3, 1e-4, 1e-5))]
+    runs, made = len(jobs) * (len(KNOBS) + len(SHIFTS) + 1), 0
+
+    def done() -> None:
+        nonlocal made
+        made += 1
+        if progress is not None:
+            progress(min(made / runs, 1.0))
+
+    result = Result(parts=KNOBS)
+    for pulse, rtol in jobs:
+        row = Row("hoop-pulse reduced", f"rtol {rtol:.0e}", pulse.name, [])
+        result.rows.append(row)
+        try:
+            found = budget(pulse.scene, rtol, done)
+        except RuntimeError as trouble:
+            row.note = str(trouble)
+            continue
+        row.seconds.append(found.seconds)
+        row.error, row.more = found.all, {**found.parts, "error_peak": found.all_peak, "rtol": rtol}
+        if pulse.stated:
+            worst = max(found.parts, key=lambda knob: found.parts[knob])
+            name = f"{pulse.name}, rtol {rtol:.0e}: what its {worst} leave, over rtol"
+            result.claims.append(Claim(name, found.parts[worst] / rtol, MOST, at_most=True))
+    return result
