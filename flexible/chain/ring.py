@@ -72,10 +72,15 @@ def inverse_of(strains: Array) -> Array:
     return np.asarray(np.linalg.pinv(strains / size[:, None]) / size, dtype=float)
 
 
+def beside_weld(count: int) -> NDArray[np.int64]:
+    """Which of so many coordinates are those of the first free section and of the last, (6,)."""
+    return np.r_[0:3, count - 3 : count]
+
+
 def mass_matrix(rod: Rod, ends: EndMass) -> Array:
     """Of the free sections, (3 n, 3 n)."""
     matrix = np.diag(np.column_stack([rod.mass, rod.mass, rod.turning])[1:-1].ravel())
-    beside = np.r_[0:3, len(matrix) - 3 : len(matrix)]
+    beside = beside_weld(len(matrix))
     matrix[np.ix_(beside, beside)] += ends.mass
     return matrix
 

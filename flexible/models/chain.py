@@ -13,7 +13,7 @@ from rigid import Scene
 
 from ..chain.bordered import Factors
 from ..chain.rim import follow
-from ..chain.ring import ChainRing, dense_stiffness, mass_matrix, rim_matrix
+from ..chain.ring import ChainRing, beside_weld, dense_stiffness, mass_matrix, rim_matrix
 from ..chain.rod.corotated import elastic
 from ..chain.stage import Arrays, solved
 from ..chain.touch import turned
@@ -138,7 +138,7 @@ class RestingChain:
         load = y @ turn.T + np.array([*acceleration, alpha])
         self.load = (weights * load).ravel()
         self.inertia = np.kron(np.diag(rod.mass[1:-1]), turn)
-        beside = np.r_[0:3, len(self.load) - 3 : len(self.load)]
+        beside = beside_weld(len(self.load))
         self.load[beside] += ends.first.T @ acceleration + alpha * ends.turning - omega**2 * ends.stretching
         self.inertia[np.ix_(beside, beside)] += alpha * ends.gyro - omega**2 * ends.mass
 

@@ -27,7 +27,7 @@ from flexible.time.events import Ends
 from rigid import Scene
 
 from .race import Claim, Result, Row
-from .truth.reference import Measured, errors, massless_pulse, scene_b
+from .truth.reference import Measured, errors, massless_brush, massless_pulse, scene_b
 
 KNOBS = ("elements", "modes", "points", "steps")
 FINER = 3  # times as many elements around and through, and modes
@@ -70,23 +70,22 @@ class Setting:
 
 def pulses(quick: bool) -> list[Pulse]:
     """Rings that ring and do not, on patch and brush; thin walls and thick ones."""
-    massless = massless_pulse().replace(contact={"damping": 1.0})
     stiff = scene_b().replace(ring={"bending_stiffness": 1e4}, contact={"damping": 1.0})
     few = [
         Pulse("scene B", scene_b()),
-        Pulse("massless, patch", massless),
+        Pulse("massless, patch", massless_pulse()),
     ]
     if quick:
         return few
     return [
         *few,
-        Pulse("massless, brush", massless.replace(contact={"law": "brush"})),
+        Pulse("massless, brush", massless_brush()),
         Pulse("scene B, E I = 10⁴, damped", stiff),
         *(Pulse(f"scene B, r = {r:g}", scene_b().replace(hoop={"r": r}), r < THICK) for r in (1.005, 1.05, 1.1, 1.2)),
     ]
 
 
-def measure(scene: Scene, setting: Setting) -> Measured:
+def pulse_at(scene: Scene, setting: Setting) -> Measured:
     """Impulses, loss and largest force of a pulse with these knobs.
 
     Raises
@@ -128,7 +127,7 @@ def budget(scene: Scene, rtol: float, done: Callable[[], None] = lambda: None) -
     """Turn one knob after the other; ``done`` is called after each run."""
 
     def run(setting: Setting) -> Measured:
-        found = measure(scene, setting)
+        found = pulse_at(scene, setting)
         done()
         return found
 

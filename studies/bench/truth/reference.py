@@ -100,6 +100,11 @@ def massless_pulse(rtol: float = 1e-3) -> Scene:
     )
 
 
+def massless_brush(rtol: float = 1e-3) -> Scene:
+    """The same where every point of the patch breaks loose by itself."""
+    return massless_pulse(rtol).replace(contact={"law": "brush"})
+
+
 def run_hoop(scene: Scene, hoop: Any) -> Measured:
     """Scene B through a hoop of any level, modes and points."""
     from flexible.handover import hand_over

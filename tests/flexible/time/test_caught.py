@@ -57,12 +57,26 @@ def breaks(records):
     ]  # fmt: skip
 
 
-def snaps_of(records):
-    """Pairs of records, at one instant, between which friction turns round."""
-    return [
+def ledger_closes(scene, records):
+    """Whether what was lost of the energy is what the books say, to the tolerance."""
+    begin, end = records[0], records[-1]
+    lost = end.friction_loss + end.damping_loss + end.numerical_loss
+    return energy(begin) - energy(end) == pytest.approx(lost, abs=scene.solve.rtol * begin.kinetic)
+
+
+def snapped_off(records, side):
+    """Normal forces before and behind the one instant at which friction turns round, against the slip and for good."""
+    snaps = [
         (old, new) for old, new in itertools.pairwise(records)
         if new.t == old.t and old.friction_force * new.friction_force < 0
     ]  # fmt: skip
+    assert len(snaps) == 1
+    old, new = snaps[0]
+    assert old.friction_force * side < 0 < new.friction_force * side
+    after = records[records.index(new) + 1 :]
+    assert all(r.slip_velocity * side < 0 for r in after if r.normal_force > 0)
+    assert after[-1].normal_force == 0
+    return old.normal_force, new.normal_force
 
 
 @pytest.mark.parametrize("side", [1, -1])
@@ -80,8 +94,7 @@ def test_a_spot_that_friction_pulls_down_as_much_as_pressure_lifts_it_lands_stic
     else:
         assert first.friction_force == pytest.approx(-side * mu * first.normal_force, rel=1e-9)
     begin, end = records[0], records[-1]
-    lost = end.friction_loss + end.damping_loss + end.numerical_loss
-    assert energy(begin) - energy(end) == pytest.approx(lost, abs=scene.solve.rtol * begin.kinetic)
+    assert ledger_closes(scene, records)
     assert abs(end.numerical_loss) < 30 * scene.solve.rtol * begin.kinetic
 
 
@@ -95,20 +108,12 @@ def test_a_spot_that_breaks_loose_where_friction_drives_it_on_snaps_off(beside, 
     """
     scene = THICK.replace(friction={"mu_s": 0.6, "mu": 0.6})
     _, records = landed(ReducedHoop, scene, side, beside, 3e-3)
-    snaps = snaps_of(records)
-    assert len(snaps) == 1
-    old, new = snaps[0]
-    assert old.friction_force * side < 0 < new.friction_force * side
+    before, behind = snapped_off(records, side)
     most = max(record.normal_force for record in records)
-    assert new.normal_force < old.normal_force < 0.01 * most
+    assert behind < before < 0.01 * most
     # an event at which forces jump is located in time alone; as in the stress test
     assert all(abs(r.friction_force) <= 0.6 * r.normal_force + 1e-6 * most for r in records)
-    after = records[records.index(new) + 1 :]
-    assert all(r.slip_velocity * side < 0 for r in after if r.normal_force > 0)
-    assert after[-1].normal_force == 0
-    begin, end = records[0], records[-1]
-    lost = end.friction_loss + end.damping_loss + end.numerical_loss
-    assert energy(begin) - energy(end) == pytest.approx(lost, abs=scene.solve.rtol * begin.kinetic)
+    assert ledger_closes(scene, records)
 
 
 @pytest.mark.parametrize("beside", [0.06, 0.1])
@@ -126,23 +131,13 @@ def test_stick_and_slip_that_would_follow_each_other_without_end_are_few(beside,
         scene = THICK.replace(friction={"mu_s": mu_s, "mu": mu})
         _, records = landed(ReducedHoop, scene, side, beside, 3e-3)
         normal = np.array(breaks(records))
-        most = max(record.normal_force for record in records)
         assert 5 < len(normal) < 20  # 50 and more with every one of them down to round-off
         q = (normal[-1] / normal[1]) ** (1 / (len(normal) - 2))
         assert normal[2:] / normal[1:-1] == pytest.approx(q, rel=5e-3)
         found.append((mu - q * mu_s) / (1 - q))
-        snaps = snaps_of(records)
-        assert len(snaps) == 1
-        old, new = snaps[0]
-        assert old.friction_force * side < 0 < new.friction_force * side
         # what was left of the friction impulse, mu N over the time of a few of the last ones, is nothing
-        assert new.normal_force < 1e-3 * most
-        after = records[records.index(new) + 1 :]
-        assert all(r.slip_velocity * side < 0 for r in after if r.normal_force > 0)
-        assert after[-1].normal_force == 0
-        begin, end = records[0], records[-1]
-        lost = end.friction_loss + end.damping_loss + end.numerical_loss
-        assert energy(begin) - energy(end) == pytest.approx(lost, abs=scene.solve.rtol * begin.kinetic)
+        assert snapped_off(records, side)[1] < 1e-3 * max(record.normal_force for record in records)
+        assert ledger_closes(scene, records)
     _, across, along = compliance(ReducedHoop(scene), -side * beside)
     assert found[0] == pytest.approx(found[1], rel=0.02)  # q to 1e-3 of 1 - q, a tenth and more
     assert 1 < found[1] / (abs(across) / along) < 1.15

@@ -8,7 +8,7 @@ import pytest
 import flexible
 from studies.bench import knobs
 from studies.bench.figures import budget as drawn
-from studies.bench.knobs import KNOBS, Pulse, Setting, budget, measure, pulses
+from studies.bench.knobs import KNOBS, Pulse, Setting, budget, pulse_at, pulses
 from studies.bench.truth.reference import errors
 
 MASSLESS = next(pulse.scene for pulse in pulses(quick=True) if pulse.scene.hoop.mass_ratio == 0)
@@ -18,7 +18,7 @@ MASSLESS = next(pulse.scene for pulse in pulses(quick=True) if pulse.scene.hoop.
 def test_the_setting_that_rtol_chooses_is_that_of_a_run(pulse):
     """To the last bit from the undeformed ring; a segment of a pulse begins where ours does, but for rounding."""
     rtol = 1e-3
-    found = measure(pulse.scene, Setting.of(pulse.scene, rtol))
+    found = pulse_at(pulse.scene, Setting.of(pulse.scene, rtol))
     history = flexible.simulate(pulse.scene.replace(solve={"rtol": rtol}), history=True).history
     assert history is not None
     whole = np.array([history.normal_impulse[-1], history.friction_impulse[-1], history.friction_loss[-1]])
@@ -44,8 +44,8 @@ def test_coarser_elements_leave_more():
     def on(around: int) -> Setting:
         return Setting(around, still.through, still.modes, still.points, 1e-4)
 
-    fine = measure(scene, on(720))
-    few, many = (errors(measure(scene, on(around)), fine)[0] for around in (60, 120))
+    fine = pulse_at(scene, on(720))
+    few, many = (errors(pulse_at(scene, on(around)), fine)[0] for around in (60, 120))
     assert few > 4 * many
 
 
@@ -63,7 +63,7 @@ def test_a_knob_that_leaves_too_much_is_told(monkeypatch):
         raise RuntimeError("stopped")
 
     monkeypatch.setattr(knobs, "pulses", lambda quick: [Pulse("broken", broken)])
-    monkeypatch.setattr(knobs, "measure", fails)
+    monkeypatch.setattr(knobs, "pulse_at", fails)
     result = knobs.bench(quick=True)
     assert [row.note for row in result.rows] == ["stopped", "stopped"]
     assert not result.claims
