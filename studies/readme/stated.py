@@ -19,6 +19,7 @@ HOP = (
 )
 RIGID = "hoop bench rigid --peers --json --out bench"
 FLEXIBLE = "hoop bench flexible --peers --json --out bench"
+KNOBS = "hoop bench knobs --json --out bench"
 SCALING = "hoop bench scaling --json --out bench"
 STRESS = "hoop stress --scenes 1200 --seed 4 --json --out stress"
 EXAMPLES = ("rigid-motion", "batch-map", "pulse", "stiffness-study", "fields-in-pyvista", "own-friction-law")
@@ -45,6 +46,7 @@ PICTURES = (
     Picture("atlas.png", (ATLAS,), "atlas/atlas.png"),
     Picture("hop.png", (HOP,), "hop/map.png"),
     Picture("bench-rigid.png", (RIGID,), "bench/bench-rigid.png"),
+    Picture("bench-knobs.png", (KNOBS,), "bench/bench-knobs.png"),
     Picture("bench-flexible.png", (FLEXIBLE,), "bench/bench-flexible.png"),
     Picture("bench-scaling.png", (SCALING,), "bench/bench-scaling.png"),
     Picture("margins.png", (STRESS,), "stress/stress.png"),

@@ -80,7 +80,7 @@ class Finding:
     def text(self) -> str:
         """The failure with its scene, to be run again."""
         what = self.crash or ", ".join(f"{name} by {value:.3g}" for name, value in self.broken.items())
-        return f"# {self.solver} scene {self.number}: {what}; it {self.ended or 'did not end'}\n{toml(self.scene)}"
+        return f"# {self.solver} scene {self.number}: {what}; {self.ended or 'it did not end'}\n{toml(self.scene)}"
 
 
 @dataclass
