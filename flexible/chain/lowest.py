@@ -52,6 +52,21 @@ def lowest(rod: Any, q: Any, nodes: Any, theta: Any, phi: float, height: float) 
 
 
 @loop
+def _is_clear(rod: Any, nodes: Any, k: int, above: Any, limit: float) -> bool:
+    """Whether a node is above the floor wherever it is between its sections.
+
+    Of one beside a thin wall's weld they do not say it: strains move it by their squares, however large they are.
+    """
+    part = nodes.part[k]
+    if nodes.bow[k, 0, 0, 0, 0] != 0 or nodes.bow[k, 0, 1, 0, 0] != 0:
+        return False
+    if part < 0:
+        return bool(min(above[0], above[above.shape[0] - 1]) > limit + rod.theta[0] ** 2)
+    hangs = (rod.theta[part + 1] - rod.theta[part]) ** 2 + 2 * THINNER * rod.offset
+    return bool(min(above[part], above[part + 1]) > limit + hangs)
+
+
+@loop
 def _lowest(rod: Any, q: Any, nodes: Any, pose: Any, room: Any, found: Any) -> None:
     theta, phi, height = pose
     above, chords, moved, by = room
@@ -59,14 +74,7 @@ def _lowest(rod: Any, q: Any, nodes: Any, pose: Any, room: Any, found: Any) -> N
     limit = max(_above(rod, q, phi, height, above), 0.0)
     low, high, least, at_least = np.inf, -np.inf, np.inf, 0.0
     for k in range(theta.shape[0]):
-        part = max(nodes.part[k], 0)
-        if nodes.bow[k, 0, 0, 0, 0] != 0 or nodes.bow[k, 0, 1, 0, 0] != 0:
-            pass  # the strains there move it by their squares, however large they are
-        elif nodes.part[k] >= 0:
-            hangs = (rod.theta[part + 1] - rod.theta[part]) ** 2 + 2 * THINNER * rod.offset
-            if min(above[part], above[part + 1]) > limit + hangs:
-                continue
-        elif min(above[0], above[above.shape[0] - 1]) > limit + (rod.theta[0]) ** 2:
+        if _is_clear(rod, nodes, k, above, limit):
             continue
         chords_around(rod, q, nodes.part[k], chords)
         rim_point(rod, q, nodes.part[k], nodes.xi[k], (nodes.root[k], nodes.bow[k]), chords, moved, by)

@@ -33,11 +33,7 @@ def work_precision(rows: Sequence[Row], title: str) -> Figure:
     solvers = list(dict.fromkeys(row.solver for row in shown))
     others = [name for name in solvers if not name.startswith("hoop-pulse")]
     with matplotlib.rc_context(STYLE):
-        across = min(max(len(scenes), 1), _ACROSS)
-        down = max(-(-len(scenes) // across), 1)
-        figure = Figure(figsize=(4.2 * across + 1.6, 4.2 * down), layout="constrained")
-        FigureCanvasAgg(figure)
-        panels = np.atleast_1d(figure.subplots(down, across, sharex=down > 1, sharey=True)).ravel()
+        figure, panels = _panels(len(scenes), 4.2)
         for axes, scene in zip(panels, scenes, strict=False):
             for number, name in enumerate(solvers):
                 mine = sorted((row for row in shown if (row.scene, row.solver) == (scene, name)), key=lambda r: r.error)
@@ -57,14 +53,24 @@ def work_precision(rows: Sequence[Row], title: str) -> Figure:
             axes.set_title(f"{scene}\n{SCENES[scene]}" if scene in SCENES else scene, fontsize=10)
             _ticks(axes.xaxis)
             axes.tick_params(labelbottom=True)
-        for axes in panels[len(scenes) :]:
-            axes.set_axis_off()
         _ticks(panels[0].yaxis)
-        for axes in panels[::across]:
+        for axes in panels[::_ACROSS]:
             axes.set_ylabel("seconds")
         _legend(figure, panels)
         figure.suptitle(title)
         return figure
+
+
+def _panels(scenes: int, size: float) -> tuple[Figure, Any]:
+    """A figure with a panel of so many inches for each scene, on the same axes, and room for a legend beside them."""
+    across = min(max(scenes, 1), _ACROSS)
+    down = max(-(-scenes // across), 1)
+    figure = Figure(figsize=(size * across + 1.6, size * down), layout="constrained")
+    FigureCanvasAgg(figure)
+    panels = np.atleast_1d(figure.subplots(down, across, sharex=down > 1, sharey=True)).ravel()
+    for axes in panels[max(scenes, 1) :]:
+        axes.set_axis_off()
+    return figure, panels
 
 
 def _legend(figure: Figure, panels: Iterable[Any]) -> None:
@@ -123,12 +129,8 @@ def budget(rows: Sequence[Row], parts: Sequence[str]) -> Figure:
     """The parts of the error and all of it against the tolerance, one panel for each scene."""
     shown = [row for row in rows if isfinite(row.error)]
     scenes = list(dict.fromkeys(row.scene for row in shown))
-    across = min(max(len(scenes), 1), _ACROSS)
-    down = max(-(-len(scenes) // across), 1)
     with matplotlib.rc_context(STYLE):
-        figure = Figure(figsize=(3.4 * across + 1.6, 3.4 * down), layout="constrained")
-        FigureCanvasAgg(figure)
-        panels = np.atleast_1d(figure.subplots(down, across, sharex=True, sharey=True)).ravel()
+        figure, panels = _panels(len(scenes), 3.4)
         for axes, scene in zip(panels, scenes, strict=False):
             mine = sorted((row for row in shown if row.scene == scene), key=lambda row: row.more["rtol"])
             rtol = [row.more["rtol"] for row in mine]
@@ -141,9 +143,7 @@ def budget(rows: Sequence[Row], parts: Sequence[str]) -> Figure:
             axes.set(xscale="log", yscale="log", xlabel="rtol")
             axes.set_title(scene, fontsize=10)
             axes.tick_params(labelbottom=True)
-        for axes in panels[len(scenes) :]:
-            axes.set_axis_off()
-        for axes in panels[::across]:
+        for axes in panels[::_ACROSS]:
             axes.set_ylabel("error over J_N")
         _legend(figure, panels)
         return figure

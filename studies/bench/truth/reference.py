@@ -106,17 +106,27 @@ def massless_brush(rtol: float = 1e-3) -> Scene:
 
 
 def run_hoop(scene: Scene, hoop: Any) -> Measured:
-    """Scene B through a hoop of any level, modes and points."""
+    """A scene to its ``t_end``, or through its first pulse, by a hoop of any level, modes and points.
+
+    Raises
+    ------
+    RuntimeError
+        The run did not come to its end.
+    """
     from flexible.handover import hand_over
     from flexible.segment import peak
+    from flexible.solve import LEAD
     from flexible.time.adaptive import march
     from flexible.time.events import Ends
     from rigid import simulate
 
-    state = hand_over(hoop, simulate(scene), 0.0)
-    end = scene.run.t_end
-    assert end is not None
-    _, records, _, trouble, _ = march(hoop, state, Ends(t=end), scene.solve.rtol)
+    motion, start = simulate(scene), 0.0
+    if scene.run.t_end is not None:
+        ends = Ends(t=scene.run.t_end)
+    else:
+        pulse = motion.pulses[0]
+        start, ends = pulse.t_start - LEAD * (pulse.t_end - pulse.t_start), Ends(high=pulse.phi_end)
+    _, records, _, trouble, _ = march(hoop, hand_over(hoop, motion, start), ends, scene.solve.rtol)
     if trouble:
         raise RuntimeError(trouble)
     last = records[-1]
