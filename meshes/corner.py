@@ -14,12 +14,12 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from skfem import MeshQuad2
 
-from .ring import RingMesh, quads
+from .ring import RingMesh, quads, with_middles
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-COLUMNS = 2  # of elements to either side of the corner
+COLUMNS, MOST_COLUMNS = 2, 8  # of elements to either side of the corner, as far as a wall is thick
 HALVED = 6  # times, the shorter side of the element at the corner
 CUT = 2  # elements between a line and the next half
 
@@ -57,14 +57,15 @@ def corner(ring: RingMesh) -> Corner:
     theta, weld = ring.rim_theta, ring.weld_half_angle
     at = int(np.argmin(np.abs(theta - weld)))
     welded = int((np.abs(theta[::2]) < weld - 1e-12).sum()) + 1  # elements on the weld
-    inside, outside = (max(1, min(COLUMNS, count // 2)) for count in (welded, ring.around - welded))
     layers = len(ring.grid) // 2
-
-    wide, high = ring.outer * 2 * pi / ring.around, (ring.outer - ring.inner) / layers
+    radii = ring.radius[ring.grid[::2, 0]]
+    wide, high = ring.outer * 2 * pi / ring.around, radii[1] - radii[0]
+    reach = min(max(COLUMNS, round((ring.outer - ring.inner) / wide)), MOST_COLUMNS)
+    inside, outside = (max(1, min(reach, count // 2)) for count in (welded, ring.around - welded))
     across = _halved(high / min(wide, high))
     beside = _halved(wide / min(wide, high))
-    angle = _with_mids(np.concatenate([-_on(beside, inside)[:0:-1], _on(beside, outside)]) + inside)
-    depth = _with_mids(_on(across, layers))
+    angle = with_middles(np.concatenate([-_on(beside, inside)[:0:-1], _on(beside, outside)]) + inside)
+    depth = with_middles(_on(across, layers))
 
     along, through = _quadratic(angle, inside + outside), _quadratic(depth, layers)
     shapes = sp.kron(through, along, format="csr")
@@ -102,13 +103,6 @@ def _halved(longer: float) -> Array:
 def _on(first: Array, count: int) -> Array:
     """The same with ``count - 1`` elements more, evenly cut."""
     return np.append(first, 1 + np.arange(1, CUT * (count - 1) + 1) / CUT)
-
-
-def _with_mids(lines: Array) -> Array:
-    """Lines and what is half way between them."""
-    both = np.empty(2 * len(lines) - 1)
-    both[::2], both[1::2] = lines, (lines[1:] + lines[:-1]) / 2
-    return both
 
 
 def _halves(lines: Array) -> Indices:

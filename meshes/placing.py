@@ -70,10 +70,10 @@ def hoop_stress(ring: RingMesh, stress: Array) -> Array:
 
 def bending_stress(ring: RingMesh, hoop: Array) -> Array:
     """What the hoop stress has beyond its mean through the wall (Simpson's rule over the layers of nodes)."""
-    layers = len(ring.grid)
-    weights = np.full(layers, 2.0)
-    weights[1::2] = 4.0
-    weights[[0, -1]] = 1.0
+    radii = ring.radius[ring.grid[:, 0]]
+    weights = np.zeros(len(radii))
+    for share, first in ((1.0, 0), (4.0, 1), (1.0, 2)):
+        weights[first : len(radii) - 2 + first : 2] += share * np.diff(radii[::2])
     through = hoop[ring.grid]
     bending = np.empty_like(hoop)
     bending[ring.grid] = through - weights @ through / weights.sum()

@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Density = Callable[[Array], Array]
 
+MOST_HALVED = 40  # times, a layer: the least is 1e-12 of it
+
 
 class MeshError(ValueError):
     """A ring that cannot be meshed as asked: one sentence that says why."""
@@ -58,8 +60,8 @@ class RingMesh:
         Coordinates (y1, y2).
     radius, theta : (n_nodes,) arrays
         Polar coordinates as constructed, theta in [-pi, pi].
-    grid : (2 through + 1, 2 around) array
-        Every node by layer from inside out and by angle; row 0 is the inner, row -1 the outer rim.
+    grid : (2 layers + 1, 2 around) array
+        Every node by layer of elements from inside out and by angle; row 0 is the inner, row -1 the outer rim.
     quad9 : (n_elements, 9) array
         Node indices in VTK's order of a biquadratic quad: corners, then mid-sides, then the centre.
     node_dofs : (n_nodes, 2) array
@@ -137,6 +139,7 @@ def ring_mesh(
     through: int = 1,
     weld_half_angle: float = 3 * pi / 180,
     grading: float | Density = 1.0,
+    halved: int = 0,
 ) -> RingMesh:
     """Mesh the annulus ``inner <= rho <= outer``, with element boundaries exactly at the ends of the weld.
 
@@ -151,6 +154,9 @@ def ring_mesh(
     grading : float or callable
         How many times denser the elements are at the weld than opposite to it (1 is uniform up to the fit of
         the weld), or the density of elements itself, a positive vectorised function of |theta| in [0, pi].
+    halved : int
+        How often the outermost layer of elements is halved, always the half at the outer rim: layers besides
+        ``through``.
 
     Returns
     -------
@@ -166,12 +172,14 @@ def ring_mesh(
         raise MeshError(f"a ring with radii {inner!r} and {outer!r} cannot be: 0 < inner < outer is needed.")
     if around < 8 or through < 1:
         raise MeshError(f"{around!r} x {through!r} elements make no ring: it takes 8 around and 1 through.")
+    if not 0 <= halved <= MOST_HALVED:
+        raise MeshError(f"halved = {halved!r} is not possible: it lies between 0 and {MOST_HALVED}.")
     if not 0 < weld_half_angle < pi:
         raise MeshError(f"weld_half_angle = {weld_half_angle!r} is not possible: it lies between 0 and pi.")
 
     vertex_theta = _vertex_angles(around, weld_half_angle, _density(grading, weld_half_angle))
     theta = _with_mids(vertex_theta)
-    radii = np.linspace(inner, outer, 2 * through + 1)
+    radii = with_middles(_layers(inner, outer, through, halved))
     sin = np.where(np.abs(theta) == pi, 0.0, np.sin(theta))
     unit = np.stack([np.cos(theta), sin])
 
@@ -180,7 +188,7 @@ def ring_mesh(
     closed = np.concatenate([node, node[:, :1]], axis=1)
     mesh, number = quads((radii[None, :, None] * unit[:, None, :]).reshape(2, -1), closed)
     grid = number.reshape(node.shape)
-    sides = mesh.t2f.reshape(4, through, around).astype(np.int64)
+    sides = mesh.t2f.reshape(4, through + halved, around).astype(np.int64)
     outer_facets, inner_facets = sides[1, -1], sides[3, 0]
     welded = np.abs(theta) <= weld_half_angle
     boundaries = {"outer": outer_facets, "inner": inner_facets, "weld": inner_facets[welded[1::2]]}
@@ -262,6 +270,19 @@ def _vertex_angles(around: int, weld: float, density: Density) -> Array:
     right = np.concatenate([welded, [weld], free])
     start = [] if around % 2 else [-pi]
     return np.concatenate([start, -right[::-1], [0.0], right])
+
+
+def _layers(inner: float, outer: float, through: int, halved: int) -> Array:
+    """Radii between layers of elements, from inside out."""
+    even = np.linspace(inner, outer, through + 1)
+    return np.concatenate([even[:-1], outer - (outer - even[-2]) * 0.5 ** np.arange(1, halved + 1), [outer]])
+
+
+def with_middles(lines: Array) -> Array:
+    """Lines and what is half way between them."""
+    both = np.empty(2 * len(lines) - 1)
+    both[::2], both[1::2] = lines, (lines[1:] + lines[:-1]) / 2
+    return both
 
 
 def _with_mids(vertex: Array) -> Array:

@@ -16,8 +16,8 @@ from rigid.kernel.compile import apart, jit, part
 from ..contact.forces import contact_forces
 from ..contact.forces import example as of_contact
 from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by, moved_damper
-from ..contact.guess import GUESSES, as_before, guess_again, held_again
-from ..contact.newton import breaks_loose, move, reached, round_off, share_before_bend
+from ..contact.guess import GUESSES, as_before, guess_again, held_again, on_its_way
+from ..contact.newton import before_bend, breaks_loose, goes, move, reached, round_off
 from ..contact.points.data import MOST_ITERATIONS, Before, Bristles, Parameters, Rim, pulling
 from ..contact.points.rim import vertex_angle, window_around
 from ..contact.stage import Predictor, Stage
@@ -137,7 +137,7 @@ def solve_stage(
     inner = FRAME + 3 * keeps.sum()
     update, update_u = np.zeros(d.shape[0]), np.zeros(2 * m)
     iterations, damping, last, forces = -1, 1.0, np.inf, d
-    way, reach, stuck, halved = 0.0, np.inf, 0.0, 0
+    stood, way, stuck, halved = 0.0, np.nan, 0.0, 0
     factors, stands, moved_before, stale = nothing_factored(), foreseen, False, True
     chained = factors.core
     softest, damper, iteration, guesses = largest(facing.missing), pulling(damper, True), -1, GUESSES
@@ -152,21 +152,19 @@ def solve_stage(
                 continue
         if iteration < 0:
             contact = held_again(pos[:FRAME], u, touching, contact, foreseen, asked)
+        contact = on_its_way(pos[:FRAME], u, touching, contact, way, asked)
         iteration, res = iteration + 1, contact.res
         moved = moved_by(damper, foreseen, res)
         moves, carries = moved.elastic != 0 or moved.held != 0, contact
         if moves:
             by = moved_damper(damper, moved)
             carries = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, by, asked)
-        share = share_before_bend(res, way, reach)
         if breaks_loose(carries.res, stuck, halved):
-            share, halved = 0.5, halved + 1
-        if share < 1:
-            move(d, u, damping * (1 - share), update, update_u)
-            damping *= share
-            foreseen = between(stands, foreseen, share)
+            damping, halved = damping / 2, halved + 1
+            move(d, u, damping, update, update_u)
+            foreseen, way = between(stands, foreseen, 0.5), (stood + way) / 2
             continue
-        way, reach, halved = res.way, res.reach, 0
+        halved = 0
         q, frame, force = balance(chain, pos, vel, acc)
         touch = touch_of(rod, q, facing, place, inner, u)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
@@ -187,9 +185,9 @@ def solve_stage(
         elif moved_before or (stands.normal == 0 and res.elastic > 0):
             last = np.inf  # of another damper; and what lands too deep comes up
         if worst > (GROWS if iteration < LATE else 1.0) * last and damping > 1e-9:  # beyond a bend, as a damper's onset
-            move(d, u, 0.5 * damping, update, update_u)
-            damping *= 0.5
-            foreseen = between(stands, foreseen, 0.5)
+            damping /= 2
+            move(d, u, damping, update, update_u)
+            foreseen, way = between(stands, foreseen, 0.5), (stood + way) / 2
             continue
         if stale or (iteration > 1 and worst > STALE * last):
             factors = factor(tangent(chain, pos, vel, acc, predictor.beta), keeps, 2 * m)
@@ -200,6 +198,7 @@ def solve_stage(
         if not np.isfinite(largest(update) + largest(update_u)):
             break
         damping = 0.5 if iteration > 0 and worst > last else 1.0
+        damping, stood, way = before_bend(res, damping, goes(contact.way_by, update, update_u))
         last, moved_before = worst, moves
         stands, stuck = Foreseen(carries.res.normal, carries.res.friction), carries.res.stuck
         foreseen = between(stands, foresee(damper, moved, carries, update, update_u), damping)

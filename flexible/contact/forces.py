@@ -47,7 +47,7 @@ from .points.rim import gap_at, lift, sideways, upward, vertex_angle
 from .room import PULL, SCRATCH, Room, carried_in, forces_in, foundation_in, keep, points_in, room_for
 from .vectors import add, dot, total
 
-SHARING, SPREADING = 3, 4  # of the unknowns: what of the forces goes like eta, and what spreads like the pressure
+SHARING, SPREADING, WAY = 3, 4, 5  # of the unknowns: what goes like eta, what spreads like the pressure, the way's
 
 
 @loop
@@ -153,7 +153,7 @@ def _differentiate(room: Room, shared: Any, load: Load, s: float, c: float, dphi
     points, foundation, forces, tangent = points_in(room), foundation_in(room, 0.0, 0.0), forces_in(room), room.tangent
     along, up, bases, unknowns, by_bases = room.fives[0], room.fives[1], room.bases, room.unknowns, room.by_bases
     pushes, force, elastic_by, sharing, spreading, slip_by = (
-        unknowns[0], unknowns[1], unknowns[2], unknowns[SHARING], unknowns[SPREADING], unknowns[5],
+        unknowns[0], unknowns[1], unknowns[2], unknowns[SHARING], unknowns[SPREADING], unknowns[WAY],
     )  # fmt: skip
     tangents(points, foundation, forces, along, up, by_bases, room.block)
     add_spread(tangent, by_bases[0], Y, Y, s, c, load.eta)
@@ -243,7 +243,7 @@ def example() -> tuple[tuple[Any, ...], Contact]:
     count, number, row, table = np.empty(0, np.int64), 0, np.empty(0), np.empty((0, 2))
     bristles = Bristles(count, row, row, np.empty(0, np.int8))
     law = Parameters(number, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    contact = Contact(row, table, table, NOTHING, bristles, False, row, row)
+    contact = Contact(row, table, table, NOTHING, bristles, False, row, row, row)
     return (row, table, Rim(number, row), law, number, Before(row, table, bristles), UNDAMPED, False), contact
 
 
@@ -282,4 +282,6 @@ def contact_forces(
     keep(room, bristles)
     share_out(room.unknowns[1], frame, nodal)
     unknowns = room.unknowns
-    return Contact(frame, nodal, room.tangent, res, bristles, outside, unknowns[SHARING], unknowns[SPREADING])
+    return Contact(
+        frame, nodal, room.tangent, res, bristles, outside, unknowns[SHARING], unknowns[SPREADING], unknowns[WAY]
+    )  # fmt: skip

@@ -21,9 +21,9 @@ import numpy as np
 
 from rigid.kernel.compile import loop, part
 
+from .newton import FRAME
 from .points.data import Contact, Damper, Resultants
 
-FRAME = 3  # V, h, phi, before the nodes
 NEAR = 0.1  # of 1 + N: nearer to what is foreseen than that the patch is taken as it is
 
 
@@ -79,7 +79,8 @@ def moved_back(contact: Contact, damper: Damper, moved: Moved) -> Contact:
             k = FRAME + 2 * i + a
             nodal[i, a] += eta * by_eta[k] - moved.held * by_held[k]
     return Contact(
-        force, nodal, contact.tangent, contact.res, contact.bristles, contact.outside, by_eta, by_held
+        force, nodal, contact.tangent, contact.res, contact.bristles, contact.outside, by_eta, by_held,
+        contact.way_by,
     )  # fmt: skip
 
 

@@ -20,6 +20,7 @@ from .points.rim import element_at, shape_functions, upward, vertex_angle
 
 MOST_CHANGE = 10.0  # of N_el from a stage to the next by which a patch is foreseen from the one before
 GUESSES = 4  # three that raise the patch, and one along the floor
+ASTRAY = 0.03  # of what smoothed friction reaches, its way from where Newton foresaw it
 SEARCHES = 8  # along the floor for where a brush sticks, each as far as its bristles reach to both sides
 
 
@@ -48,7 +49,7 @@ def _sticking(bristles: Bristles) -> int:
 
 
 @loop
-def _shift(u: Any, phi: float, along: float, up: float) -> None:
+def shift(u: Any, phi: float, along: float, up: float) -> None:
     """Move all nodes, in the world's axes."""
     s, c = sin(phi), cos(phi)
     for i in range(u.shape[0]):
@@ -92,7 +93,7 @@ def as_deep(height: float, phi: float, u: Any, rim: Rim, start: Any) -> bool:
     deepest, elastic, expected = start.deepest, start.elastic, start.expected
     if elastic <= 0 or deepest >= 0 or not elastic / MOST_CHANGE < expected < elastic * MOST_CHANGE:
         return False
-    _shift(u, phi, 0.0, deepest * (expected / elastic) ** (2 / 3) - least_gap(height, phi, u, rim))
+    shift(u, phi, 0.0, deepest * (expected / elastic) ** (2 / 3) - least_gap(height, phi, u, rim))
     return True
 
 
@@ -113,26 +114,47 @@ def guess_again(
     if guesses > 1:
         raised = _too_low(pose, u, rim, law, before, damper, contact.res)
         if raised != 0:
-            _shift(u, pose[2], 0.0, raised)
+            shift(u, pose[2], 0.0, raised)
             return guesses - 1
     slides = contact.res.elastic > 0 and _sticking(contact.bristles) == 0
     if slides and _sticking(before.bristles) > 0:
-        _shift(u, pose[2], damper.way_0 - contact.res.way, 0.0)
+        shift(u, pose[2], damper.way_0 - contact.res.way, 0.0)
         return 0
     return -1
 
 
 @loop
-def without_slip(pose: Any, u: Any, before: Before, damper: Damper, contact: Contact) -> bool:
-    """Move a rim of smoothed friction, in a stage that was lost once, to where its patch has no slip; whether it was.
+def slipping_on(before: Before, damper: Damper, res: Resultants) -> float:
+    """How far along the floor a rim of smoothed friction is from where its patch slips as in the stages before.
 
-    From the guess Newton mostly knows the way, and sooner to where a patch does slide. But where it creeps on a ring
-    without inertia the guess slides hundreds of v_s fast, and there friction no longer answers to the velocity.
+    Where it creeps on a ring without inertia the guess slides hundreds of v_s fast, and there friction no longer
+    answers to the velocity. 0 where that is not known.
     """
-    moves = contact.res.reach < np.inf and contact.res.elastic > 0 and before.bristles.number.shape[0] > 0
-    if moves:
-        _shift(u, pose[2], damper.way_0 - contact.res.way, 0.0)
-    return bool(moves)
+    if res.reach == np.inf or before.bristles.number.shape[0] == 0 or damper.ratio <= 1:
+        return 0.0
+    return damper.way_0 * damper.ratio / (damper.ratio - 1) - res.way
+
+
+@loop
+def off_its_way(res: Resultants, way: float) -> float:
+    """How far along the floor a rim of smoothed friction is from the ``way`` that Newton's step foresaw.
+
+    The mean way of a patch is a product of pressures and moves, and on a floor stiffer than the wall what a step makes
+    of it beyond the first order is many times as long as friction is straight. 0 where no way is known, nan, or it is
+    near.
+    """
+    return way - res.way if abs(res.way - way) > ASTRAY * res.reach else 0.0
+
+
+@part
+def on_its_way(pose: Any, u: Any, of: Any, contact: Contact, way: float, asked: bool) -> Contact:
+    """Move the rim along the floor by what it is :func:`off_its_way`; for the arguments see :func:`held_again`."""
+    by = off_its_way(contact.res, way)
+    if by == 0:
+        return contact
+    rim, law, mode, before, damper = of
+    shift(u, pose[2], by, 0.0)
+    return contact_forces(pose, u, rim, law, mode, before, damper, asked)
 
 
 @part
@@ -180,7 +202,7 @@ def held_again(pose: Any, u: Any, of: Any, contact: Contact, foreseen: Foreseen,
         there = damper.way_0 - res.way if search == 0 else at + step
         if not low < there < high:
             there = (low + high) / 2 if np.isfinite(low + high) else at + step
-        _shift(u, pose[2], there - at, 0.0)
+        shift(u, pose[2], there - at, 0.0)
         at = there
         carries = contact_forces(pose, u, rim, law, mode, before, carrying, asked)
     if pressed.elastic == 0:

@@ -7,8 +7,9 @@ from typing import Any
 from rigid.kernel.compile import loop, part
 
 from .points.data import Contact, Damper, Resultants
-from .vectors import add, largest, plus, times
+from .vectors import add, dot, largest, plus, times
 
+FRAME = 3  # V, h, phi, before the nodes
 HALVINGS = 6  # of a step of Newton that breaks a patch loose
 FEW = 0.1  # share of a patch that sticks whose breaking loose is no danger to Newton
 BENT = 0.03  # of the square of a misfit over 1 + N, what Newton leaves at most in four of five first steps
@@ -30,13 +31,20 @@ def move(d: Any, u: Any, factor: float, update: Any, update_u: Any) -> None:
 
 
 @loop
-def share_before_bend(res: Resultants, way: float, reach: float) -> float:
-    """Share of Newton's last step, from ``way``, that is taken: friction is about linear over ``reach``.
+def goes(way_by: Any, update: Any, update_u: Any) -> float:
+    """How far along the floor a patch goes back with an update, to the first order."""
+    return dot(way_by[:FRAME], update[:FRAME]) + dot(way_by[FRAME:], update_u)
 
-    Across the bend of a smoothed friction Newton would go to and fro for ever.
+
+@loop
+def before_bend(res: Resultants, damping: float, back: float) -> tuple[float, float, float]:
+    """How many times an update, by which the patch goes ``back``, is taken; its way before and after that.
+
+    Smoothed friction is straight over ``res.reach``: across its bend Newton would go to and fro for ever.
     """
-    step = abs(res.way - way)
-    return reach / step if res.elastic > 0 and step > 1.5 * reach else 1.0
+    if abs(damping * back) > 1.5 * res.reach:
+        damping = res.reach / abs(back)
+    return damping, res.way, res.way - damping * back
 
 
 @loop

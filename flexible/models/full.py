@@ -7,7 +7,7 @@ borders are exact in every iteration, so that the ring's may lag behind.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos, isfinite, sin
+from math import cos, isfinite, nan, sin
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from ..contact.forces import contact_forces
+from ..contact.guess import off_its_way, slipping_on
+from ..contact.newton import before_bend, goes
 from ..contact.points.data import MOST_ITERATIONS, Before, Damper, Rim, pulling
 from ..contact.stage import Near, Predictor, Stage
 from ..contact.vectors import largest
@@ -168,20 +170,21 @@ class FullHoop(RimContact):
         before = Before(old.pos[:3], self.displacement(old, window), old.bristles)
         d = guess.copy()
         last, lags = np.inf, True
-        update, damping, way, reach = np.zeros_like(d), 1.0, 0.0, np.inf
-        ok = False
+        way, ok = nan, False
         damper = pulling(damper, True)
         for iteration in range(MOST_ITERATIONS):
-            pos, vel, acc = pos_pred + d, vel_pred + d / beta, d / beta**2
+            pos = pos_pred + d
             u = pos[3:][dofs].reshape(-1, 2)
             contact = contact_forces(pos[:3], u, rim, law, mode, before, damper, True)
             res = contact.res
-            if res.elastic > 0 and abs(res.way - way) > 1.5 * reach:  # see flexible.models.stage
-                share = reach / abs(res.way - way)
-                d += damping * (1 - share) * update
-                damping *= share
-                continue
-            way, reach = res.way, res.reach
+            by = off_its_way(res, way) if iteration > 0 else slipping_on(before, damper, res)
+            if by != 0:  # as in flexible.models.stage
+                d[3 + dofs] += by * np.tile([sin(pos[2]), cos(pos[2])], len(u))
+                pos = pos_pred + d
+                u = pos[3:][dofs].reshape(-1, 2)
+                contact = contact_forces(pos[:3], u, rim, law, mode, before, damper, True)
+                res = contact.res
+            vel, acc = vel_pred + d / beta, d / beta**2
             own = inertia(self.ring, pos, vel, acc, beta)
             frame, ring = own.frame - contact.force, own.ring.copy()
             ring[dofs] -= contact.nodal.ravel()
@@ -209,6 +212,7 @@ class FullHoop(RimContact):
                 return Stage(False), False
             damping = 0.5 if iteration > 3 and worst > last else 1.0
             last = worst
+            damping, _, way = before_bend(res, damping, goes(contact.way_by, update, update[3 + dofs]))
             d -= damping * update
         outside = contact.outside
         if self.ring.massless:

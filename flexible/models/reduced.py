@@ -12,6 +12,7 @@ from rigid import Scene
 from rigid.kernel.compile import jit, loop, part
 
 from ..contact.forces import contact_forces
+from ..contact.laws.listing import may_end
 from ..contact.points.data import Before, Damper, Parameters
 from ..contact.points.data import Rim as NearFloor
 from ..contact.points.detection import least_gap
@@ -22,10 +23,12 @@ from ..ring.frame import Frame, energies, inertia
 from ..ring.reduction import ReducedRing, Rim, is_known, reduce, residual, window_dofs
 from .equilibrium import RestingModes
 from .rim_contact import RimContact
-from .stage import From, Window, filtered_error, solve_stage
+from .stage import FORESEEN, LET_GO, RAISED, From, Window, filtered_error, solve_stage
 from .state import Energies, State
 
 Array = NDArray[np.float64]
+
+SNAPS = 1e-8  # a stage's beta, sqrt(R/g), below which a patch may be let go of: longer steps are cut instead
 
 
 class Arrays(NamedTuple):
@@ -84,7 +87,7 @@ def _cut_out(shapes: Any, compliance: Any, all_shapes: Any, block: Any, dofs: An
 
 @loop
 def _bend(moved: Any, shapes: Any, pos: Any) -> None:
-    """Add the modes' displacement of the whole rim."""
+    """Add the modes' displacement of some nodes of the rim."""
     for i in range(moved.shape[0]):
         for k in range(shapes.shape[1]):
             moved[i] += shapes[i, k] * pos[3 + k]
@@ -113,14 +116,21 @@ def _solved(
         u_old = _moved(arrays, old, window)
         before = Before(old.pos[:3], u_old, old.bristles)
         u = near.u if near.window == window else u_old
-        facing, elastic = _near_floor(arrays, window), near.elastic
+        facing, begins = _near_floor(arrays, window), FORESEEN if near.elastic > 0 else RAISED
+        # a depth foreseen to a thousandth may make a short step's damper pull: under no pressure no bristle sticks. And
+        # a patch that friction drives on snaps off; of laws with modes that is the end of one
+        snaps = old.res.normal > 0 and predictor.beta < SNAPS and not may_end(arrays.law)
+        last = LET_GO if snaps else RAISED
         while True:
-            start = From(u, deepest, elastic, near.expected, near.known)
+            if begins == LET_GO:
+                bent = np.zeros(facing.shapes.shape[0])
+                _bend(bent, facing.shapes, expected)
+                u = bent.reshape(u_old.shape)
+            start = From(u, deepest, near.elastic, near.expected, near.known, begins)
             answer = solve_stage(arrays.frame, facing, arrays.law, mode, before, damper, predictor, start)
-            if answer.iterations != -1 or elastic == 0:
+            if answer.iterations != -1 or begins == last:
                 break
-            # a depth foreseen to a thousandth may make a short step's damper pull: under no pressure no bristle sticks
-            elastic = 0.0
+            begins += 1
         contact = answer.contact
         found = Stage(
             answer.iterations >= 0, answer.d, answer.acc, answer.forces, answer.matrix, window, answer.u, contact.nodal,

@@ -12,14 +12,17 @@ import numpy as np
 from rigid.kernel.compile import loop, part
 
 from ..contact.forces import contact_forces
-from ..contact.guess import GUESSES, as_deep, guess_again, without_slip
-from ..contact.newton import breaks_loose, left_by_kept, left_by_newton, move, reached, round_off, share_before_bend
+from ..contact.guess import GUESSES, as_deep, guess_again, on_its_way, shift, slipping_on
+from ..contact.newton import before_bend, breaks_loose, goes, left_by_kept, left_by_newton, move, reached, round_off
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
 from ..contact.stage import Predictor
 from ..contact.vectors import eliminate, largest, plus, solved_by
 from ..ring.frame import Frame, inertia
 
 MOST_POINTS = 5000  # to a patch, forty times as wide as under the weight or more: 1e5 weights are no solution
+
+#: ways to begin: with the patch as deep and as fast as foreseen; as deep as before, as fast as guessed; let go of
+FORESEEN, RAISED, LET_GO = 0, 1, 2
 
 
 class From(NamedTuple):
@@ -30,6 +33,7 @@ class From(NamedTuple):
     elastic: float  # N_el there
     expected: float  # N_el here
     tolerance: float  # on forces over 1 + N
+    begins: int  # FORESEEN, RAISED or LET_GO
 
 
 class Window(NamedTuple):
@@ -118,6 +122,14 @@ def _assemble(matrix: Any, own: Any, contact: Any, window: Window, scale: float)
         edge[i] += scale
 
 
+@loop
+def _guesses(begins: int, foreseen: bool) -> int:
+    """How many guesses Newton begins with."""
+    if begins == LET_GO:
+        return 0
+    return 1 if foreseen else GUESSES
+
+
 @part
 def solve_stage(
     frame: Frame, window: Window, law: Parameters, mode: int, before: Before, damper: Damper, predictor: Predictor,
@@ -129,18 +141,15 @@ def solve_stage(
     size = m + 2 * nodes
     d, u = predictor.guess.copy(), start.u.copy()
     height, phi = predictor.pos[1] + d[1], predictor.pos[2] + d[2]
-    foreseen = as_deep(height, phi, u, window.rim, start)
+    foreseen = start.begins == FORESEEN and as_deep(height, phi, u, window.rim, start)
     matrix, order = np.empty((size, size)), np.empty(size, np.int64)
-    residual = np.empty(size)
-    update = np.zeros(size)
-    iterations, forces = -1, d
-    damping, last = 1.0, np.inf
-    way, reach = 0.0, np.inf
-    stuck, halved = 0.0, 0
-    softest = largest(window.compliance)
-    damper = pulling(damper, True)
-    iteration, guesses = -1, 1 if foreseen else GUESSES
-    asked = guesses > 0  # for a tangent; nowhere a plain True, for which contact_forces would be compiled once more
+    residual, update = np.empty(size), np.zeros(size)
+    iterations, forces, damping, last = -1, d, 1.0, np.inf
+    way_by, stood, way = predictor.guess, 0.0, np.nan
+    stuck, halved, softest = 0.0, 0, largest(window.compliance)
+    damper = pulling(damper, start.begins != LET_GO)
+    iteration, guesses = -1, _guesses(start.begins, foreseen)
+    asked = tolerance > 0  # for a tangent; nowhere a plain True, for which contact_forces would be compiled once more
     while iteration < MOST_ITERATIONS:
         pos, vel, acc = reached(predictor, d)
         contact = contact_forces(pos[:3], u, window.rim, law, mode, before, damper, asked)
@@ -149,19 +158,19 @@ def solve_stage(
             guesses = guess_again(pos[:3], u, window.rim, law, before, damper, contact, guesses)
             if guesses >= 0:
                 continue
-            # a stage that was lost from the foreseen depth
-            if start.elastic == 0 and without_slip(pos[:3], u, before, damper, contact):
+            if start.begins == FORESEEN and slipping_on(before, damper, res) != 0:
+                shift(u, pos[2], slipping_on(before, damper, res), 0.0)
                 guesses = 0
                 continue
-        iteration += 1
-        share = share_before_bend(res, way, reach)
+        contact = on_its_way(pos[:3], u, (window.rim, law, mode, before, damper), contact, way, asked)
+        res, iteration = contact.res, iteration + 1
         if breaks_loose(res, stuck, halved):
-            share, halved = 0.5, halved + 1
-        if share < 1:
-            move(d, u, damping * (1 - share), update[:m], update[m:])
-            damping *= share
+            damping, halved, way = damping / 2, halved + 1, (stood + way) / 2
+            move(d, u, damping, update[:m], update[m:])
             continue
-        way, reach, stuck = res.way, res.reach, res.stuck
+        if start.begins == LET_GO and res.normal > 0:
+            break
+        stuck = res.stuck
         own, own_tangent = inertia(frame, pos, vel, acc, predictor.beta)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
         _misfit(residual, own, contact, window, pos, u, scale)
@@ -189,9 +198,9 @@ def solve_stage(
         update = solved_by((matrix, order), residual)
         if not np.isfinite(largest(update)):
             break
-        damping = 1.0
-        if iteration > 3 and worst > last:
-            damping = 0.5
+        damping = 0.5 if iteration > 3 and worst > last else 1.0
+        way_by = contact.way_by if asked else way_by
+        damping, stood, way = before_bend(res, damping, goes(way_by, update, update[m:]))
         # a tangent is a good part of what forces cost, and its matrix dear: kept where it will do for what is left
         left = left_by_newton(worst, last) if asked else left_by_kept(worst, last)
         asked = left_by_kept(left, worst) > tolerance

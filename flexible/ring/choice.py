@@ -3,44 +3,64 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from math import ceil, inf, sqrt
+from math import ceil, inf, log2, pi, sqrt
 
 from meshes import ring_mesh
 from rigid import Scene
 
-from .fem import Ring
+from .fem import THIN, Ring
 from .possible import ensure_thick
 
 AROUND = 240  # elements where no tolerance asks for more
 MESH_ERROR, MESH_ORDER = 3e-5, 3.4  # with so many, of the impulses over J_N; order with which it falls
 MESH_WALL, MESH_THIN = 0.02, 1.75  # wall over R at which it is that, power with which it grows as the wall gets thinner
 MESH_SOFT = 400.0  # bending stiffness from which on it is less, like its root
-MOST_AROUND, MOST_THROUGH = 1200, 6  # the compliance of so long a rim is 180 MB
+DENT_ERROR, MOST_DENT = 100.0, 1e-4  # the same where the floor dents the wall, times E b in m g/R, and at most
+THICK = 1 / 6  # wall from which on a pulse knows more of what the elements through it leave
+MOST_AROUND, MOST_THROUGH = 1200, 10  # the compliance of so long a rim is 180 MB
 FAR_ERROR, FAR_SOFT, FAR_SOFTER = 1e-4, 10.0, 1.6  # a ring that bends far: its error at so small an E I, and its power
 MOST_FAR = 480  # around such a ring: its sections pay in every step
 
 
 @lru_cache(maxsize=8)
-def _shared_ring(wall: float, elements: int, through: int, weld_half_angle: float, poisson: float) -> Ring:
-    return Ring(ring_mesh(1 - wall, 1.0, elements, through, weld_half_angle), poisson)
+def _shared_ring(wall: float, elements: int, through: int, halved: int, weld: float, poisson: float) -> Ring:
+    return Ring(ring_mesh(1 - wall, 1.0, elements, through, weld, halved=halved), poisson)
 
 
 def elements_through(wall: float, rtol: float = inf) -> int:
     """Elements through a wall, its thickness over R, by which the ring is good to 0.1 %; to less below rtol = 1e-4.
 
     With t of them the frequencies n = 2...4 of a free ring, and its compliances to outer tractions cos n theta, are off
-    by at most 1.2 wall^2/t^4; that is ten times rtol, of which a pulse of a thin ring knows a fortieth (README.md,
-    section 2). No more than ``MOST_THROUGH``: of a solid disk 0.1 % takes as many.
+    by at most 1.2 wall^2/t^4; that is ten times rtol, of which a pulse of a thin ring knows a fortieth, and of one
+    beyond ``THICK`` more and more, like the cube of the wall (README.md, section 2).
     """
-    return max(1, min(MOST_THROUGH, ceil((1.2 * wall**2 / min(1e-3, 10 * rtol)) ** 0.25)))
+    known = 10 * min(1.0, (THICK / wall) ** 3)
+    return max(1, min(MOST_THROUGH, ceil((1.2 * wall**2 / min(1e-3, known * rtol)) ** 0.25)))
+
+
+def _is_dented(wall: float, around: int) -> bool:
+    """Whether a wall is so thick that the floor dents rather than bends it between nodes of the rim."""
+    return wall > THIN * pi / around
+
+
+def halved_at_rim(wall: float, around: int, through: int) -> int:
+    """How often the outermost elements of a thick wall are halved toward the rim: to half of their length along it.
+
+    A dent is as deep as it is wide, and a stiff floor's is as wide as the rim's elements can tell.
+    """
+    length = 2 * pi / around
+    return max(0, round(log2(2 * wall / (through * length)))) if _is_dented(wall, around) else 0
 
 
 def elements_around(rtol: float, bending_stiffness: float, wall: float) -> int:
     """Elements around a ring whose mesh leaves no more than a third of ``rtol`` in the impulses of a pulse.
 
-    Found where it leaves most, at an undamped brush under a ring of E I = 65 with mass (README.md, section 2).
+    Found where it leaves most, at an undamped brush under a ring of E I = 65 with mass; of thick soft walls by how deep
+    the floor dents them where that is narrower than an element (README.md, section 2).
     """
-    error = MESH_ERROR * (MESH_WALL / wall) ** MESH_THIN * min(1.0, sqrt(MESH_SOFT / bending_stiffness))
+    bent = MESH_ERROR * (MESH_WALL / wall) ** MESH_THIN * min(1.0, sqrt(MESH_SOFT / bending_stiffness))
+    dent = min(DENT_ERROR * wall**3 / (12 * bending_stiffness), MOST_DENT) if _is_dented(wall, AROUND) else 0.0
+    error = max(bent, dent)
     return min(max(AROUND, ceil(AROUND * (3 * error / rtol) ** (1 / MESH_ORDER))), MOST_AROUND)
 
 
@@ -67,4 +87,5 @@ def ring_of(scene: Scene, through: int = 1, linear: bool = True) -> Ring:
     around = scene.solve.elements or (
         elements_around(rtol, bending_stiffness, scene.wall) if linear else elements_bent_far(rtol, bending_stiffness)
     )
-    return _shared_ring(scene.wall, around, through, scene.ring.weld_half_angle, scene.ring.poisson)
+    halved = halved_at_rim(scene.wall, around, through) if linear else 0
+    return _shared_ring(scene.wall, around, through, halved, scene.ring.weld_half_angle, scene.ring.poisson)

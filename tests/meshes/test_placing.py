@@ -57,9 +57,10 @@ def test_von_mises_of_known_states():
     np.testing.assert_allclose(von_mises(states), [2.0, 2 * 3**0.5, 2.0], rtol=1e-15)
 
 
-def test_bending_of_a_linear_stress_through_the_wall():
+@pytest.mark.parametrize("halved", [0, 3])
+def test_bending_of_a_linear_stress_through_the_wall(halved):
     """sigma_theta = 3 + 5 (rho - mid) has the mean 3 and the bending 5 (rho - mid), to round-off."""
-    ring = ring_mesh(0.9, 1.0, 24, 2)
+    ring = ring_mesh(0.9, 1.0, 24, 2, halved=halved)
     expected = 5 * (ring.radius - 0.95)
     sin, cos = np.sin(ring.theta), np.cos(ring.theta)
     hoop = 3 + expected

@@ -58,6 +58,24 @@ def test_node_dofs_are_those_of_the_vector_basis():
     np.testing.assert_array_equal(own, ring.node_dofs)
 
 
+@pytest.mark.parametrize("halved", [0, 1, 4])
+def test_layers_halved_toward_the_rim(halved):
+    """The outermost of two even ones, whose last parts are alike; what is meshed is the same annulus."""
+    ring = ring_mesh(0.8, 1.0, 48, 2, WELD, halved=halved)
+    thickness = np.diff(ring.radius[ring.grid[::2, 0]])
+    expected = [0.1, *(0.1 * 0.5 ** np.arange(1, halved + 1)), 0.1 * 0.5**halved]
+    np.testing.assert_allclose(thickness, expected, rtol=1e-13)
+    layers = 2 + halved
+    assert ring.quad9.shape == (48 * layers, 9)
+    corners = ring.radius[ring.grid[::2, 0]]
+    np.testing.assert_allclose(ring.radius[ring.grid[1::2, 0]], (corners[1:] + corners[:-1]) / 2, rtol=1e-15)
+    even = ring_mesh(0.8, 1.0, 48, 2, WELD)
+    assert ring.quality().area_error == pytest.approx(even.quality().area_error, rel=1e-6)
+    for facets, radius in ((ring.outer_facets, 1.0), (ring.inner_facets, 0.8)):
+        ends = ring.mesh.p[:, ring.mesh.facets[:, facets]]
+        np.testing.assert_allclose(np.hypot(*ends), radius, rtol=1e-15)
+
+
 def test_quad9_is_vtk_order():
     ring = ring_mesh(INNER, OUTER, 60)
     r, a = ring.radius[ring.quad9], ring.theta[ring.quad9][:-1]  # the last element crosses theta = pi
@@ -124,6 +142,8 @@ def test_a_users_own_density():
         {"inner": 0.9, "outer": 1.0, "through": 0},
         {"inner": 0.9, "outer": 1.0, "weld_half_angle": 0.0},
         {"inner": 0.9, "outer": 1.0, "grading": -1.0},
+        {"inner": 0.9, "outer": 1.0, "halved": -1},
+        {"inner": 0.9, "outer": 1.0, "halved": 41},
         {"inner": 0.9, "outer": 1.0, "grading": lambda a: a - 1},
     ],
 )

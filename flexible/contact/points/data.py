@@ -176,6 +176,7 @@ class Contact(NamedTuple):
     outside: bool  # whether the window of rim is too short for the patch
     by_eta: Any  # (n,) derivative of (force, nodal) by the damping factor, and
     by_held: Any  # (n,) by the damper's ``held``; both where there is a tangent and the damper acts
+    way_by: Any  # (n,) derivative of the patch's way by (pose, u), where a tangent and a force shared by it are
 
 
 NOTHING = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, inf, 0.0)

@@ -82,7 +82,10 @@ MODES = [("patch", STICK), ("patch", SLIDE_RIGHT), ("patch", SLIDE_LEFT), ("brus
 @pytest.mark.parametrize(("name", "mode"), MODES)
 @pytest.mark.parametrize("damping", [{}, {"relaxation": 2.0, "elastic_0": 0.95, "drag": 1e5, "way_0": 1e-6}])
 def test_tangent_of_the_contact(name, mode, damping):
-    """Against central differences of the forces, 1e-6 of the largest entry; and normal forces from their energy."""
+    """Against central differences of the forces, 1e-6 of the largest entry; and normal forces from their energy.
+
+    So is the derivative of the way that smoothed friction goes by.
+    """
     rng = np.random.default_rng(0)
     # slip velocities of this step are of the size of the scale that smooths the friction
     law = parameters(name, 2e-4, EPS, 0.8 * EPS, 0.35, 0.3, slip_scale=2e-3)
@@ -107,6 +110,9 @@ def test_tangent_of_the_contact(name, mode, damping):
     columns = [(forces(x + step * e) - forces(x - step * e)) / (2 * step) for e in np.eye(len(x))]
     tangent = contact(x).tangent
     assert np.abs(np.array(columns).T - tangent).max() < 1e-6 * np.abs(tangent).max()
+    if name == "regularised":
+        ways = [contact(x + step * e).res.way - contact(x - step * e).res.way for e in np.eye(len(x))]
+        assert contact(x).way_by == pytest.approx(np.array(ways) / (2 * step), abs=1e-6)  # V's is 1
     if not damping:
         up = np.eye(len(x))[1] * step
         work = (contact(x + up).res.normal_energy - contact(x - up).res.normal_energy) / (2 * step)

@@ -11,7 +11,7 @@ from flexible.contact.foreseen import Foreseen
 from flexible.contact.guess import as_deep, held_again
 from flexible.contact.points.data import UNDAMPED, Before, Rim, no_bristles, pulling
 from flexible.contact.points.rim import element_at
-from flexible.models.stage import From
+from flexible.models.stage import FORESEEN, From
 
 EPS, PHI = 1e6, 2.9
 
@@ -30,7 +30,7 @@ def test_a_patch_is_as_deep_as_its_force_wants(times):
     u = np.zeros((11, 2))
     known = 4 / 3 * EPS * depth * sqrt(2 * depth)
     assert elastic_force(-depth, u, rim) == pytest.approx(known, rel=1e-3)
-    assert as_deep(3e-6, PHI, u, rim, From(u, -depth, known, times * known, 1e-9))
+    assert as_deep(3e-6, PHI, u, rim, From(u, -depth, known, times * known, 1e-9, FORESEEN))
     assert elastic_force(3e-6, u, rim) == pytest.approx(times * known, rel=1e-3)
 
 
@@ -39,7 +39,7 @@ def test_a_patch_that_is_another_one_is_no_guide(deepest, elastic, expected):
     """Off the floor before, off it now, or ten times as strong: the rim stays where it is."""
     u = np.zeros((11, 2))
     rim = Rim(element_at(VERTEX, np.pi - PHI) - 2, VERTEX)
-    assert not as_deep(0.0, PHI, u, rim, From(u, deepest, elastic, expected, 1e-9))
+    assert not as_deep(0.0, PHI, u, rim, From(u, deepest, elastic, expected, 1e-9, FORESEEN))
     assert not u.any()
 
 

@@ -6,6 +6,7 @@ import pytest
 import flexible
 from flexible.ring.choice import (
     AROUND,
+    DENT_ERROR,
     FAR_ERROR,
     FAR_SOFT,
     FAR_SOFTER,
@@ -14,10 +15,13 @@ from flexible.ring.choice import (
     MESH_SOFT,
     MESH_THIN,
     MESH_WALL,
+    MOST_DENT,
     MOST_FAR,
+    MOST_THROUGH,
     elements_around,
     elements_bent_far,
     elements_through,
+    halved_at_rim,
     ring_of,
 )
 from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
@@ -60,6 +64,17 @@ def test_long_quads_leave_more(r):
     assert 0.5 * stated < error(impulses(240, 1, r=r), impulses(720, 1, r=r)) < 1.2 * stated
 
 
+@pytest.mark.slow
+def test_a_thick_soft_wall_leaves_what_it_is_dented_by():
+    """Against twice as many both ways: what is stated, or down to half of it, and with as many more around a tenth."""
+    wall = 1 - 1 / 1.1
+    stated = min(DENT_ERROR * wall**3 / (12 * 65), MOST_DENT)
+    coarse, around, fine = (impulses(n, t, r=1.1) for n, t in ((240, 2), (480, 2), (480, 4)))
+    assert 0.5 * stated < error(coarse, fine) < stated
+    assert error(around, fine) < stated / 10
+    assert elements_around(1e-4, 65.0, wall) == pytest.approx(AROUND * (3 * stated / 1e-4) ** (1 / MESH_ORDER), abs=1)
+
+
 def test_the_mesh_of_a_stiff_ring_leaves_less():
     """A hundred times as stiff a ring, no more than the root of its stiffness says."""
     assert error(impulses(240, 2, 6500.0), impulses(480, 2, 6500.0)) < MESH_ERROR * (MESH_SOFT / 6500) ** 0.5
@@ -79,8 +94,26 @@ def test_elements_follow_the_tolerance():
     stated = MESH_ERROR * (MESH_WALL / wall) ** MESH_THIN
     assert more / AROUND == pytest.approx((3 * stated / np.array([1e-5, 1e-6])) ** (1 / MESH_ORDER), rel=1e-2)
     assert ring_of(_scene(1e-5)).mesh.around == more[0]
-    assert [elements_through(0.2, rtol) for rtol in (1e-2, 1e-4, 1e-5, 1e-9)] == [3, 3, 5, 6]
-    assert len(ring_of(_scene(1e-5)).mesh.grid) == 2 * elements_through(wall, 1e-5) + 1 == 5
+    assert [elements_through(1 / 6, rtol) for rtol in (1e-2, 1e-4, 1e-5, 1e-9)] == [3, 3, 5, MOST_THROUGH]
+    assert elements_through(1 / 3, 1e-4) / elements_through(1 / 6, 1e-4) == pytest.approx(
+        32**0.25, rel=0.2
+    )  # whole numbers
+    layers = elements_through(wall, 1e-5) + halved_at_rim(wall, more[0], 2)
+    assert len(ring_of(_scene(1e-5)).mesh.grid) == 2 * layers + 1
+
+
+@pytest.mark.parametrize("r", [1.02, 1.05, 1.2, 1.5])
+def test_the_outermost_quads_of_a_thick_wall_are_half_as_thick_as_they_are_long(r):
+    """To within the root of two that halves leave; a thin one, which bends under the shortest waves, stays even."""
+    ring = ring_of(_scene(1e-3).replace(hoop={"r": r})).mesh
+    thickness = np.diff(ring.radius[ring.grid[::2, 0]])
+    assert thickness.max() / thickness.min() == pytest.approx(2 ** (len(thickness) - elements_through(1 - 1 / r)))
+    if r == 1.02:
+        assert np.ptp(thickness) < 1e-14
+    else:
+        assert 2**-0.5 < 2 * thickness[-1] / (2 * np.pi / AROUND) < 2**0.5
+    far = ring_of(_scene(1e-3).replace(hoop={"r": r}), linear=False).mesh
+    assert np.ptp(np.diff(far.radius[far.grid[::2, 0]])) < 1e-14
 
 
 def _scene(rtol):
