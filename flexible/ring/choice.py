@@ -87,5 +87,5 @@ def ring_of(scene: Scene, through: int = 1, linear: bool = True) -> Ring:
     around = scene.solve.elements or (
         elements_around(rtol, bending_stiffness, scene.wall) if linear else elements_bent_far(rtol, bending_stiffness)
     )
-    halved = halved_at_rim(scene.wall, around, through) if linear else 0
+    halved = halved_at_rim(scene.wall, around, through)
     return _shared_ring(scene.wall, around, through, halved, scene.ring.weld_half_angle, scene.ring.poisson)

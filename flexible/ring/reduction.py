@@ -140,12 +140,13 @@ def body_of(scene: Scene) -> Body:
 
 LEAST, MODES = 6, 24  # modes at any rtol, and at the rtol
 FINE = 1e-5
+WALL, WIDER = 0.02, 1 / 6  # wall over R from which on there are more, and like which power of it
 ORDER = 4  # with which what the left-out modes would do falls with their number, as their compliances do
 
 
-def modes_for(rtol: float) -> int:
-    """Modes by which the ring is as accurate as a tolerance asks for."""
-    return max(LEAST, ceil(MODES * (FINE / rtol) ** (1 / ORDER)))
+def modes_for(rtol: float, wall: float) -> int:
+    """Modes by which the ring is as accurate as a tolerance asks for; its wall over R."""
+    return max(LEAST, ceil(MODES * max(1.0, wall / WALL) ** WIDER * (FINE / rtol) ** (1 / ORDER)))
 
 
 def reduce(scene: Scene, modes: int | None = None, ring: Ring | None = None) -> ReducedRing:
@@ -156,7 +157,7 @@ def reduce(scene: Scene, modes: int | None = None, ring: Ring | None = None) -> 
     ring = ring_of(scene) if ring is None else ring
     stiffness = membrane_stiffness(scene)
     mass = scene.hoop.mass_ratio
-    count = 0 if mass == 0 else modes_for(scene.solve.rtol) if modes is None else modes
+    count = 0 if mass == 0 else modes_for(scene.solve.rtol, scene.wall) if modes is None else modes
     if count:
         squares, shapes = ring.modes(count)
         full = np.zeros((ring.basis.N, count))

@@ -37,14 +37,15 @@ def test_where_points_lie_does_not_matter(law):
     assert np.ptp(found, axis=0).max() < 0.2 * 1e-3 * found[0][0]
 
 
-@pytest.mark.parametrize("rtol", [1e-2, 1e-3, 1e-4])
-def test_modes_that_are_left_out_do_not_matter(rtol):
+@pytest.mark.parametrize(("rtol", "r"), [(1e-2, 1.02), (1e-3, 1.02), (1e-4, 1.02), (1e-3, 1.2), (1e-4, 1.2)])
+def test_modes_that_are_left_out_do_not_matter(rtol, r):
     """Against three times as many: below rtol, for a ring that rings as hard as a linear one does: E I = 60, a blow."""
     scene = HOOP.replace(
-        release={"phi0": 2.9, "omega0": 4.0}, ring={"bending_stiffness": 60.0}, contact={"stiffness": 1e7},
-        solve={"rtol": rtol},
+        hoop={"r": r}, release={"phi0": 2.9, "omega0": 4.0}, ring={"bending_stiffness": 60.0},
+        contact={"stiffness": 1e7}, solve={"rtol": rtol},
     )  # fmt: skip
-    few, many = (_to_the_end(scene, modes) for modes in (modes_for(rtol), 3 * modes_for(rtol)))
+    count = modes_for(rtol, scene.wall)
+    few, many = (_to_the_end(scene, modes) for modes in (count, 3 * count))
     assert np.abs(few - many).max() < rtol * many[0]
 
 

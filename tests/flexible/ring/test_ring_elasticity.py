@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from free_ring import frequencies, nodal, outer_traction, ring, solve
 
-from flexible.ring.choice import elements_through, ring_of
+from flexible.ring.choice import elements_through, halved_at_rim, ring_of
 from meshes import nodal_gradient
 from rigid import load_scene
 
@@ -77,8 +77,9 @@ def test_a_wall_has_as_many_elements_as_it_needs(ratio):
 
 def test_a_scene_may_say_how_many_elements_go_through():
     thick = load_scene("paper-3.3-light").replace(hoop={"r": 1.2}, solve={"elements": 48})
-    assert len(ring_of(thick, linear=False).mesh.grid) == 2 * elements_through(1 - 1 / 1.2) + 1 == 7
-    assert len(ring_of(thick.replace(solve={"through": 2})).mesh.grid) == 5
+    for through, said in ((elements_through(1 - 1 / 1.2), {}), (2, {"through": 2})):
+        layers = through + halved_at_rim(1 - 1 / 1.2, 48, through)
+        assert len(ring_of(thick.replace(solve=said)).mesh.grid) == 2 * layers + 1
 
 
 def closing(wall):
