@@ -8,13 +8,14 @@ from math import ceil, inf, log2, pi, sqrt
 from meshes import ring_mesh
 from rigid import Scene
 
-from .fem import THIN, Ring
+from .fem import Ring
 from .possible import ensure_thick
 
 AROUND = 240  # elements where no tolerance asks for more
 MESH_ERROR, MESH_ORDER = 3e-5, 3.4  # with so many, of the impulses over J_N; order with which it falls
 MESH_WALL, MESH_THIN = 0.02, 1.75  # wall over R at which it is that, power with which it grows as the wall gets thinner
 MESH_SOFT = 400.0  # bending stiffness from which on it is less, like its root
+DENTED = 0.033  # wall over R from which on a stiff floor dents it rather than bends it
 DENT_ERROR, MOST_DENT = 100.0, 1e-4  # the same where the floor dents the wall, times E b in m g/R, and at most
 THICK = 1 / 6  # wall from which on a pulse knows more of what the elements through it leave
 MOST_AROUND, MOST_THROUGH = 1200, 10  # the compliance of so long a rim is 180 MB
@@ -38,18 +39,13 @@ def elements_through(wall: float, rtol: float = inf) -> int:
     return max(1, min(MOST_THROUGH, ceil((1.2 * wall**2 / min(1e-3, known * rtol)) ** 0.25)))
 
 
-def _is_dented(wall: float, around: int) -> bool:
-    """Whether a wall is so thick that the floor dents rather than bends it between nodes of the rim."""
-    return wall > THIN * pi / around
-
-
 def halved_at_rim(wall: float, around: int, through: int) -> int:
     """How often the outermost elements of a thick wall are halved toward the rim: to half of their length along it.
 
     A dent is as deep as it is wide, and a stiff floor's is as wide as the rim's elements can tell.
     """
     length = 2 * pi / around
-    return max(0, round(log2(2 * wall / (through * length)))) if _is_dented(wall, around) else 0
+    return max(0, round(log2(2 * wall / (through * length)))) if wall > DENTED else 0
 
 
 def elements_around(rtol: float, bending_stiffness: float, wall: float) -> int:
@@ -59,7 +55,7 @@ def elements_around(rtol: float, bending_stiffness: float, wall: float) -> int:
     the floor dents them where that is narrower than an element (README.md, section 2).
     """
     bent = MESH_ERROR * (MESH_WALL / wall) ** MESH_THIN * min(1.0, sqrt(MESH_SOFT / bending_stiffness))
-    dent = min(DENT_ERROR * wall**3 / (12 * bending_stiffness), MOST_DENT) if _is_dented(wall, AROUND) else 0.0
+    dent = min(DENT_ERROR * wall**3 / (12 * bending_stiffness), MOST_DENT) if wall > DENTED else 0.0
     error = max(bent, dent)
     return min(max(AROUND, ceil(AROUND * (3 * error / rtol) ** (1 / MESH_ORDER))), MOST_AROUND)
 

@@ -21,7 +21,6 @@ from flexible.ring.choice import (
     elements_around,
     elements_bent_far,
     elements_through,
-    halved_at_rim,
     ring_of,
 )
 from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
@@ -98,13 +97,12 @@ def test_elements_follow_the_tolerance():
     assert elements_through(1 / 3, 1e-4) / elements_through(1 / 6, 1e-4) == pytest.approx(
         32**0.25, rel=0.2
     )  # whole numbers
-    layers = elements_through(wall, 1e-5) + halved_at_rim(wall, more[0], 2)
-    assert len(ring_of(_scene(1e-5)).mesh.grid) == 2 * layers + 1
+    assert len(ring_of(_scene(1e-5)).mesh.grid) == 2 * elements_through(wall, 1e-5) + 1 == 5
 
 
 @pytest.mark.parametrize("r", [1.02, 1.05, 1.2, 1.5])
 def test_the_outermost_quads_of_a_thick_wall_are_half_as_thick_as_they_are_long(r):
-    """To within the root of two that halves leave; a thin one, which bends under the shortest waves, stays even."""
+    """To within the root of two that halves leave; a thin one, which bends under the waves of the nodes, stays even."""
     ring = ring_of(_scene(1e-3).replace(hoop={"r": r})).mesh
     thickness = np.diff(ring.radius[ring.grid[::2, 0]])
     assert thickness.max() / thickness.min() == pytest.approx(2 ** (len(thickness) - elements_through(1 - 1 / r)))
