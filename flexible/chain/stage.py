@@ -141,7 +141,6 @@ def solve_stage(
     factors, stands, moved_before, stale = nothing_factored(), foreseen, False, True
     chained = factors.core
     softest, damper, iteration, guesses = largest(facing.missing), pulling(damper, True), -1, GUESSES
-    touching = (facing.rim, law, mode, before, damper)
     asked = guesses > 0  # for a tangent; nowhere a plain True, for which contact_forces would be compiled once more
     while iteration < MOST_ITERATIONS:
         pos, vel, acc = reached(predictor, d)
@@ -150,6 +149,7 @@ def solve_stage(
             guesses = guess_again(pos[:FRAME], u, facing.rim, law, before, damper, contact, guesses)
             if guesses >= 0:
                 continue
+        touching = (facing.rim, law, mode, before, damper)
         if iteration < 0:
             contact = held_again(pos[:FRAME], u, touching, contact, foreseen, asked)
         contact = on_its_way(pos[:FRAME], u, touching, contact, way, asked)

@@ -27,7 +27,7 @@ MOST_AROUND, MOST_THROUGH = 1440, 16  # however: the compliance of a longer rim 
 SHIFTS = (1.0037, 1.0071, 2.0)  # of the number of points: parts of a thousand put them anywhere in the patch
 SHORT = 1 / 30  # of the tolerance: steps that do not matter
 SHORTEST = 3e-7
-MOST = 1.5  # times its tolerance a knob may leave
+MOST = 1.0  # times its tolerance a knob may leave
 THICK, FINEST = (
     0.06,
     1e-4,

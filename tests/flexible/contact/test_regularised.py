@@ -110,3 +110,19 @@ def test_a_patch_that_the_damper_lets_go_of_has_no_friction():
     assert flies.any()
     assert np.abs(motion.history.friction_force[flies]).max() == 0
     assert np.abs(motion.history.alpha[flies]).max() < 1e-4  # the ring has no mass: nothing turns the disk
+
+
+@pytest.mark.parametrize("damping", [0.13, 1.0])
+def test_a_creep_that_ends_at_a_fold_snaps_off(damping):
+    """As the hoop leaves the floor a spot that friction drives on creeps until F is mu N, and no state is near the next.
+
+    Its N is gone in an instant: not what a hundredth of the fall before it would take in that time.
+    """
+    scene = THICK.replace(contact={"damping": damping}, solve={"rtol": 8e-4})
+    history = flexible.simulate(scene, history=True, most_steps=500).history
+    normal, friction = history.normal_force, np.abs(history.friction_force)
+    last = np.flatnonzero((normal[:-1] > 1e-3 * normal.max()) & (normal[1:] == 0))[-1]
+    assert friction[last] == pytest.approx(scene.friction.mu * normal[last], rel=1e-3)
+    before = np.flatnonzero(history.t < history.t[last] - 1e-5)[-1]
+    rate = (normal[before] - normal[last]) / (history.t[last] - history.t[before])
+    assert normal[last] / (history.t[last + 1] - history.t[last]) > 100 * rate > 0
