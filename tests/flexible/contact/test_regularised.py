@@ -114,7 +114,7 @@ def test_a_patch_that_the_damper_lets_go_of_has_no_friction():
 
 @pytest.mark.parametrize("damping", [0.13, 1.0])
 def test_a_creep_that_ends_at_a_fold_snaps_off(damping):
-    """As the hoop leaves the floor a spot that friction drives on creeps until F is mu N, and no state is near the next.
+    """As the hoop leaves the floor a spot that friction drives on creeps until F is mu N, with no state near the next.
 
     Its N is gone in an instant: not what a hundredth of the fall before it would take in that time.
     """
