@@ -20,7 +20,7 @@ def enlargement(shot: Shot) -> int:
     """How many times the lens enlarges: so that the wall fills an eighth of it; below 2 there is no lens."""
     inner = np.linalg.norm(np.asarray(shot.ring.points, dtype=float)[:, :2] - shot.centre, axis=1).min()
     wall = max(1 - float(inner) / shot.radius, 0.012)
-    return int(2 * _RADIUS / (7.5 * wall))
+    return max(1, int(2 * _RADIUS / (7.5 * wall)))
 
 
 class Lens:
