@@ -158,8 +158,9 @@ def solve_stage(
             guesses = guess_again(pos[:3], u, window.rim, law, before, damper, contact, guesses)
             if guesses >= 0:
                 continue
-            if start.begins == FORESEEN and slipping_on(before, damper, res) != 0:
-                shift(u, pos[2], slipping_on(before, damper, res), 0.0)
+            by = slipping_on(before, damper, res) if start.begins == FORESEEN else 0.0
+            if by != 0:
+                shift(u, pos[2], by, 0.0)
                 guesses = 0
                 continue
         contact = on_its_way(pos[:3], u, (window.rim, law, mode, before, damper), contact, way, asked)

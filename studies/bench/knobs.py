@@ -28,10 +28,8 @@ SHIFTS = (1.0037, 1.0071, 2.0)  # of the number of points: parts of a thousand p
 SHORT = 1 / 30  # of the tolerance: steps that do not matter
 SHORTEST = 3e-7
 MOST = 1.0  # times its tolerance a knob may leave
-THICK, FINEST = (
-    0.06,
-    1e-4,
-)  # wall from which on that is stated for no finer a tolerance: a dent comes and goes with nodes
+THICK = 0.06  # wall over R from which on that is stated
+FINEST = 1e-4  # of no finer tolerance: a dent comes and goes with nodes, and steps leave more
 
 
 @dataclass(frozen=True)
