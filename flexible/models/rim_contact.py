@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import ceil, pi
+from math import ceil, pi, sqrt
 from typing import Any
 
 import numpy as np
@@ -21,8 +21,9 @@ Array = NDArray[np.float64]
 
 LEAST = 8  # points to a patch: with fewer the force of a patch that moves is noise
 KNOWN = EXACTLY, 1e-4  # of 1 + N: Newton's least and largest tolerance on the forces of a step
-#: least share of a step's tolerance on a soft ring; E I from which on it may have all of it, and rtol down from which
-STEPS = 0.3, 10.0, 3e-4
+#: least share of a step's tolerance on a soft ring; E I from which on it may have all of it, and rtol down from which;
+#: E I below which the first and the last are less, like its root
+STEPS = 0.3, 33.0, 3e-4, 1.0
 COARSE = 1e-3  # rtol at which a law has its number of points; their share of the error falls like its cube, and faster
 
 
@@ -96,9 +97,10 @@ def share_of_steps(scene: Scene) -> float:
     In long steps instants at which the wall of a softer one comes down and leaves the floor are missed, on which the
     rest of a pulse hangs. See README.md, section 5.
     """
-    least, stiff, fine = STEPS
-    of_softer = min(max(least, scene.ring.bending_stiffness / stiff, fine / scene.solve.rtol), 1.0)
-    return of_softer * LAWS[scene.contact.law].steps_of_soft
+    least, stiff, fine, limp = STEPS
+    bending = scene.ring.bending_stiffness
+    of_softer = max(least, fine / scene.solve.rtol) * min(1.0, sqrt(bending / limp))
+    return min(max(of_softer, bending / stiff), 1.0) * LAWS[scene.contact.law].steps_of_soft
 
 
 class RimContact:

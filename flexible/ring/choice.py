@@ -28,6 +28,11 @@ def _shared_ring(wall: float, elements: int, through: int, halved: int, weld: fl
     return Ring(ring_mesh(1 - wall, 1.0, elements, through, weld, halved=halved), poisson)
 
 
+def forget_rings() -> None:
+    """Keep none of the rings so far for scenes to come: a fine one's compliance is up to half a GB."""
+    _shared_ring.cache_clear()
+
+
 def elements_through(wall: float, rtol: float = inf) -> int:
     """Elements through a wall, its thickness over R, by which the ring is good to 0.1 %; to less below rtol = 1e-4.
 
@@ -48,15 +53,20 @@ def halved_at_rim(wall: float, around: int, through: int) -> int:
     return max(0, round(log2(2 * wall / (through * length)))) if wall > DENTED else 0
 
 
-def elements_around(rtol: float, bending_stiffness: float, wall: float) -> int:
-    """Elements around a ring whose mesh leaves no more than a third of ``rtol`` in the impulses of a pulse.
+def mesh_error(bending_stiffness: float, wall: float) -> float:
+    """What ``AROUND`` elements leave in the impulses of a pulse, over J_N; the wall over R, its E I in m g R^2.
 
-    Found where it leaves most, at an undamped brush under a ring of E I = 65 with mass; of thick soft walls by how deep
-    the floor dents them where that is narrower than an element (README.md, section 2).
+    Found where they leave most, at an undamped brush under a ring of E I = 65 with mass; of thick soft walls by how
+    deep the floor dents them where that is narrower than an element (README.md, section 2; `hoop bench mesh`).
     """
     bent = MESH_ERROR * (MESH_WALL / wall) ** MESH_THIN * min(1.0, sqrt(MESH_SOFT / bending_stiffness))
     dent = min(DENT_ERROR * wall**3 / (12 * bending_stiffness), MOST_DENT) if wall > DENTED else 0.0
-    error = max(bent, dent)
+    return max(bent, dent)
+
+
+def elements_around(rtol: float, bending_stiffness: float, wall: float) -> int:
+    """Elements around a ring whose mesh leaves no more than a third of ``rtol``."""
+    error = mesh_error(bending_stiffness, wall)
     return min(max(AROUND, ceil(AROUND * (3 * error / rtol) ** (1 / MESH_ORDER))), MOST_AROUND)
 
 

@@ -6,5 +6,5 @@
 ``race``               contestants in turns, rows, claims
 ``truth``              what is taken for true: forty digits, all nodes in the limit
 ``peers``              the same scenes by other tools, and what those tend to
-``tables``, ``figures``  how it is shown
+``shown``              tables and figures of it
 """

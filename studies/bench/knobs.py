@@ -14,7 +14,7 @@ from math import inf
 from flexible.contact.laws.listing import LAWS
 from flexible.models.reduced import ReducedHoop
 from flexible.models.rim_contact import points_to_a_patch
-from flexible.ring.choice import elements_around, elements_through
+from flexible.ring.choice import elements_around, elements_through, forget_rings
 from flexible.ring.reduction import modes_for
 from rigid import Scene
 
@@ -149,6 +149,8 @@ def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[floa
         except RuntimeError as trouble:
             row.note = str(trouble)
             continue
+        finally:
+            forget_rings()
         row.seconds.append(found.seconds)
         row.error, row.more = found.all, {**found.parts, "error_peak": found.all_peak, "rtol": rtol}
         if pulse.scene.wall < THICK or rtol > FINEST / 2:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("what", type=click.Choice(["rigid", "flexible", "knobs", "soft", "scaling"]))
+@click.argument("what", type=click.Choice(["rigid", "flexible", "mesh", "knobs", "soft", "scaling"]))
 @as_json
 @out_folder("Write table and figures into this folder.")
 @click.option("--peers", "peers_too", is_flag=True, help="Also the other solvers that are installed (Exudyn).")
@@ -31,6 +31,8 @@ def bench(
     \b
     rigid     a first cycle against forty digits, beside scipy
     flexible  the pulse of a stiff ring against all nodes, knob by knob
+    mesh      what elements leave by wall and stiffness, and what they are
+              chosen by; TIME, two with --quick
     knobs     what elements, modes, contact points and steps each leave at
               the tolerance that chose them; ten minutes, one with --quick
     soft      pulses of rings that bend far, beside all nodes of the exact
@@ -51,14 +53,14 @@ def bench(
     with bar(f"bench {what}") as progress:
         result: Result = run(quick, peers_too, progress)
     if target is not None:
-        from ..bench.figures import draw
+        from ..bench.shown.figures import draw
 
         write_text(target / f"bench-{what}.json", to_json(result.to_dict()))
         draw(what, result, target)
     if as_json:
         click.echo(to_json(result.to_dict()))
     else:
-        from ..bench.tables import bench_tables
+        from ..bench.shown.tables import bench_tables
         from .shared.tables import show
 
         show(*bench_tables(result))

@@ -93,9 +93,9 @@ def stiffness(
     contact = {"law": law, "damping": damping}
     described = described.replace(contact={key: value for key, value in contact.items() if value is not None})
     ladder = Ladder.around(described, along, low, high, count)
-    ensure_accepts(solver_name, described)
-    target = results_folder(out)
-    with pool(workers, scheduler) as place:
+    with pool(workers, scheduler) as place:  # whose processes load what they take while this one does
+        ensure_accepts(solver_name, described)
+        target = results_folder(out)
         with bar(f"{ladder.count} cases") as progress:
             found = stiffness_study(
                 described,

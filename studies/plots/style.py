@@ -16,6 +16,7 @@ import numpy as np
 from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import NullLocator
 from numpy.typing import NDArray
 
 from ..running.files import write_whole
@@ -84,6 +85,7 @@ def save(figure: Figure, path: Path) -> Path:
     The canvases print themselves: ``savefig`` draws everything once more beforehand, to no avail but that of a bounding
     box that is not asked for here.
     """
+    _only_decades(figure)
     if path.suffix == ".svg":
         from matplotlib.backends.backend_svg import FigureCanvasSVG
 
@@ -91,6 +93,18 @@ def save(figure: Figure, path: Path) -> Path:
             return write_whole(path, lambda part: canvas.print_svg(part, metadata={"Date": None}))
     with _on(FigureCanvasAgg(figure), 150) as canvas:
         return write_whole(path, canvas.print_png)
+
+
+MANY = 1e4
+"""Ends of a logarithmic axis over one another from which on it has ticks at powers of ten alone: those between lie
+close to one another, and took as long to draw as all that the axis is for."""
+
+
+def _only_decades(figure: Figure) -> None:
+    for axes in figure.axes:
+        for axis, ends in ((axes.xaxis, axes.get_xlim()), (axes.yaxis, axes.get_ylim())):
+            if axis.get_scale() == "log" and max(ends) > MANY * min(ends):
+                axis.set_minor_locator(NullLocator())
 
 
 @contextmanager

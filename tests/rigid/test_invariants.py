@@ -37,7 +37,8 @@ def test_any_scene(scene):
     assert np.diff(states.energy).max() <= 1e-10 * max(1.0, states.energy.max())
     assert states.normal_force.min() >= -1e-10 * max(1.0, states.normal_force.max())
     bound = scene.friction.mu_s * states.normal_force
-    assert (np.abs(states.friction_force) <= bound * (1 + 1e-9) + 1e-10).all()
+    # a pulse is k wide, and phi has some last digits of round-off: the forces are known to that share of it
+    assert (np.abs(states.friction_force) <= bound * (1 + 1e-9 + 1e-14 / scene.hoop.k) + 1e-10).all()
     assert states.y_C.min() >= 1 - 1e-10
 
 

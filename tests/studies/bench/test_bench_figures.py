@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from studies.bench import flexible
-from studies.bench.figures import envelope, work_precision
 from studies.bench.race import Row
+from studies.bench.shown.figures import envelope, work_precision
 from studies.bench.truth.reference import SCENES
 
 

@@ -7,8 +7,8 @@ import pytest
 
 import flexible
 from studies.bench import knobs
-from studies.bench.figures import budget as drawn
 from studies.bench.knobs import KNOBS, Pulse, Setting, budget, pulse_at, pulses
+from studies.bench.shown.figures import budget as drawn
 from studies.bench.truth.reference import errors
 
 MASSLESS = next(pulse.scene for pulse in pulses(quick=True) if pulse.scene.hoop.mass_ratio == 0)

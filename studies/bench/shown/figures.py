@@ -16,9 +16,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation, NullFormatter
 
-from ..plots.pulse import OKABE_ITO, STYLE, save
-from .race import Result, Row
-from .truth.reference import SCENES
+from ...plots.pulse import OKABE_ITO, STYLE, save
+from ..race import Result, Row
+from ..truth.reference import SCENES
 
 _MARKERS = "osv^DPX*<>h"
 _COLOURS = [colour for name, colour in OKABE_ITO.items() if name != "contact_spring"]
@@ -149,10 +149,33 @@ def budget(rows: Sequence[Row], parts: Sequence[str]) -> Figure:
         return figure
 
 
+def by_wall(rows: Sequence[Row]) -> Figure:
+    """What a mesh leaves over the wall, one panel for each, a line for each ring; dashed what is assumed of 240."""
+    kinds = list(dict.fromkeys(row.setting.rpartition(", ")[2] for row in rows))
+    rings = list(dict.fromkeys(row.scene.partition(", ")[2] for row in rows))
+    with matplotlib.rc_context(STYLE):
+        figure, panels = _panels(len(kinds), 4.6)
+        for axes, kind in zip(panels, kinds, strict=False):
+            for number, ring in enumerate(rings):
+                mine = [row for row in rows if row.setting.endswith(kind) and row.scene.partition(", ")[2] == ring]
+                wall, colour = [row.more["wall"] for row in mine], _COLOURS[number]
+                axes.plot(wall, [row.error for row in mine], marker=_MARKERS[number], color=colour, label=ring)
+                if kind == kinds[0] and "damped" not in ring:
+                    axes.plot(wall, [row.more["assumed"] for row in mine], color=colour, linestyle="--", linewidth=1)
+            axes.set(xscale="log", yscale="log", xlabel="wall over R")
+            axes.set_title(f"{kind} elements", fontsize=10)
+            axes.tick_params(labelbottom=True)
+        panels[0].set_ylabel("error over J_N")
+        _legend(figure, panels)
+        return figure
+
+
 def draw(what: str, result: Result, out: Path) -> list[Path]:
     """All figures of a benchmark into a folder."""
     if what == "scaling":
         return [save(cost(result.rows, result.exponents), out / "bench-scaling.png")]
+    if what == "mesh":
+        return [save(by_wall(result.rows), out / "bench-mesh.png")]
     if result.parts:
         return [save(budget(result.rows, result.parts), out / f"bench-{what}.png")]
     against = "difference from all nodes" if what == "soft" else "error"

@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import isfinite
 from typing import Any
 
-from ..plots.sheet import Column, Sheet
-from .race import NAN, Result
+from ...plots.sheet import Column, Sheet
+from ..race import NAN, Result
 
 
 def _number(value: float, digits: int = 3) -> str:

@@ -1,0 +1,1 @@
+"""Benchmarks as tables on the screen (``tables``) and as figures (``figures``)."""
