@@ -20,7 +20,11 @@ from .truth.reference import errors, scene_b
 
 RTOL = 1e-4
 STILL = 3e-6  # of all that is no mesh
-OVER = 2.0  # times what is assumed of 240 elements
+OVER, MOST = 2.0, 0.5  # what is stated: times what is assumed of 240 elements, times RTOL of the chosen ones
+STATED = (
+    1.5e-3,
+    0.17,
+)  # walls over R of which it is: in thinner ones rounding leaves more, in thicker ones those through
 RADII = (1.001, 1.002, 1.005, 1.01, 1.02, 1.05, 1.1, 1.2, 1.5)
 RINGS = ((65.0, 0.0), (1e3, 0.0), (1e4, 0.0), (1e4, 1.0))  # E I and damping ratio
 SOLVER = "hoop-pulse reduced"
@@ -79,6 +83,8 @@ def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[floa
             row.seconds.append(time.process_time() - start)
             assumed = mesh_error(place.scene.ring.bending_stiffness, place.scene.wall)
             row.error, row.more = off, {"error_peak": peak, "assumed": assumed, "wall": place.scene.wall}
+            if not STATED[0] < place.scene.wall < STATED[1]:
+                continue
             if mesh == "chosen":
                 left = max(left, off / RTOL)
             else:
@@ -90,5 +96,7 @@ def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[floa
         Claim(f"{name}: what {AROUND} around leave, over what is assumed", most, OVER, at_most=True)
         for name, most in over.items()
     ]
-    result.claims.append(Claim(f"chosen at rtol {RTOL:.0e}: the most that is left, over rtol", left, 1.0, at_most=True))
+    result.claims.append(
+        Claim(f"chosen at rtol {RTOL:.0e}: the most that is left, over rtol", left, MOST, at_most=True)
+    )
     return result

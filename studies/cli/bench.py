@@ -32,7 +32,7 @@ def bench(
     rigid     a first cycle against forty digits, beside scipy
     flexible  the pulse of a stiff ring against all nodes, knob by knob
     mesh      what elements leave by wall and stiffness, and what they are
-              chosen by; TIME, two with --quick
+              chosen by; ten minutes, two with --quick
     knobs     what elements, modes, contact points and steps each leave at
               the tolerance that chose them; ten minutes, one with --quick
     soft      pulses of rings that bend far, beside all nodes of the exact
