@@ -217,9 +217,9 @@ class Listing:
 
     @cached_property
     def starts(self) -> tuple[tuple[float, ...], ...]:
-        """The records from which any instant can be computed."""
+        """The records from which any instant can be computed; the last is the end of the motion."""
         before, _, after = self.starting
-        return tuple(map(tuple, [*before, *map(self._moved_back, after)]))
+        return tuple(map(tuple, [*before, *map(self._moved_back, [*after, self.end])]))
 
     @cached_property
     def phases(self) -> Sequence[Phase]:

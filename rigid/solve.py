@@ -231,6 +231,11 @@ class Sampler:
         # a reference that does not count: in a circle of them every motion would wait for the garbage collector
         return Listing(records.tolist(), [float(at.END), *final[: at.MOVING]], self.scene, ref(self))
 
+    @cached_property
+    def _flat(self) -> list[float]:
+        """The starts of all phases and the end, one after the other, ``WIDTH`` numbers each."""
+        return [number for row in self.listing.starts for number in (*row, *[0.0] * (at.WIDTH - len(row)))]
+
     def __getstate__(self) -> dict[str, Any]:
         return {"scene": self.scene, "log": self.log}
 
@@ -244,7 +249,7 @@ class Sampler:
         scene = self.scene
         order = np.argsort(t, axis=None, kind="stable")
         told = t.ravel()[order]
-        starts = np.array([row[1 + at.T] for row in self.listing.starts])
+        starts = np.array(self._flat[1 + at.T :: at.WIDTH])[:-1]
         # compared as the phases state their times: a division could put an instant on the wrong side of a boundary
         owner = np.searchsorted(starts * scene.time_unit, told, side) - 1
         once, again = told / scene.time_unit, np.zeros(len(told))
@@ -271,9 +276,7 @@ class Sampler:
     def _rows(self, times: Array, owner: NDArray[np.int64]) -> Array:
         """A row of the kernel's columns for each time, in the phase of the number ``owner``."""
         width = instant.COLUMNS
-        constants = parameters(self.scene)
-        padded = [list(row) + [0.0] * (at.WIDTH - len(row)) for row in self.listing.starts]
-        flat = [number for row in padded for number in row]
+        constants, flat = parameters(self.scene), self._flat
         if patience.left(len(times)) > 0:
             patience.spend(instants=len(times))
             out: Any = [0.0] * (len(times) * width)

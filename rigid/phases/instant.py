@@ -45,6 +45,7 @@ from .slipping.series import JAM, normal_force, slipping_acceleration
 from .slipping.step import NOTHING_YET, carry, end_of_slip, step
 
 MOST_STEPS = 400_000  # in one phase: beyond the work bound of the motion itself
+LAST_DIGITS = 4e-16  # of a time
 COLUMNS = 9  # phi, omega, x_C, height of the contact point, slip velocity, N, F, energy, phiddot
 
 
@@ -116,7 +117,13 @@ def entry_sample(par, phases, owner, times, out, work, state, events):
             friction = 0.0
             alpha = 0.0
             if kind == ROLL and par[GYR] > 0.0:
-                roll_on(par, state, time)
+                behind = (p + 1) * WIDTH + 1
+                if times[i] >= phases[behind + T] * (1 - LAST_DIGITS):
+                    # its end, which may lie in a pulse narrower than what is rolled in the last digit of a late time
+                    for j in range(MOVING):
+                        state[j] = phases[behind + j]
+                else:
+                    roll_on(par, state, time)
                 normal, friction = rolling_forces(par, state[OMEGA], state[ANGLE], state[TOP])
                 alpha = rolling_acceleration(par[ZETA], state[OMEGA], state[ANGLE], state[TOP])
             elif kind == ROLL:

@@ -1,7 +1,7 @@
 """`hoop bench`: run time against error, and the ratios that are stated.
 
 ``rigid``, ``flexible``, ``soft``, ``scaling``  what is timed, each with its claims
-``knobs``              what each of the four that ``rtol`` turns leaves
+``knobs``, ``mesh``      what each of the four that ``rtol`` turns leaves; the elements by wall and stiffness
 ``skipped``            what each thing skipped saves
 ``race``               contestants in turns, rows, claims
 ``truth``              what is taken for true: forty digits, all nodes in the limit

@@ -34,9 +34,10 @@ def bench(
     mesh      what elements leave by wall and stiffness, and what they are
               chosen by; ten minutes, two with --quick
     knobs     what elements, modes, contact points and steps each leave at
-              the tolerance that chose them; ten minutes, one with --quick
+              the tolerance that chose them; a quarter of an hour, a minute
+              with --quick
     soft      pulses of rings that bend far, beside all nodes of the exact
-              ring; half an hour, six minutes with --quick
+              ring; three quarters of an hour, six minutes with --quick
     scaling   cost against stiffness, turns, mesh, scenes and workers
     """
     from ..machine.kernels import prepare

@@ -151,6 +151,7 @@ def budget(rows: Sequence[Row], parts: Sequence[str]) -> Figure:
 
 def by_wall(rows: Sequence[Row]) -> Figure:
     """What a mesh leaves over the wall, one panel for each, a line for each ring; dashed what is assumed of 240."""
+    rows = [row for row in rows if isfinite(row.error)]
     kinds = list(dict.fromkeys(row.setting.rpartition(", ")[2] for row in rows))
     rings = list(dict.fromkeys(row.scene.partition(", ")[2] for row in rows))
     with matplotlib.rc_context(STYLE):

@@ -69,12 +69,11 @@ def test_the_scene_is_shown_as_it_was_run(page):
 
 def test_the_numbers_lie_beside_the_page_and_in_it(page):
     text, out = page
-    frame = pandas.read_csv(out / "study.csv", float_precision="round_trip")  # as pandas 3 reads by itself
+    frame = pandas.read_csv(out / "study.csv", dtype=str)  # not every pandas reads numbers to the last bit
     cases = json.loads((out / "study.json").read_text())["cases"]
-    assert list(frame["impulse_ratio"]) == [case["impulse_ratio"] for case in cases]
+    assert frame["impulse_ratio"].map(float).tolist() == [case["impulse_ratio"] for case in cases]
     held = re.search(r'download="study.csv" href="data:text/plain;base64,([^"]*)"', text)[1]
-    inside = pandas.read_csv(io.BytesIO(base64.b64decode(held)), float_precision="round_trip")
-    pandas.testing.assert_frame_equal(inside, frame)
+    pandas.testing.assert_frame_equal(pandas.read_csv(io.BytesIO(base64.b64decode(held)), dtype=str), frame)
     # no fields: this solver has none, and the page does not name them
     assert "fields.pvd" not in text
 
