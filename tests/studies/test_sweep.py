@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
+import pickle
 import re
 import resource
 import signal
@@ -511,7 +512,7 @@ def test_workers_that_hang_or_die_are_ended_and_replaced():
         dying.result(timeout=HANGS)
     with pytest.raises(ZeroDivisionError):
         processes.submit(divmod, 1, 0).result(timeout=HANGS)
-    with pytest.raises(Exception, match="pickle"):
+    with pytest.raises((AttributeError, pickle.PicklingError), match=r"local object .*lambda"):  # by Python's version
         processes.submit(lambda: 0).result(timeout=HANGS)
     assert processes.submit(abs, -3).result(timeout=HANGS) == 3
     processes.stop()
