@@ -155,12 +155,15 @@ class Builder:
         else:
             self.phases.append(phase)
 
+    def lost_to_hand_overs(self, energy: float) -> float:
+        """So far and to a piece that begins now with ``energy``: what differs from the end of the last one."""
+        return self.hand_over + (0.0 if self.initial is None else sum(self.held) - energy)
+
     def _meet(self, energy: float) -> None:
-        """Energy at the start of a piece; what differs from the end of the last one was handed over."""
+        """Energy at the start of a piece."""
+        self.hand_over = self.lost_to_hand_overs(energy)
         if self.initial is None:
             self.initial = energy
-        else:
-            self.hand_over += sum(self.held) - energy
 
     def add_rigid(self, motion: Motion, until: float) -> States:
         """The first ``until`` of a rigid motion that begins now; its states at both ends."""

@@ -184,7 +184,7 @@ def ensure_stands_in(lost: float, energy: float, t: float) -> None:
     """
     if -lost > GAINS * energy:
         raise MarchError(
-            f"stopped at t = {t:.6g}: the rigid hoop, which stands for the flexible one between pulses, has added"
+            f"stopped at t = {t:.6g}: the rigid hoop, which stands for the flexible one between pulses, would add"
             f" {-100 * lost / energy:.2g} % of the energy; with solve.resolve = 'all' it is flexible throughout"
         )
 

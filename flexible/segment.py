@@ -165,7 +165,8 @@ class Segment:
     def crossings(self, phi: float, after: float = -np.inf) -> Iterator[float]:
         """All of them."""
         t, angle, omega = self["t"], self["phi"] - phi, self["omega"]
-        for i in np.nonzero((angle[:-1] * angle[1:] <= 0) & (t[1:] > after))[0]:
+        takes_time = t[1:] > np.maximum(t[:-1], after)  # the two records of an event do not
+        for i in np.nonzero((angle[:-1] * angle[1:] <= 0) & takes_time)[0]:
             start, length = float(t[i]), float(t[i + 1] - t[i])
             here = tuple(map(float, (angle[i], angle[i + 1], omega[i] * length, omega[i + 1] * length)))
             low, high = max(after - start, 0.0) / length, 1.0

@@ -131,6 +131,12 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
     done = 0
     while True:
         motion = rigid.simulate(rigid_limit(current))
+        try:
+            lost = builder.lost_to_hand_overs(float(motion.at(0.0).energy))
+            ensure_stands_in(lost, builder.initial or inf, builder.t)
+        except MarchError as error:
+            builder.completed = False
+            return str(error)
         pulse = next((p for p in motion.pulses if p.t_start > 0 or (not builder.pulses and _over_bottom(p))), None)
         at_rest = scene.run.until == "rest" and _slips_no_more(motion)  # what it rolls through is no pulse with a loss
         if pulse is None or at_rest:
@@ -141,7 +147,6 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         start = max(0.0, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
         ends_there = builder.add_rigid(motion, start)
         try:
-            ensure_stands_in(builder.hand_over, builder.initial or inf, builder.t)
             state = hand_over(hoop, motion, start, one_of(ends_there, 1))
         except MarchError as error:
             builder.completed = False

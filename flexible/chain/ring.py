@@ -9,7 +9,7 @@ is left is the fourth power of the rotation within a part, the inertia of what i
 
 from __future__ import annotations
 
-from functools import cached_property, lru_cache
+from functools import cached_property
 from math import pi
 
 import numpy as np
@@ -18,7 +18,7 @@ from scipy.linalg import eigh
 
 from rigid import Scene
 
-from ..ring.fem import Ring, membrane_stiffness
+from ..ring.fem import Ring, membrane_stiffness, once
 from ..ring.mirror import positive_part
 from ..ring.reduction import body_of
 from .bordered import no_blocks
@@ -187,7 +187,7 @@ class _Shape:
         return positive_part(self.ring.rim_compliance - held, self.ring.mirror)
 
 
-@lru_cache(maxsize=8)
+@once
 def _shape(ring: Ring, parts: int) -> _Shape:
     return _Shape(ring, parts)
 

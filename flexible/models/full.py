@@ -1,7 +1,7 @@
 """The hoop with every node of its ring free: the reference for the reduced one.
 
-Newton's matrix is the ring's sparse one, which two stages share, bordered by the frame and by the contact: both
-borders are exact in every iteration, so that the ring's may lag behind.
+Newton's matrix is the ring's sparse one, which the stages of a step share, bordered by the frame and by the contact:
+both borders are exact in every iteration, so that the ring's may lag behind.
 """
 
 from __future__ import annotations
@@ -31,6 +31,7 @@ Array = NDArray[np.float64]
 Window = tuple[int, int]
 
 SLOW = 24  # modes of the ring by whose error steps are chosen, as many as the reduced ring has
+_WINDOWS = 8  # of which the columns are kept: a patch that moves on comes to others
 _LARGEST_LAG = 1e-3  # of beta times the change of omega since the ring's matrix was factored
 
 
@@ -53,6 +54,8 @@ class _Factored:
     def columns(self, window: Window) -> Array:
         """The inverse's columns for the window's dofs, (n, 2 nodes)."""
         if window not in self._columns:
+            if len(self._columns) == _WINDOWS:
+                del self._columns[next(iter(self._columns))]
             dofs = self.ring.dofs(*window)
             unit = np.zeros((self.ring.size, len(dofs)))
             unit[dofs, np.arange(len(dofs))] = 1.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from functools import lru_cache
 from math import ceil, inf, log2, pi, sqrt
 
@@ -17,7 +18,7 @@ MESH_WALL, MESH_THIN = 0.02, 1.75  # wall over R at which it is that, power with
 MESH_SOFT = 400.0  # bending stiffness from which on it is less, like its root
 DENTED = 0.033  # wall over R from which on a stiff floor dents it rather than bends it
 DENT_ERROR, MOST_DENT = 100.0, 1e-4  # the same where the floor dents the wall, times E b in m g/R, and at most
-THICK = 1 / 6  # wall from which on a pulse knows more of what the elements through it leave
+THICK = 1 / 6  # wall from which on that is more, and a pulse knows more of what the elements through it leave
 MOST_AROUND, MOST_THROUGH = 1200, 10  # the compliance of so long a rim is 180 MB
 FAR_ERROR, FAR_SOFT, FAR_SOFTER = 1e-4, 10.0, 1.6  # a ring that bends far: its error at so small an E I, and its power
 MOST_FAR = 480  # around such a ring: its sections pay in every step
@@ -29,8 +30,9 @@ def _shared_ring(wall: float, elements: int, through: int, halved: int, weld: fl
 
 
 def forget_rings() -> None:
-    """Keep none of the rings so far for scenes to come: a fine one's compliance is up to half a GB."""
+    """Keep none of the rings so far for scenes to come, nor what was made of them: a fine one's take some 0.5 GB."""
     _shared_ring.cache_clear()
+    gc.collect()  # they and what was made of them refer to each other
 
 
 def elements_through(wall: float, rtol: float = inf) -> int:
@@ -38,9 +40,9 @@ def elements_through(wall: float, rtol: float = inf) -> int:
 
     With t of them the frequencies n = 2...4 of a free ring, and its compliances to outer tractions cos n theta, are off
     by at most 1.2 wall^2/t^4; that is ten times rtol, of which a pulse of a thin ring knows a fortieth, and of one
-    beyond ``THICK`` more and more, like the cube of the wall (README.md, section 2).
+    beyond ``THICK`` more and more, like the wall's fifth power (README.md, section 2).
     """
-    known = 10 * min(1.0, (THICK / wall) ** 3)
+    known = 10 * min(1.0, (THICK / wall) ** 5)
     return max(1, min(MOST_THROUGH, ceil((1.2 * wall**2 / min(1e-3, known * rtol)) ** 0.25)))
 
 
@@ -60,8 +62,9 @@ def mesh_error(bending_stiffness: float, wall: float) -> float:
     deep the floor dents them where that is narrower than an element (README.md, section 2; `hoop bench mesh`).
     """
     bent = MESH_ERROR * (MESH_WALL / wall) ** MESH_THIN * min(1.0, sqrt(MESH_SOFT / bending_stiffness))
-    dent = min(DENT_ERROR * wall**3 / (12 * bending_stiffness), MOST_DENT) if wall > DENTED else 0.0
-    return max(bent, dent)
+    if wall <= DENTED:
+        return bent
+    return max(bent, min(DENT_ERROR * wall**3 / (12 * bending_stiffness), MOST_DENT * max(1.0, wall / THICK)))
 
 
 def elements_around(rtol: float, bending_stiffness: float, wall: float) -> int:

@@ -10,7 +10,7 @@ Forces and tangent are batched products over elements and integration points, su
 from __future__ import annotations
 
 from copy import copy
-from functools import cached_property, lru_cache
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from skfem import Basis, ElementQuad2
 
 from .corners import Corners
-from .fem import Ring
+from .fem import Ring, once
 
 Array = NDArray[np.float64]
 
@@ -162,7 +162,7 @@ def _gathered(by_nodes: Array, place: NDArray[np.int64], count: int) -> Array:
     return matrix.reshape(-1, count)
 
 
-@lru_cache(maxsize=4)
+@once
 def elasticity_of(ring: Ring) -> ExactElasticity:
     """That of a ring, made once."""
     return ExactElasticity(ring)

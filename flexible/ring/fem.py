@@ -7,9 +7,10 @@ Plane stress; the weld (a short arc of the inner rim) is clamped to the disk's f
 
 from __future__ import annotations
 
-from functools import cached_property
+from collections.abc import Callable
+from functools import cached_property, wraps
 from math import ceil, pi
-from typing import Any
+from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar
 
 import numpy as np
 import scipy.sparse as sp
@@ -36,6 +37,32 @@ def membrane_stiffness(scene: Scene) -> float:
     return 12 * scene.ring.bending_stiffness / scene.wall**3
 
 
+class Makes(Protocol):
+    """What keeps what was made of it."""
+
+    @property
+    def made(self) -> dict[Any, Any]: ...
+
+
+K = TypeVar("K", bound=Makes)
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def once(make: Callable[Concatenate[K, P], T]) -> Callable[Concatenate[K, P], T]:
+    """Make a thing of a ring once for the same arguments, and keep it for as long as the ring is kept."""
+
+    @wraps(make)
+    def kept(of: K, *args: P.args, **kwargs: P.kwargs) -> T:
+        key = (make, args, *kwargs.items())
+        if key not in of.made:
+            of.made[key] = make(of, *args, **kwargs)
+        found: T = of.made[key]
+        return found
+
+    return kept
+
+
 class Ring:
     """The ring of a scene's shape at unit E b and unit mass, clamped at the weld.
 
@@ -57,6 +84,7 @@ class Ring:
     """
 
     def __init__(self, mesh: RingMesh, poisson: float) -> None:
+        self.made: dict[Any, Any] = {}
         self.mesh = mesh
         self.poisson = poisson
         self.basis: Basis = mesh.vector_basis(intorder=4)

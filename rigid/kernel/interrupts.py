@@ -44,9 +44,10 @@ def between_calls() -> Iterator[None]:
         for noted, handler in handlers.items():
             if signal.getsignal(noted) is _note:
                 signal.signal(noted, handler)
-        while _came:
-            came, frame = _came.pop(0)
-            handlers[came](came, frame)
+        came = list(_came)
+        _came.clear()  # one that raises ends this; the others are not left for a motion that comes later
+        for noted, frame in came:
+            handlers[noted](noted, frame)
 
 
 def answer() -> None:

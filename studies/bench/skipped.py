@@ -9,6 +9,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import flexible
+from flexible.ring.choice import forget_rings
 from rigid import Scene, load_scene
 
 from .peers.scipy_ivp import installed
@@ -22,14 +23,6 @@ HEAVY = ("numba", "scipy.sparse.linalg", "skfem", "meshio", "matplotlib.figure",
 
 def _command(*words: str) -> list[str]:
     return [sys.executable, "-c", "from studies.cli import main; main()", *words]
-
-
-def _forget_rings() -> None:
-    from flexible.ring import fem as ring
-
-    for function in vars(ring).values():
-        if hasattr(function, "cache_clear"):
-            function.cache_clear()
 
 
 def _fields(scene: Scene) -> None:
@@ -47,7 +40,7 @@ def skipped(quick: bool) -> list[Row]:
     pairs: list[tuple[str, Callable[[], Any], Callable[[], Any] | None]] = [
         ("history and states: kept", lambda: flexible.simulate(pulse, history=True), None),
         ("history and states: not kept", lambda: flexible.simulate(pulse), None),
-        ("ring: assembled and reduced anew", lambda: flexible.simulate(pulse), _forget_rings),
+        ("ring: assembled and reduced anew", lambda: flexible.simulate(pulse), forget_rings),
         ("ring: from the cache", lambda: flexible.simulate(pulse), None),
         ("between pulses: flexible", lambda: flexible.simulate(paper.replace(solve={"resolve": "all"})), None),
         ("between pulses: rigid closed form", lambda: flexible.simulate(paper), None),

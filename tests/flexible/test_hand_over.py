@@ -1,6 +1,6 @@
 """The hand-over takes the phase that its forces belong to, and rates over a time that follows the pulse."""
 
-from math import radians
+from math import pi, radians
 
 import numpy as np
 import pytest
@@ -98,6 +98,20 @@ def test_acceleration_of_a_flexible_motion():
     assert float(before.alpha) == float(rigid.simulate(scene).at(t[0] / 2).alpha)
 
 
+@pytest.mark.parametrize("omega0", [10, 30])
+def test_what_the_last_hand_over_adds_is_told_too(omega0):
+    """A hoop that whirls past the floor jumps and rings: what a rigid one would have of its energy is 1 to 10 % more.
+
+    The run ends before another pulse, at which it was asked before.
+    """
+    scene = Scene(Hoop(0.1, 1.02, 0.1), Friction(0.35, 0.3), Release(pi / 2, omega0=omega0), Run(t_end=0.5))
+    motion = flexible.simulate(scene.replace(solve={"rtol": 1e-3}))
+    assert not motion.completed
+    assert "solve.resolve = 'all'" in motion.ended
+    assert motion.t_end == motion.pulses[-1].t_end
+    assert abs(motion.ledger.hand_over) < 0.01 * motion.ledger.initial
+
+
 def test_a_rigid_hoop_that_adds_energy_is_no_stand_in():
     """A plastic hula hoop sags by a sixtieth of its radius: rigid between pulses it went over the top, and on for ever.
 
@@ -107,7 +121,8 @@ def test_a_rigid_hoop_that_adds_energy_is_no_stand_in():
     motion = flexible.simulate(scene.replace(solve={"resolve": "pulses"}))
     assert not motion.completed
     assert "solve.resolve = 'all'" in motion.ended
-    assert -motion.ledger.hand_over > 0.01 * motion.ledger.initial
+    assert motion.t_end == motion.pulses[-1].t_end, "nothing that follows from a wrong energy is listed"
+    assert abs(motion.ledger.hand_over) < 0.01 * motion.ledger.initial
     motion = flexible.simulate(scene)
     assert motion.completed, motion.ended
     assert [turn.phi for turn in motion.turns] == pytest.approx(

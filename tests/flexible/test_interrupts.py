@@ -65,6 +65,18 @@ def test_a_signal_waits_for_its_answer_but_not_for_a_compilation(monkeypatch):
     assert not announce.compiling()
 
 
+def test_of_two_signals_that_wait_none_is_left_for_the_next_motion():
+    """The handler of the first raises: the second must not come again where nobody sent it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt), interrupts.between_calls():
+            [signal.raise_signal(number) for number in (signal.SIGINT, signal.SIGINT)]
+        with interrupts.between_calls():
+            interrupts.answer()
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 def test_a_motion_that_is_interrupted_leaves_the_handlers_as_they_were():
     def stop():
         signal.raise_signal(signal.SIGINT)

@@ -13,7 +13,6 @@ one; and it turns as its points turn about their mean.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -23,6 +22,7 @@ from scipy.sparse.linalg import splu
 from meshes import RingMesh
 
 from ...ring.exact import elasticity_of
+from ...ring.fem import once
 from .section import FADING, RodCompliance, radial, transfer
 
 Array = NDArray[np.float64]
@@ -51,7 +51,7 @@ class SecondOrder(NamedTuple):
     moment: Array
 
 
-@lru_cache(maxsize=4)
+@once
 def second_order(compliance: RodCompliance, theta: float) -> SecondOrder:
     """Answers of the section at ``theta``, loaded by dead forces far behind it."""
     ring = compliance.ring

@@ -16,7 +16,7 @@ from flexible.output.fields import FIELDS
 from flexible.segment import peak
 from meshes import SeriesError, read
 from meshes.draw import style
-from rigid import load_scene
+from rigid import Kind, load_scene
 
 ROOT = Path(__file__).parents[3]
 
@@ -201,6 +201,18 @@ def test_between_the_pulses_the_hoop_is_rigid(motion, tmp_path):
     speed = np.linalg.norm(ring.point_data["velocity"], axis=1)
     assert speed[ring.points[:, 1].argmin()] < 0.02 * speed.max()
     assert speed.max() == pytest.approx(2 * float(state.omega), rel=1e-3)
+
+
+@pytest.mark.parametrize("now", [0.05, 0.7, 1.36])
+def test_the_velocity_of_a_flight_is_the_rate_of_the_position(tmp_path, now):
+    """Thrown up by its turning at release it comes down at t = 1.37, with no floor under it till then."""
+    thrown = simulate(scene(release={"phi0": 0.1, "omega0": 3.0}, run={"t_end": 1.4}), history=True)
+    assert thrown.phase_at(now).kind is Kind.FLIGHT
+    write_fields(thrown, tmp_path, times=now + 1e-3 * np.array([-1, 0, 1]), fields=("velocity",))
+    before, at, after = (frame.blocks["ring"] for frame in read(tmp_path))
+    rate = (after.points.astype(float) - before.points) / 2e-3
+    # points are floats of four bytes: 1e-7 of some R over 2e-3
+    np.testing.assert_allclose(at.point_data["velocity"], rate, atol=5e-4)
 
 
 def test_si_units(motion, tmp_path):
