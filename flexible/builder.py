@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
@@ -18,9 +18,9 @@ from rigid.output.units import in_units
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range
 from .models.state import State
-from .motion import FlexibleMotion, FlexiblePulse, History, Kept, Ledger, March
+from .motion import FlexibleMotion, FlexiblePulse, Kept, Ledger, March
 from .packed import pack
-from .segment import Segment
+from .segment import Segment, history_of
 from .time.adaptive import LIMITS, Limits, march
 from .time.course import Course, Marched
 from .time.events import Ends
@@ -285,18 +285,7 @@ class Builder:
             sample=sample,
             ledger=in_units(ledger, scene),
             steps=self.steps,
-            history=in_units(history_of(self.pieces), scene) if history else None,
+            history=in_units(history_of(piece.segment for piece in self.pieces), scene) if history else None,
             kept=tuple(self.kept or ()),
             marches=tuple(self.marches),
         )
-
-
-def history_of(pieces: Iterable[Piece]) -> History:
-    """Every step of the flexible pieces, in the solver's units."""
-    segments = [piece.segment for piece in pieces if piece.segment is not None]
-    return History(
-        **{
-            field.name: np.concatenate([segment[field.name] for segment in segments] or [np.empty(0)])
-            for field in dataclasses.fields(History)
-        }
-    )

@@ -10,12 +10,12 @@ from rigid.output.file import Stored, read
 from rigid.output.units import in_units
 from rigid.solve import unstored
 
-from .builder import Piece, Sampler, history_of
+from .builder import Piece, Sampler
 from .models.select import hoop_of
 from .models.state import Books
 from .motion import FlexibleMotion, FlexiblePulse, Kept, Ledger, March
 from .packed import unpack
-from .segment import Segment
+from .segment import Segment, history_of
 from .time.control import Pace
 from .time.course import Course, Marched, Standing
 
@@ -51,7 +51,7 @@ def _flexible(stored: Stored, scene: Scene) -> Motion:
         steps=told["steps"],
         kept=_kept(stored, scene),
         marches=tuple(_march(number, march, stored, pieces) for number, march in enumerate(told["marches"])),
-        history=in_units(history_of(pieces), scene) if told["history"] else None,
+        history=in_units(history_of(piece.segment for piece in pieces), scene) if told["history"] else None,
     )
 
 

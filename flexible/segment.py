@@ -6,7 +6,7 @@ Everything is in the solver's units, R = m = g = 1.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from math import sqrt
 from typing import TypeVar
 
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from rigid import Hoop, Kind, Phase, Side, States, Turn
 
 from .models.state import Record
-from .motion import FlexiblePulse
+from .motion import FlexiblePulse, History
 
 Array = NDArray[np.float64]
 
@@ -230,3 +230,14 @@ class Segment:
             numerical_loss=gain("numerical_loss"),
             phases=tuple(self.phases(first, last)),
         )
+
+
+def history_of(segments: Iterable[Segment | None]) -> History:
+    """Every step of the flexible segments of a motion, in the solver's units."""
+    found = [segment for segment in segments if segment is not None]
+    return History(
+        **{
+            field.name: np.concatenate([segment[field.name] for segment in found] or [np.empty(0)])
+            for field in dataclasses.fields(History)
+        }
+    )

@@ -35,29 +35,11 @@ from .segment import Segment
 from .time.adaptive import MarchError
 from .time.advance import SHORTEST
 from .time.events import Ends
-
-Progress = Callable[[float], object]
-Fraction = Callable[[float, float], float]  # of time and angle of a step
+from .told import Progress, Report, in_time_of, last_turn, swept, too_soft
 
 LEAD = 0.5  # a flexible segment begins this many pulse lengths before the pulse, to let its start settle
 BACK = 0.01  # of the way through a segment, by which a hoop that turned back is out where it came in
 WAITS = 10.0  # sqrt(R/g) that a hoop may take for it, beyond four pulse lengths: a swing takes a few
-
-
-class _Progress:
-    """Fraction done, from the angle swept within the segment that runs."""
-
-    def __init__(self, report: Progress | None) -> None:
-        self.report = report
-
-    def watch(self, low: float, high: float, fraction: Fraction) -> Callable[[float, float], None] | None:
-        if (report := self.report) is None:
-            return None
-
-        def tell(t: float, phi: float) -> None:
-            report(low + (high - low) * min(max(fraction(t, phi), 0.0), 1.0))
-
-        return tell
 
 
 @between_calls()
@@ -66,7 +48,7 @@ def simulate(
     *,
     history: bool = False,
     states: bool = True,
-    progress: Progress | None = None,
+    progress: Report | None = None,
     most_steps: int | None = None,
     resume: FlexibleMotion | None = None,
     stop: Callable[[], bool] | None = None,
@@ -111,9 +93,9 @@ def simulate(
     builder.most_steps, builder.stop = most_steps, stop
     builder.earlier = None if resume is None else _resumable(resume, scene, history and states)
     run = _through_pulses if scene.solve.resolve == "pulses" else _throughout
-    ended = run(inner, hoop, builder, _Progress(progress))
+    ended = run(inner, hoop, builder, Progress(progress))
     complaint = builder.range.complaint()
-    return builder.motion(scene, f"{ended}; {complaint}" if complaint else ended, history)
+    return builder.motion(scene, in_time_of(scene, f"{ended}; {complaint}" if complaint else ended), history)
 
 
 def _resumable(earlier: FlexibleMotion, scene: Scene, states: bool) -> FlexibleMotion:
@@ -125,7 +107,7 @@ def _resumable(earlier: FlexibleMotion, scene: Scene, states: bool) -> FlexibleM
     return earlier
 
 
-def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _Progress) -> str:
+def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Progress) -> str:
     """Rigid between pulses, flexible inside."""
     current = scene
     done = 0
@@ -143,14 +125,14 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             builder.add_rigid(motion, motion.t_end)
             builder.completed = motion.completed
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
-            return _last_turn(scene.run.turns or 0) if over else motion.ended
+            return last_turn(scene.run.turns or 0) if over else motion.ended
         start = max(0.0, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
         ends_there = builder.add_rigid(motion, start)
         try:
             state = hand_over(hoop, motion, start, one_of(ends_there, 1))
         except MarchError as error:
             builder.completed = False
-            return str(error) + _too_soft(scene)
+            return str(error) + too_soft(scene)
         state = state._replace(t=builder.t, x_C=builder.x_C)
         sign = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
         span = (float(state.pos[2]), pulse.phi_end)
@@ -161,14 +143,14 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             sides = sorted((span[0] - BACK * (span[1] - span[0]), span[1]))
             ends = Ends(ends.t + 3 * (pulse.t_end - start) + WAITS, sides[0], sides[1])
         low, high = done / (done + 2), (done + 1) / (done + 3)
-        watch = progress.watch(low, high, _swept(span))
+        watch = progress.watch(low, high, swept(span))
         state, segment, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
         back = not cut and sign * (float(state.pos[2]) - pulse.phi_end) < 0
         if not trouble and back and ends.t - state.t < SHORTEST:
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get out of the pulse"
         if trouble:
             builder.completed = False
-            return trouble + _too_soft(scene)
+            return trouble + too_soft(scene)
         first = segment.crossing(pulse.phi_start, segment.t_start)
         leaves = max(segment.crossings(pulse.phi_start), default=segment.t_end) if back else segment.t_end
         measured = segment.pulse(segment.t_start if first is None else first, leaves)
@@ -178,30 +160,13 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             return "the first pulse is over" + (": the hoop turned back in it" if back else "")
         rest = _rest_of(scene.run, builder)
         if rest is None:
-            return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
+            return "the time to run is over" if scene.run.turns is None else last_turn(scene.run.turns)
         current = _from_here(scene, hoop, state, rest)
 
 
 def _over_bottom(pulse: Pulse) -> bool:
     """Whether the disk passes its lowest point, phi = pi (mod 2 pi), in a pulse."""
     return floor((pulse.phi_start - pi) / (2 * pi)) != floor((pulse.phi_end - pi) / (2 * pi))
-
-
-def _too_soft(scene: Scene) -> str:
-    """What to say of a run that failed with a ring too soft for its disk."""
-    needed = 1.3 / scene.hoop.k if scene.hoop.k > 0 else inf
-    if scene.ring.bending_stiffness >= 10 * needed:
-        return ""
-    return f"; the pulse of so small a disk wants ring.bending_stiffness well above 1.3/k = {needed:.3g}"
-
-
-def _last_turn(number: int) -> str:
-    return f"the last turn asked for is reached: number {number}"
-
-
-def _swept(span: tuple[float, float]) -> Fraction:
-    """Fraction of an angle swept."""
-    return lambda t, phi: (phi - span[0]) / (span[1] - span[0])
 
 
 def _rest_of(run: Run, builder: Builder) -> Run | None:
@@ -231,7 +196,7 @@ def _slips_no_more(motion: Motion) -> bool:
     return bool(before - after <= LEAST_LOSS * after)
 
 
-def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _Progress) -> str:
+def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Progress) -> str:
     """Flexible from the release on, swing by swing; each pulse is measured over the rigid hoop's interval.
 
     A swing ends where phidot = 0 or the disk passes the top. The rigid hoop that says where its pulse lies, and whether
@@ -242,7 +207,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
         state = hand_over(hoop, reference, 0.0)
     except MarchError as error:
         builder.completed = False
-        return str(error) + _too_soft(scene)
+        return str(error) + too_soft(scene)
     run: Run | None = scene.run
     horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
     watch = progress.watch(0.0, 1.0, lambda t, phi: t / horizon)
@@ -272,11 +237,11 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: _P
             trouble = f"stopped at t = {state.t:.6g}: the rigid hoop swings that far in a quarter of this time"
         if trouble:
             builder.completed = False
-            return trouble + _too_soft(scene)
+            return trouble + too_soft(scene)
         if run.until == "pulse" and any(not pulse.cut for pulse in builder.pulses):
             return "the first pulse is over"
         run = _rest_of(scene.run, builder)
-    return "the time to run is over" if scene.run.turns is None else _last_turn(scene.run.turns)
+    return "the time to run is over" if scene.run.turns is None else last_turn(scene.run.turns)
 
 
 def _to_the_end_of(pulse: Pulse, ends: Ends, phi: float) -> Ends:

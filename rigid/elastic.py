@@ -22,7 +22,10 @@ class Ring:
     poisson : float
         Poisson's ratio, plane stress.
     thickness : float or None
-        Wall h over R. It follows from r when r > 1; when r = 1 it defaults to 0.02.
+        Wall h over R, of a hoop with r = 1 alone, 0.02 by default; with r > 1 it is 1 - 1/r.
+    section_width : float or None
+        Width b of the wall over R, by which stresses are divided; without it they are those of a hoop of width R. No
+        motion knows of it. A section in SI units in a scene file says it.
     weld_half_angle : float
         Half the arc of the inner rim that is welded to the disk, seen from the centre, in radians;
         ``weld_half_angle_deg`` gives it in degrees.
@@ -31,6 +34,7 @@ class Ring:
     bending_stiffness: float = 1e4
     poisson: float = 0.3
     thickness: float | None = None
+    section_width: float | None = None
     weld_half_angle: float = radians(3)
 
     def __post_init__(self) -> None:
@@ -53,6 +57,8 @@ class Ring:
                 open_low=True,
                 open_high=True,
             )
+        if self.section_width is not None:
+            require("ring.section_width", self.section_width, 1e-12, 1e12, "section_width is the width over R, above 0")
         require(
             "ring.weld_half_angle_deg",
             self.weld_half_angle * 180 / pi,
@@ -62,6 +68,9 @@ class Ring:
             open_low=True,
         )
 
+
+#: foundation whose patch of the weight is 5e-6 R wide: of a stiffer one what gaps are known to is some of its depth
+STIFFEST = 1e16
 
 #: names of the friction laws, which are defined in the flexible solver
 LAWS = ("patch", "brush", "regularised")
@@ -103,8 +112,8 @@ class Contact:
             "contact.stiffness",
             self.stiffness,
             0,
-            inf,
-            "the foundation eps_n R^2/(m g) must be positive",
+            STIFFEST,
+            f"the foundation eps_n R^2/(m g) lies above 0 and is at most {STIFFEST:.0e}",
             open_low=True,
         )
         require(
@@ -181,8 +190,8 @@ def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[d
 
     A strip ``width`` wide and ``height`` thick, or a tube of ``tube_diameter`` with a wall of ``tube_wall`` (half the
     diameter is a full rod), lengths in m, lies with its outermost fibre at R. With ``youngs_modulus`` (Pa) that is the
-    bending stiffness E I/(m g R^2), with ``density`` (kg/m^3) also the mass of the hoop, of a bar as long as the circle
-    through its middle.
+    bending stiffness E I/(m g R^2), and the width of the strip that bends and is strained like it; with ``density``
+    (kg/m^3) also the mass of the hoop, of a bar as long as the circle through its middle.
 
     Parameters
     ----------
@@ -233,7 +242,10 @@ def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[d
         if "mass_ratio" in hoop:
             raise SceneError("hoop.mass_ratio and ring.density cannot both be given: each says how heavy the hoop is.")
         of_hoop["mass_ratio"] = ring["density"] * area * 2 * pi * (R - high / 2) / m
-    return {"bending_stiffness": ring["youngs_modulus"] * moment / (m * g * R**2)}, of_hoop
+    # a tube bends, and is strained where it is farthest out, as a strip as high and as stiff
+    width = 12 * moment / high**3
+    of_ring = {"bending_stiffness": ring["youngs_modulus"] * moment / (m * g * R**2), "section_width": width / R}
+    return of_ring, of_hoop
 
 
 def _section(ring: Mapping[str, Any]) -> tuple[float, float, float]:

@@ -227,6 +227,11 @@ class Scene(Measured):
         for name, kind in PARTS.items():
             if not isinstance(part := getattr(self, name), kind):
                 raise SceneError(f"{name} = {part!r} is not possible: it must be a {kind.__name__}.")
+        if self.hoop.r > 1 and self.ring.thickness is not None:
+            raise SceneError(
+                f"ring.thickness = {self.ring.thickness!r} is not possible: hoop.r = {self.hoop.r!r} says how thick the"
+                " wall is, 1 - 1/r; it is for r = 1."
+            )
 
     @property
     def wall(self) -> float:

@@ -25,6 +25,7 @@ from .scene import PARTS, Scene
 SceneLike = Scene | str | PathLike[str] | Mapping[str, Any]
 """What a solver takes for a scene: one, the name of a shipped one, the path of a file, what a file says as a dict."""
 
+UNITS = "R", "m", "g"
 _NEEDED = {"hoop": ("k",), "friction": ("mu_s", "mu"), "release": ("phi0_deg",)}
 _IN_DEGREES = {"phi0": "phi0_deg", "weld_half_angle": "weld_half_angle_deg"}
 
@@ -54,6 +55,7 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
     parts: dict[str, Any] = {}
     _ensure_known(data)
     data = _without_section(data)
+    _ensure_all_units(data.get("hoop", {}))
     for part, table in data.items():
         keys = _file_keys(part)
         values = {}
@@ -70,6 +72,15 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
             if _file_keys(part)[key] not in parts.get(part, {}):
                 raise SceneError(f"{part}.{key} is missing: a scene needs it.")
     return Scene(**{part: PARTS[part](**values) for part, values in parts.items()})
+
+
+def _ensure_all_units(hoop: Mapping[str, Any]) -> None:
+    """Whether SI units are those of lengths, masses and gravity, or of none: m = 1 kg and g = 1 m/s^2 mean nobody."""
+    given = [key for key in UNITS if key in hoop]
+    missing = [key for key in UNITS if key not in hoop]
+    if given and missing and any(hoop[key] != 1 for key in given):
+        others = " and ".join(f"hoop.{key}" for key in missing)
+        raise SceneError(f"hoop.{given[0]} is in SI units: {others} must be given in them too.")
 
 
 def _ensure_known(data: Mapping[str, Any]) -> None:

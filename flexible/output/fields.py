@@ -8,8 +8,8 @@
 Instants between two steps are not interpolated: the march takes one more, shorter step to each, so the ring is in
 equilibrium with the contact in every frame. Between the pulses the hoop is rigid, and frames there show it undeformed.
 
-Units are the scene's. Its width b is no part of a scene: stresses, pressures and energy densities are those of a hoop
-of width R, and R/b times as large for another.
+Units are the scene's. Stresses, pressures and energy densities are those of the ring's ``section_width``; where a scene
+says none, of a hoop of width R, and R/b times as large for another of width b.
 """
 
 from __future__ import annotations
@@ -111,6 +111,8 @@ def write_fields(
     instants = instants_at(motion, when)
     painter = _Painter(scene, asked, instants)
     units = SI_UNITS if si else UNITS
+    if scene.ring.section_width is None:
+        units = units | {kind: f"{units[kind]} (b = R)" for kind in ("stress", "energy_density")}
     units = units | {name: unit(name, units) for name in FIELDS}
     with SeriesWriter(directory, units, _title(scene)) as writer:
         writer.history(**curves(motion, float(when[0]), float(when[-1])))
@@ -148,7 +150,7 @@ class _Painter:
         self.interiors = {id(i.kept): interior_of(i.kept.hoop) for i in instants if i.kept is not None}
         hoop = scene.hoop
         self.length = hoop.R
-        self.stress = hoop.m * hoop.g / hoop.R**2
+        self.stress = hoop.m * hoop.g / hoop.R**2 / (scene.ring.section_width or 1.0)
         x = [i.place.x_C for i in instants]
         R = self.length
         self.floor = floor_block((min(x) - 2) * R, (max(x) + 2) * R, 0.1 * R)

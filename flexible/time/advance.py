@@ -6,7 +6,7 @@ that step, and little more.
 
 from __future__ import annotations
 
-from math import inf, isfinite
+from math import inf, isfinite, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,7 +14,7 @@ import numpy as np
 from rigid.kernel.compile import jit, loop, part
 
 from ..contact.forces import contact_forces
-from ..contact.laws.listing import care, free, sticks
+from ..contact.laws.listing import breaks, care, free, sticks
 from ..contact.points.data import EXACTLY, Parameters
 from ..contact.points.rim import turned
 from ..models import reduced
@@ -58,6 +58,7 @@ WIDER, CLOSER = 10.0, 1.5  # is each leap than the one before it; closer where t
 DARING, RASH = 3.0, 30.0  # times its tolerance a leap may err, and one of those: it is that, or the end of the run
 MOST_STALLS = 50  # events within a shortest step of each other
 CAUGHT = 7  # a slide that the shortest step ends counts for so many
+LOOSE = 3.0  # times the root of its tolerance is the most impulse of a step in which a brush may break loose
 RESTS = 1e-8  # a step after which the count begins anew
 SPAN = 25  # steps tried between two looks at what else the machine has to do: 0.1 s at most
 COLUMNS = len(Record._fields) + 1  # of a row: a record, and the rotation of the rim at the floor
@@ -187,6 +188,14 @@ def _damping(aims: Aims, law: Parameters, state: State) -> tuple[float, float]:
     return aims.relaxation, aims.relaxation * law.eps_t * state.res.length
 
 
+@loop
+def _of_a_break(law: Parameters, aims: Aims, before: Sight, now: Sight, h: float) -> float:
+    """What counts as the error of a step, over its tolerance, in which the patch may break loose without an event."""
+    if not breaks(law, before, now):
+        return 0.0
+    return float((h * now.res.normal / (LOOSE * sqrt(aims.tolerance))) ** (1 / aims.power))
+
+
 def advance(
     model: Any, law: Parameters, table: Table, now: Standing, ends: Ends, aims: Aims, rows: Any
 ) -> Advanced:  # fmt: skip
@@ -223,7 +232,8 @@ def advance(
         before, seen = _sight(state, state.mode), _sight(taken, state.mode)
         length = (state.t + tries) - state.t
         if search.event == NO_EVENT:
-            error, wanted = taken.error / aims.tolerance if solved else inf, care(law, before) * _daring(leap, wider)
+            error = max(taken.error / aims.tolerance, _of_a_break(law, aims, before, seen, asked)) if solved else inf
+            wanted = care(law, before) * _daring(leap, wider)
             alike = not sticks(law, state.mode) or seen.res.friction * state.res.friction > 0
             if leap > 0 and error <= wanted and alike and passed(MODE_ENDS, law, ends, before, seen) >= 0:
                 why, h, pace = MODE_ENDED if stalls < MOST_STALLS else STALLED, SHORT, AFRESH

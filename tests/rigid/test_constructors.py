@@ -146,3 +146,26 @@ def test_a_value_that_is_no_number_is_shown_in_a_line():
         Ring(bending_stiffness=list(range(1000)))
     assert len(str(refused.value)) < 150
     assert "\n" not in str(refused.value)
+
+
+def test_a_wall_is_said_once():
+    """With r > 1 the radii say it; a thickness beside them was not looked at."""
+    thick = Ring(thickness=0.1)
+    assert Scene(Hoop(0.1), Friction(0.3, 0.2), Release(0.1), ring=thick).wall == 0.1
+    words = said(Scene, Hoop(0.1, r=1.02), Friction(0.3, 0.2), Release(0.1), ring=thick)
+    assert words.startswith("ring.thickness = 0.1 is not possible: hoop.r = 1.02 says how thick the wall is")
+
+
+@pytest.mark.parametrize("given", [{"R": 0.5}, {"g": 9.81}, {"R": 0.5, "m": 2}, {"m": 3, "g": 9.81}])
+def test_si_units_are_all_or_none(given):
+    """R = 0.5 alone was half a metre under a gravity of 1 m/s^2: times 3 times as long as anybody's."""
+    words = said(scene_from_dict, {**FILE, "hoop": {"k": 0.1, **given}})
+    first, missing = next(iter(given)), next(key for key in ("R", "m", "g") if key not in given)
+    assert words.startswith(f"hoop.{first} is in SI units: ")
+    assert f"hoop.{missing}" in words
+    assert scene_from_dict({**FILE, "hoop": {"k": 0.1, "R": 1.0}}).dimensionless
+
+
+@pytest.mark.parametrize("stiffness", [0.0, 1e17, 1e40])
+def test_a_foundation_stiffer_than_gaps_are_known_is_refused(stiffness):
+    assert said(Contact, stiffness=stiffness).startswith(f"contact.stiffness = {stiffness!r} is not possible")

@@ -39,6 +39,14 @@ def test_a_strip_by_hand():
     assert (scene.hoop.mass_ratio, scene.wall) == (0.7, pytest.approx(0.002 / 0.45))
 
 
+def test_stresses_are_those_of_the_section():
+    """A strip is as wide as it is; a tube is strained as a strip 12 I/D^3 = 5.6314 mm wide. No motion knows of it."""
+    strip, tube = scene_from_dict(table(STRIP)), scene_from_dict(table(TUBE))
+    assert strip.ring.section_width == pytest.approx(0.02 / 0.45)
+    assert tube.ring.section_width == pytest.approx(5.6314e-3 / 0.45, rel=1e-4)
+    assert scene_from_dict(table({})).ring.section_width is None
+
+
 def test_a_thin_tube_is_a_hoop_of_its_wall():
     """I -> pi D^3 t/8 and A -> pi D t for a thin wall, to the first order in t/D."""
     thin = scene_from_dict(table(TUBE | {"tube_wall": 1e-6}))

@@ -27,6 +27,7 @@ from .law import Law, PatchState, Rolling
 Array = NDArray[np.float64]
 
 CODE = 1
+NEAR = 0.97  # of all that a rolling patch can carry
 
 
 @loop
@@ -60,6 +61,7 @@ def tractions(
     return Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, stuck, 0.0)
 
 
+@loop
 def effective_mu_s(mu_s: float, mu: float) -> float:
     """Largest F/N of a rolling parabolic brush patch whose points break at ``mu_s`` p and slide at ``mu`` p."""
     if mu_s <= mu:
@@ -67,6 +69,14 @@ def effective_mu_s(mu_s: float, mu: float) -> float:
     q = mu / mu_s
     b = 2 * (1 - q) / (3 - 2 * q)
     return max(mu, mu_s * (3 * (b**2 - b**3) + q * (1 - 3 * b**2 + 2 * b**3)))
+
+
+@loop
+def breaks(law: Any, before: Any, now: Any) -> bool:
+    """Whether the patch breaks loose in a step, or may: it carries next to all that a rolling one can."""
+    res = before.res
+    near = abs(res.friction) > NEAR * effective_mu_s(law.mu_s, law.mu) * res.normal
+    return bool(res.stuck > 0 and now.res.normal > 0 and (near or now.res.stuck == 0))
 
 
 class Brush(Law):

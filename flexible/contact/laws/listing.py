@@ -66,6 +66,12 @@ def care(law: Any, state: Any) -> float:
 
 
 @loop
+def breaks(law: Any, before: Any, now: Any) -> bool:
+    """Whether the patch may break loose in a step without an event that tells when."""
+    return bool(law.law == brush.CODE and brush.breaks(law, before, now))
+
+
+@loop
 def free(law: Any, state: Any) -> int:
     """The mode in which a patch that is off the floor comes down."""
     return patch.free(state) if law.law == patch.CODE else state.mode
@@ -84,6 +90,6 @@ def rigid_limit(scene: Scene) -> Scene:
 
 
 __all__ = [
-    "LAWS", "care", "excess", "free", "may_end", "opposite", "rigid_limit", "sharing", "sticks", "successor",
+    "LAWS", "breaks", "care", "excess", "free", "may_end", "opposite", "rigid_limit", "sharing", "sticks", "successor",
     "tractions",
 ]  # fmt: skip

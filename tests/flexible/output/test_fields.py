@@ -237,7 +237,22 @@ def test_si_units(motion, tmp_path):
     # the force of an SI pressure on the rim of a hoop of width R
     force = integral(other["rim"], "pressure") * 0.5
     assert force == pytest.approx(3 * 9.81 * integral(one["rim"], "pressure"), rel=1e-5)
-    assert read(tmp_path / "si").about["units"]["stress"] == "Pa"
+    assert read(tmp_path / "si").about["units"]["stress"] == "Pa (b = R)"
+
+
+def test_stresses_are_those_of_a_wall_as_wide_as_the_scene_says(motion, tmp_path):
+    """In a strip R/40 wide every force is shared by a fortieth of the width; energies and motions stay."""
+    when = [motion.pulses[0].t_start + 0.3 * (motion.pulses[0].t_end - motion.pulses[0].t_start)]
+    strip = replace(motion, scene=motion.scene.replace(ring={"section_width": 1 / 40}))
+    write_fields(motion, tmp_path / "one", times=when)
+    write_fields(strip, tmp_path / "strip", times=when)
+    one, narrow = (read(tmp_path / name) for name in ("one", "strip"))
+    for block, name in [("ring", "von_mises"), ("ring", "energy_density"), ("rim", "pressure"), ("rim", "traction")]:
+        wide, found = (np.asarray(series[0].blocks[block].point_data[name]) for series in (one, narrow))
+        np.testing.assert_allclose(found, 40 * wide, rtol=1e-6, err_msg=name)
+    energies = [series[0].blocks["ring"].cell_data["strain_energy"] for series in (one, narrow)]
+    np.testing.assert_array_equal(*energies)
+    assert [series.about["units"]["von_mises"] for series in (one, narrow)] == ["m g/R² (b = R)", "m g/R²"]
 
 
 def test_200_frames_in_50_megabytes(motion, tmp_path):

@@ -1,0 +1,27 @@
+"""What a run says of itself."""
+
+from __future__ import annotations
+
+from flexible import simulate
+from flexible.told import in_time_of
+from rigid import load_scene
+
+
+def test_a_sentence_has_the_times_of_its_scene():
+    """The solver's are in sqrt(R/g)."""
+    sentence = "stopped at t = 5.1032, phi = 4.1: no step below 1e-12 (E b = 3, t = 1e-05)"
+    paper, printed = load_scene("paper-3.1"), load_scene("printed")
+    assert in_time_of(paper, sentence) == sentence
+    unit = (0.1 / 9.81) ** 0.5
+    told = in_time_of(printed, sentence)
+    assert (
+        told
+        == f"stopped at t = {5.1032 * unit:.6g} s, phi = 4.1: no step below 1e-12 (E b = 3, t = {1e-5 * unit:.6g} s)"
+    )
+
+
+def test_a_run_that_is_stopped_says_when_in_its_own_unit():
+    scene = load_scene("printed").replace(solve={"rtol": 1e-2})
+    asked = iter(range(5))
+    motion = simulate(scene, stop=lambda: next(asked, None) is None)
+    assert motion.ended.startswith(f"stopped at t = {motion.t_end:.6g} s as asked")
