@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import click
 
 from ..running.files import to_json, write_text
-from .shared.options import as_json, out_folder, results_folder
+from .shared.options import as_json, out_folder
+from .shared.results import begin_results, results_folder
 
 if TYPE_CHECKING:
     from ..bench.race import Result
@@ -56,6 +57,7 @@ def bench(
     if target is not None:
         from ..bench.shown.figures import draw
 
+        begin_results(target)
         write_text(target / f"bench-{what}.json", to_json(result.to_dict()))
         draw(what, result, target)
     if as_json:
@@ -94,6 +96,7 @@ def stress(
     if target is not None:
         from ..stress.figures import draw
 
+        begin_results(target)
         write_text(target / "stress.json", to_json(report.to_dict()))
         draw(report, target)
     if as_json:

@@ -25,7 +25,8 @@ from .bench import bench, stress, validate
 from .completion import completion
 from .hop import hop
 from .limit import limit
-from .shared.options import Commands, Names, SceneName, as_json, field_names, out_folder, results_folder, scene_argument
+from .shared.options import Commands, Names, SceneName, as_json, field_names, out_folder, scene_argument
+from .shared.results import begin_results, results_folder
 from .shared.single import one_flexible, one_rigid
 from .study import study
 from .view import view
@@ -190,6 +191,7 @@ def paper(out: Path | None, chosen: str) -> None:
     from .shared.tables import show
 
     target = results_folder(out if out is not None else Path("out-paper"))
+    begin_results(target)
     formats = ("png", "svg") if chosen == "both" else (chosen,)
     with bar("paper") as told:
         verdicts = reproduce(target, formats, progress=lambda done, total, _: told(done / total))
@@ -217,8 +219,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
         hint = f" See {context.command_path} -h." if context is not None else ""
         sentence = " ".join(error.format_message().split())
         return _say((sentence if sentence.endswith((".", "?")) else sentence + ".") + hint, 2)
-    except (KeyboardInterrupt, click.Abort):
-        return _say("Interrupted; what was finished is kept.", 130)
+    except (KeyboardInterrupt, click.Abort) as interrupt:
+        kept = "; ".join(["Interrupted", *map(str, (interrupt.__cause__ or interrupt).args)])
+        return _say(f"{kept}.", 130)
     except ImportError as error:
         return _say(f"A part of the installation is missing or broken: {error}.", 2)
     except OSError as error:

@@ -14,7 +14,8 @@ from rigid.elastic import LAWS
 from ..machine.kernels import compile_side_by_side, levels_of, prepare
 from ..running.files import to_json, write_text
 from ..running.solvers import ensure_accepts
-from .shared.options import SceneKey, SceneName, as_json, out_folder, results_folder, scheduler, workers
+from .shared.options import SceneKey, SceneName, as_json, out_folder, scheduler, workers
+from .shared.results import begin_results, results_folder
 
 if TYPE_CHECKING:
     from ..hop.rolling.roll import HopMap
@@ -135,6 +136,7 @@ def _beside(ctx: click.Context, target: Path | None, as_json: bool) -> int:
     with bar("hops beside other codes") as progress:
         found = peers.rolls(peers.CASES, progress=progress)
     if target is not None:
+        begin_results(target)
         write_text(target / "peers.json", to_json(peers.peers_to_dict(found)))
         save_both(peers.peers_figure(found), target / "peers")
     if as_json:
@@ -226,8 +228,8 @@ def _write(found: HopStudy, target: Path, line: str) -> None:
     from ..running.progress import bar
     from .shared.output import write_frame
 
+    begin_results(target)
     page = target / "report.html"
-    page.unlink(missing_ok=True)
     numbers = [
         write_frame(found.to_dataframe(), target / "hop.csv"),
         write_text(target / "hop.json", to_json(found.to_dict())),

@@ -10,7 +10,8 @@ from rigid import load_scene
 from rigid.elastic import LAWS
 
 from ..running.files import to_json, write_text
-from .shared.options import as_json, out_folder, results_folder, scene_argument, scheduler, workers
+from .shared.options import as_json, out_folder, scene_argument, scheduler, workers
+from .shared.results import begin_results, results_folder
 
 
 @click.command()
@@ -84,8 +85,8 @@ def limit(
         from ..plots.style import save_both
         from .shared.output import write_frame
 
+        begin_results(target)
         page = target / "report.html"
-        page.unlink(missing_ok=True)
         numbers = [
             write_frame(found.to_dataframe(), target / "limit.csv"),
             write_text(target / "limit.json", to_json(told)),

@@ -11,7 +11,8 @@ from rigid import load_scene
 from rigid.elastic import LAWS
 
 from ..running.files import StudyError, to_json, write_text
-from .shared.options import Commands, as_json, out_folder, results_folder, scene_argument, scheduler, workers
+from .shared.options import Commands, as_json, out_folder, scene_argument, scheduler, workers
+from .shared.results import begin_results, results_folder
 
 if TYPE_CHECKING:
     from ..running.workers import Pool
@@ -131,8 +132,8 @@ def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool, p
     from ..stiffness.report import CAPTIONS, stiffness_report, write_figure
     from .shared.output import write_first_pulse
 
+    begin_results(target)
     page = target / "report.html"
-    page.unlink(missing_ok=True)
     written = place.beside(write_first_pulse, found.scene, target) if fields else None
     drawn = {name: place.beside(write_figure, found, name, target) for name in CAPTIONS}
     numbers = [
@@ -209,6 +210,7 @@ def sweep(
         announce(f"{asked.announcement()}, into {target}.")
     with bar(f"{asked.cases} cases") as progress, pool(workers, scheduler) as place:
         table = run_sweep(asked, place, target, progress, announce)
+    begin_results(target)
     write_text(target / "table.csv", table.to_csv())
     if as_json:
         click.echo(to_json({"rows": table.records(), "failures": table.failures}))
