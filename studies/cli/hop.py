@@ -14,7 +14,7 @@ from rigid.elastic import LAWS
 from ..machine.kernels import compile_side_by_side, levels_of, prepare
 from ..running.files import to_json, write_text
 from ..running.solvers import ensure_accepts
-from .shared.options import SceneKey, SceneName, as_json, out_folder, scheduler, workers
+from .shared.options import Finite, SceneKey, SceneName, as_json, out_folder, scheduler, workers
 from .shared.results import begin_results, results_folder
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--rtol",
-    type=click.FloatRange(1e-8, 0.5),
+    type=Finite(1e-8, 0.5),
     metavar="T",
     help="Tolerance of the rolls, 3e-4 by default; thresholds are held against a third of it.",
 )

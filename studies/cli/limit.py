@@ -10,7 +10,7 @@ from rigid import load_scene
 from rigid.elastic import LAWS
 
 from ..running.files import to_json, write_text
-from .shared.options import as_json, out_folder, scene_argument, scheduler, workers
+from .shared.options import Finite, as_json, out_folder, scene_argument, scheduler, workers
 from .shared.results import begin_results, results_folder
 
 
@@ -21,14 +21,14 @@ from .shared.results import begin_results, results_folder
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--damping",
-    type=click.FloatRange(0),
+    type=Finite(0),
     metavar="D",
     help="Damping ratio of the patch under the hoop's own weight; by default the scene's own, 0 included.",
 )
 @click.option(
     "--flexible",
     "foundations",
-    type=click.FloatRange(0, min_open=True),
+    type=Finite(0, min_open=True),
     multiple=True,
     metavar="S",
     help="Observe the flexible solver at this foundation too; may be given several times.",
@@ -55,7 +55,7 @@ def limit(
     peers_too: bool,
     workers: int | None,
     scheduler: str | None,
-) -> None:
+) -> int:
     """The limit of infinite stiffness solved, not fitted: events, critical damping, and how fast a pulse gets there."""
     from ..limit.damping import damping_map
     from ..limit.study import limit_study
@@ -96,9 +96,10 @@ def limit(
         limit_report(found, tuple(more), images, line, page, numbers)
     if as_json:
         click.echo(to_json(told))
-        return
-    from .shared.tables import show
+    else:
+        from .shared.tables import show
 
-    show(*limit_sheets(found), *more)
-    if target is not None:
-        click.echo(f"Figures and limit.json are in {target}; open {target / 'report.html'}.")
+        show(*limit_sheets(found), *more)
+        if target is not None:
+            click.echo(f"Figures and limit.json are in {target}; open {target / 'report.html'}.")
+    return 1 if any(sight.failure for sight in found.sights) else 0

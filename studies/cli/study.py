@@ -11,7 +11,7 @@ from rigid import load_scene
 from rigid.elastic import LAWS
 
 from ..running.files import StudyError, to_json, write_text
-from .shared.options import Commands, as_json, out_folder, scene_argument, scheduler, workers
+from .shared.options import Commands, Finite, as_json, out_folder, scene_argument, scheduler, workers
 from .shared.results import begin_results, results_folder
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def study() -> None:
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--rate",
-    type=float,
+    type=Finite(0, min_open=True),
     metavar="P",
     help="Rate of the extrapolation (1/3 is 0.3333), in place of the contact law's own or a fitted one.",
 )
