@@ -78,10 +78,14 @@ def bench(
 @click.command()
 @as_json
 @out_folder("Write the map of margins here.")
-@click.option("--seed", type=click.IntRange(0, 2**31), default=0, metavar="N", help="Another sequence of scenes.")
+@click.option(
+    "--seed", type=click.IntRange(0, 2**31), default=0, metavar="N", help="The sequence of scenes; 0 by default."
+)
 @click.option("--scenes", type=click.IntRange(1, 1_000_000), metavar="N", help="How many scenes; 3000 by default.")
-@click.option("--soft", type=click.IntRange(0, 100_000), default=0, metavar="N", help="N more, of any stiffness.")
-@click.option("--quick", is_flag=True, help="840 scenes, in a few minutes.")
+@click.option(
+    "--soft", type=click.IntRange(0, 100_000), default=0, metavar="N", help="N more, of any stiffness; 0 by default."
+)
+@click.option("--quick", is_flag=True, help="Fewer scenes, with fewer steps each: a few minutes.")
 @click.pass_context
 def stress(
     ctx: click.Context, as_json: bool, out: Path | None, seed: int, scenes: int | None, soft: int, quick: bool

@@ -1,7 +1,7 @@
 """The command line: parse, call, print. What is computed lives elsewhere and is imported only when asked for.
 
-Exit status: 0 done; 1 done, but a motion stopped before what was asked or some case of a sweep failed; 2 something
-the user can mend, in one sentence; 130 interrupted.
+Exit status: 0 done; 1 done, but a motion was given up before what was asked or some case of a study failed; 2
+something the user can mend, in one sentence; 130 interrupted.
 """
 
 from __future__ import annotations
@@ -83,7 +83,11 @@ def rigid(scene: str, as_json: bool, out: Path | None) -> int:
 @click.option(
     "--frames", type=click.IntRange(2, 100_000), metavar="N", help="Frames through the first pulse, 200 by default."
 )
-@click.option("--times", metavar="T,T,...", help="Frames at these times instead.")
+@click.option(
+    "--times",
+    metavar="T,T,...",
+    help="Frames at these times instead, in sqrt(R/g), or in seconds where the scene is in SI units.",
+)
 @click.option(
     "--only",
     type=Names(field_names),

@@ -48,7 +48,10 @@ if TYPE_CHECKING:
     help="Tolerance of the rolls, 3e-4 by default; thresholds are held against a third of it.",
 )
 @click.option(
-    "--turns", type=click.IntRange(1, 100), metavar="N", help="Roll to this turn, in place of the scene's end."
+    "--turns",
+    type=click.IntRange(1, 100),
+    metavar="N",
+    help="Roll to this turn; by default to the scene's own end, which is turn 2 where it says none.",
 )
 @click.option("--whole", is_flag=True, help="Roll every hoop to its end, also where all is decided before.")
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from ..running.workers import Pool
     from ..stiffness.found import StiffnessStudy
 
+RAISED = "the foundation eps R^2/(m g), with --along bending E I/(m g R^2)"
+
 CODE = (
     "The module is imported (PYTHONPATH says from where) and its function called in every worker, "
     "with all that you may do: name only code that you trust."
@@ -39,8 +41,8 @@ def study() -> None:
     default="both",
     help="What is raised: contact foundation, ring bending, or both in the scene's ratio (default).",
 )
-@click.option("--low", type=float, metavar="S", help="Softest rung; by default 1e-2 of the scene's own stiffness.")
-@click.option("--high", type=float, metavar="S", help="Stiffest rung; by default 1e4 of it.")
+@click.option("--low", type=float, metavar="S", help=f"Softest rung, {RAISED}; by default 1e-2 of the scene's.")
+@click.option("--high", type=float, metavar="S", help="Stiffest rung; by default 1e4 of the scene's.")
 @click.option("--count", type=int, default=9, metavar="N", help="Number of rungs, 9 by default.")
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(

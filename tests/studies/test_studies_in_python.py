@@ -88,7 +88,7 @@ def test_a_sweep_is_what_says_so(tmp_path):
     assert others == [first] * 3
     with pytest.raises(rigid.SceneError, match=r"^17 is not a sweep"):
         run_sweep(17)
-    with pytest.raises(rigid.SceneError, match="nowhere.toml"):
+    with pytest.raises(rigid.SceneError, match=r"nowhere\.toml"):
         run_sweep("nowhere.toml")
 
 
