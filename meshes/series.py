@@ -177,7 +177,11 @@ class Series:
 
     def nearest(self, time: float) -> Frame:
         """The frame whose time is nearest to ``time``."""
-        return self[int(np.abs(self.times - time).argmin())]
+        return self[self.nearest_index(time)]
+
+    def nearest_index(self, time: float) -> int:
+        """The number of that frame."""
+        return int(np.abs(self.times - time).argmin())
 
     @cached_property
     def history(self) -> dict[str, Any]:

@@ -122,6 +122,8 @@ def require(
             return
     elif number:
         allowed = "it must be a finite number"
+    elif isinstance(value, str):
+        allowed = "it is text, not a number"
     raise SceneError(f"{key} = {shown(value)} is not possible: {allowed}.")
 
 

@@ -8,6 +8,7 @@ import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -125,7 +126,7 @@ class Table:
         return rows_to_csv(list(records[0]), (record.values() for record in records)) if records else ""
 
 
-def load_sweep(path: str | Path, solvers: Sequence[str] = (), max_cases: int = MAX_CASES) -> Sweep:
+def load_sweep(path: str | PathLike[str], solvers: Sequence[str] = (), max_cases: int = MAX_CASES) -> Sweep:
     """A sweep from a TOML file: a scene in which any value may be a list, and a table [sweep].
 
     ``[sweep]`` may name ``scene`` (a shipped scene or file from which all starts), ``solvers`` ("rigid", "flexible" or
@@ -153,6 +154,23 @@ def load_sweep(path: str | Path, solvers: Sequence[str] = (), max_cases: int = M
     except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise SceneError(f"{path} is not TOML: {error}.") from None
     return sweep_from_dict(data, solvers, max_cases)
+
+
+def as_sweep(source: Sweep | str | PathLike[str] | Mapping[str, Any]) -> Sweep:
+    """A sweep from whatever says which.
+
+    Raises
+    ------
+    SceneError
+        As of :func:`load_sweep`, or none of these.
+    """
+    if isinstance(source, Sweep):
+        return source
+    if isinstance(source, Mapping):
+        return sweep_from_dict(source)
+    if isinstance(source, (str, PathLike)):
+        return load_sweep(source)
+    raise SceneError(f"{source!r} is not a sweep: it must be a Sweep, the path of a file, or a dict.")
 
 
 def sweep_from_dict(data: Mapping[str, Any], solvers: Sequence[str] = (), max_cases: int = MAX_CASES) -> Sweep:
@@ -238,16 +256,33 @@ def _filled(tables: Mapping[str, Any], keys: Sequence[str], values: tuple[Any, .
 
 
 def run_sweep(
-    sweep: Sweep,
+    sweep: Sweep | str | PathLike[str] | Mapping[str, Any],
     pool: Pool | None = None,
     out: str | Path | None = None,
     progress: Callable[[float], None] | None = None,
     say: Callable[[str], None] | None = None,
 ) -> Table:
-    """Run a sweep and give its table; see :func:`run_cases` for what is kept in ``out`` and what is said.
+    """Run a sweep and give its table.
 
-    Without a ``pool`` (:func:`studies.pool`) the cases run here, one after the other.
+    Parameters
+    ----------
+    sweep : Sweep, path or dict
+        What to run, or the TOML file that says so (:func:`load_sweep`), or a dict as such a file gives it.
+    pool : Pool, optional
+        Where (:func:`studies.pool`); by default the cases run here, one after the other.
+    out : path, optional
+        A folder in which finished cases are kept and found again; see :func:`run_cases`.
+    progress : callable, optional
+        Told the fraction done.
+    say : callable, optional
+        Told, in sentences, what was found damaged and what the rest will take.
+
+    Raises
+    ------
+    SceneError
+        As of :func:`load_sweep`.
     """
+    sweep = as_sweep(sweep)
     asked: list[tuple[dict[str, Any], str, Case | str]] = []
     for values, scene in sweep.points:
         for name in sweep.solvers:

@@ -63,7 +63,8 @@ def _begin(package: str) -> None:
         _told.add(package)
         folder, trouble = user_cache()
         _logger.warning(
-            "hoop: compiling the %s solver for this machine, once: 10 to 40 s, or more if it is busy. Kept in %s%s.",
+            "hoop: compiling a part of the %s solver for this machine, once: 10 to 40 s, or more if it is busy. "
+            "Kept in %s%s.",
             package,
             folder,
             f", as {trouble}" if trouble else "",

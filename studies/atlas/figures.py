@@ -130,13 +130,17 @@ def legend(atlas: Drawn, named: list[Region], rest: list[Region]) -> list[Artist
 
 
 def label(axes: Axes, mask: Any, text: int) -> None:
-    """The number of a region where it is widest."""
+    """The number of a region where it is widest, inside the map."""
     step = 4
     room = distance_transform_edt(np.pad(mask[::step, ::step], 1))[1:-1, 1:-1]
     i, j = np.unravel_index(int(np.argmax(room)), room.shape)
     if room[i, j] < 0.012 * len(room):
         return
-    x, y = (float(p * step + step / 2) / len(mask) for p in (j, i))
+    digit = 0.011  # half its width
+    x, y = (
+        float(np.clip((p * step + step / 2) / len(mask), half, 1 - half))
+        for p, half in ((j, digit * len(str(text))), (i, 2 * digit))
+    )
     axes.text(x, y, str(text), ha="center", va="center", fontsize=11, weight="bold", path_effects=HALO)
 
 

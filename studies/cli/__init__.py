@@ -5,10 +5,12 @@ import sys
 from collections.abc import Sequence
 
 from ..machine import one_blas_thread, search_garbage_seldom
+from .shared.letters import spell_out
 
 
 def main() -> None:
     """Entry point of the command ``hoop``."""
+    spell_out()
     one_blas_thread()
     search_garbage_seldom()
     # read when numba is imported, for LLVM: compiles in a tenth less time than its 3, to code as fast

@@ -9,7 +9,8 @@ import click
 from rigid import load_scene
 
 from ..running.files import to_json, write_text
-from .shared.options import SceneKey, SceneName, as_json, out_folder, results_folder
+from .shared.options import SceneKey, SceneName, as_json, out_folder
+from .shared.results import begin_results, results_folder
 
 
 @click.command()
@@ -52,6 +53,7 @@ def atlas(scene: str, as_json: bool, out: Path | None, over: tuple[str, ...], si
     if target is not None:
         from ..plots.style import save
 
+        begin_results(target)
         with bar("picture and data"):
             save(found.plot(), target / "atlas.png")
             found.save(target / "atlas.npz")

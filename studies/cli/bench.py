@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import click
 
 from ..running.files import to_json, write_text
-from .shared.options import as_json, out_folder, results_folder
+from .shared.options import as_json, out_folder
+from .shared.results import begin_results, results_folder
 
 if TYPE_CHECKING:
     from ..bench.race import Result
@@ -56,6 +57,7 @@ def bench(
     if target is not None:
         from ..bench.shown.figures import draw
 
+        begin_results(target)
         write_text(target / f"bench-{what}.json", to_json(result.to_dict()))
         draw(what, result, target)
     if as_json:
@@ -76,10 +78,14 @@ def bench(
 @click.command()
 @as_json
 @out_folder("Write the map of margins here.")
-@click.option("--seed", type=click.IntRange(0, 2**31), default=0, metavar="N", help="Another sequence of scenes.")
+@click.option(
+    "--seed", type=click.IntRange(0, 2**31), default=0, metavar="N", help="The sequence of scenes; 0 by default."
+)
 @click.option("--scenes", type=click.IntRange(1, 1_000_000), metavar="N", help="How many scenes; 3000 by default.")
-@click.option("--soft", type=click.IntRange(0, 100_000), default=0, metavar="N", help="N more, of any stiffness.")
-@click.option("--quick", is_flag=True, help="840 scenes, in a few minutes.")
+@click.option(
+    "--soft", type=click.IntRange(0, 100_000), default=0, metavar="N", help="N more, of any stiffness; 0 by default."
+)
+@click.option("--quick", is_flag=True, help="Fewer scenes, with fewer steps each: a few minutes.")
 @click.pass_context
 def stress(
     ctx: click.Context, as_json: bool, out: Path | None, seed: int, scenes: int | None, soft: int, quick: bool
@@ -94,6 +100,7 @@ def stress(
     if target is not None:
         from ..stress.figures import draw
 
+        begin_results(target)
         write_text(target / "stress.json", to_json(report.to_dict()))
         draw(report, target)
     if as_json:

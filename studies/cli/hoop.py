@@ -1,7 +1,7 @@
 """The command line: parse, call, print. What is computed lives elsewhere and is imported only when asked for.
 
-Exit status: 0 done; 1 done, but a motion stopped before what was asked or some case of a sweep failed; 2 something
-the user can mend, in one sentence; 130 interrupted.
+Exit status: 0 done; 1 done, but a motion was given up before what was asked or some case of a study failed; 2
+something the user can mend, in one sentence; 130 interrupted.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ from .bench import bench, stress, validate
 from .completion import completion
 from .hop import hop
 from .limit import limit
-from .shared.options import Commands, Names, SceneName, as_json, field_names, out_folder, results_folder, scene_argument
+from .shared.options import Commands, Names, SceneName, as_json, field_names, out_folder, scene_argument
+from .shared.results import begin_results, results_folder
 from .shared.single import one_flexible, one_rigid
 from .study import study
 from .view import view
@@ -82,7 +83,11 @@ def rigid(scene: str, as_json: bool, out: Path | None) -> int:
 @click.option(
     "--frames", type=click.IntRange(2, 100_000), metavar="N", help="Frames through the first pulse, 200 by default."
 )
-@click.option("--times", metavar="T,T,...", help="Frames at these times instead.")
+@click.option(
+    "--times",
+    metavar="T,T,...",
+    help="Frames at these times instead, in sqrt(R/g), or in seconds where the scene is in SI units.",
+)
 @click.option(
     "--only",
     type=Names(field_names),
@@ -190,6 +195,7 @@ def paper(out: Path | None, chosen: str) -> None:
     from .shared.tables import show
 
     target = results_folder(out if out is not None else Path("out-paper"))
+    begin_results(target)
     formats = ("png", "svg") if chosen == "both" else (chosen,)
     with bar("paper") as told:
         verdicts = reproduce(target, formats, progress=lambda done, total, _: told(done / total))
@@ -217,8 +223,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
         hint = f" See {context.command_path} -h." if context is not None else ""
         sentence = " ".join(error.format_message().split())
         return _say((sentence if sentence.endswith((".", "?")) else sentence + ".") + hint, 2)
-    except (KeyboardInterrupt, click.Abort):
-        return _say("Interrupted; what was finished is kept.", 130)
+    except (KeyboardInterrupt, click.Abort) as interrupt:
+        kept = "; ".join(["Interrupted", *map(str, (interrupt.__cause__ or interrupt).args)])
+        return _say(f"{kept}.", 130)
     except ImportError as error:
         return _say(f"A part of the installation is missing or broken: {error}.", 2)
     except OSError as error:

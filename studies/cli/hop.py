@@ -14,7 +14,8 @@ from rigid.elastic import LAWS
 from ..machine.kernels import compile_side_by_side, levels_of, prepare
 from ..running.files import to_json, write_text
 from ..running.solvers import ensure_accepts
-from .shared.options import SceneKey, SceneName, as_json, out_folder, results_folder, scheduler, workers
+from .shared.options import Finite, SceneKey, SceneName, as_json, out_folder, scheduler, workers
+from .shared.results import begin_results, results_folder
 
 if TYPE_CHECKING:
     from ..hop.rolling.roll import HopMap
@@ -42,12 +43,15 @@ if TYPE_CHECKING:
 )
 @click.option(
     "--rtol",
-    type=click.FloatRange(1e-8, 0.5),
+    type=Finite(1e-8, 0.5),
     metavar="T",
     help="Tolerance of the rolls, 3e-4 by default; thresholds are held against a third of it.",
 )
 @click.option(
-    "--turns", type=click.IntRange(1, 100), metavar="N", help="Roll to this turn, in place of the scene's end."
+    "--turns",
+    type=click.IntRange(1, 100),
+    metavar="N",
+    help="Roll to this turn; by default to the scene's own end, which is turn 2 where it says none.",
 )
 @click.option("--whole", is_flag=True, help="Roll every hoop to its end, also where all is decided before.")
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
@@ -135,6 +139,7 @@ def _beside(ctx: click.Context, target: Path | None, as_json: bool) -> int:
     with bar("hops beside other codes") as progress:
         found = peers.rolls(peers.CASES, progress=progress)
     if target is not None:
+        begin_results(target)
         write_text(target / "peers.json", to_json(peers.peers_to_dict(found)))
         save_both(peers.peers_figure(found), target / "peers")
     if as_json:
@@ -226,8 +231,8 @@ def _write(found: HopStudy, target: Path, line: str) -> None:
     from ..running.progress import bar
     from .shared.output import write_frame
 
+    begin_results(target)
     page = target / "report.html"
-    page.unlink(missing_ok=True)
     numbers = [
         write_frame(found.to_dataframe(), target / "hop.csv"),
         write_text(target / "hop.json", to_json(found.to_dict())),

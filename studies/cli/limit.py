@@ -10,7 +10,8 @@ from rigid import load_scene
 from rigid.elastic import LAWS
 
 from ..running.files import to_json, write_text
-from .shared.options import as_json, out_folder, results_folder, scene_argument, scheduler, workers
+from .shared.options import Finite, as_json, out_folder, scene_argument, scheduler, workers
+from .shared.results import begin_results, results_folder
 
 
 @click.command()
@@ -20,17 +21,17 @@ from .shared.options import as_json, out_folder, results_folder, scene_argument,
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--damping",
-    type=click.FloatRange(0),
+    type=Finite(0),
     metavar="D",
     help="Damping ratio of the patch under the hoop's own weight; by default the scene's own, 0 included.",
 )
 @click.option(
     "--flexible",
     "foundations",
-    type=click.FloatRange(0, min_open=True),
+    type=Finite(0, min_open=True),
     multiple=True,
     metavar="S",
-    help="Observe the flexible solver at this foundation too; may be given several times.",
+    help="Observe the flexible solver at this foundation, eps R^2/(m g), too; may be given several times.",
 )
 @click.option("--map", "mapped", is_flag=True, help="J_F/J_N over damping ratio and foundation too; a minute or two.")
 @click.option(
@@ -54,7 +55,7 @@ def limit(
     peers_too: bool,
     workers: int | None,
     scheduler: str | None,
-) -> None:
+) -> int:
     """The limit of infinite stiffness solved, not fitted: events, critical damping, and how fast a pulse gets there."""
     from ..limit.damping import damping_map
     from ..limit.study import limit_study
@@ -84,8 +85,8 @@ def limit(
         from ..plots.style import save_both
         from .shared.output import write_frame
 
+        begin_results(target)
         page = target / "report.html"
-        page.unlink(missing_ok=True)
         numbers = [
             write_frame(found.to_dataframe(), target / "limit.csv"),
             write_text(target / "limit.json", to_json(told)),
@@ -95,9 +96,10 @@ def limit(
         limit_report(found, tuple(more), images, line, page, numbers)
     if as_json:
         click.echo(to_json(told))
-        return
-    from .shared.tables import show
+    else:
+        from .shared.tables import show
 
-    show(*limit_sheets(found), *more)
-    if target is not None:
-        click.echo(f"Figures and limit.json are in {target}; open {target / 'report.html'}.")
+        show(*limit_sheets(found), *more)
+        if target is not None:
+            click.echo(f"Figures and limit.json are in {target}; open {target / 'report.html'}.")
+    return 1 if any(sight.failure for sight in found.sights) else 0

@@ -11,11 +11,14 @@ from rigid import load_scene
 from rigid.elastic import LAWS
 
 from ..running.files import StudyError, to_json, write_text
-from .shared.options import Commands, as_json, out_folder, results_folder, scene_argument, scheduler, workers
+from .shared.options import Commands, Finite, as_json, out_folder, scene_argument, scheduler, workers
+from .shared.results import begin_results, results_folder
 
 if TYPE_CHECKING:
     from ..running.workers import Pool
     from ..stiffness.found import StiffnessStudy
+
+RAISED = "the foundation eps R^2/(m g), with --along bending E I/(m g R^2)"
 
 CODE = (
     "The module is imported (PYTHONPATH says from where) and its function called in every worker, "
@@ -38,13 +41,13 @@ def study() -> None:
     default="both",
     help="What is raised: contact foundation, ring bending, or both in the scene's ratio (default).",
 )
-@click.option("--low", type=float, metavar="S", help="Softest rung; by default 1e-2 of the scene's own stiffness.")
-@click.option("--high", type=float, metavar="S", help="Stiffest rung; by default 1e4 of it.")
+@click.option("--low", type=float, metavar="S", help=f"Softest rung, {RAISED}; by default 1e-2 of the scene's.")
+@click.option("--high", type=float, metavar="S", help="Stiffest rung; by default 1e4 of the scene's.")
 @click.option("--count", type=int, default=9, metavar="N", help="Number of rungs, 9 by default.")
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--rate",
-    type=float,
+    type=Finite(0, min_open=True),
     metavar="P",
     help="Rate of the extrapolation (1/3 is 0.3333), in place of the contact law's own or a fitted one.",
 )
@@ -131,8 +134,8 @@ def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool, p
     from ..stiffness.report import CAPTIONS, stiffness_report, write_figure
     from .shared.output import write_first_pulse
 
+    begin_results(target)
     page = target / "report.html"
-    page.unlink(missing_ok=True)
     written = place.beside(write_first_pulse, found.scene, target) if fields else None
     drawn = {name: place.beside(write_figure, found, name, target) for name in CAPTIONS}
     numbers = [
@@ -209,6 +212,7 @@ def sweep(
         announce(f"{asked.announcement()}, into {target}.")
     with bar(f"{asked.cases} cases") as progress, pool(workers, scheduler) as place:
         table = run_sweep(asked, place, target, progress, announce)
+    begin_results(target)
     write_text(target / "table.csv", table.to_csv())
     if as_json:
         click.echo(to_json({"rows": table.records(), "failures": table.failures}))

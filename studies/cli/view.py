@@ -19,20 +19,25 @@ if TYPE_CHECKING:
 
 FILE = click.Path(path_type=Path, dir_okay=False)
 
+TIME = "in sqrt(R/g), or in seconds where the scene is in SI units"
+SHOWN = "by default so much that the largest displacement is about 6 % of R"
+
 
 @click.command()
 @click.argument("path", type=SceneName())
 @click.option("--png", type=FILE, metavar="FILE", help="Draw one instant, at --time or else at the peak of N.")
-@click.option("--time", type=float, metavar="T", help="The instant of --png.")
+@click.option("--time", type=float, metavar="T", help=f"The instant of --png, {TIME}; of fields, the nearest frame.")
 @click.option("--gif", type=FILE, metavar="FILE", help="Animate the run.")
 @click.option("--mp4", type=FILE, metavar="FILE", help="Animate the run.")
 @click.option("--html", type=FILE, metavar="FILE", help="Animate the run in a page with a slider.")
-@click.option("--field", type=Names(field_names), metavar="NAME", help="What is coloured, von_mises for instance.")
-@click.option("--factor", type=float, metavar="X", help="How much the deformation is exaggerated.")
-@click.option("--zoom", type=float, metavar="X", help="Enlarge what is about the contact, X from 1.")
-@click.option("--start", type=float, metavar="T", help="Begin the animation at this time.")
-@click.option("--stop", type=float, metavar="T", help="End it at this time.")
-@click.option("--frames", type=click.IntRange(2, 100_000), metavar="N", help="Frames of the animation.")
+@click.option("--field", type=Names(field_names), metavar="NAME", help="What is coloured; von_mises by default.")
+@click.option("--factor", type=float, metavar="X", help=f"How much the deformation is exaggerated; {SHOWN}.")
+@click.option("--zoom", type=float, metavar="X", help="Enlarge what is about the contact, X from 1, the default.")
+@click.option("--start", type=float, metavar="T", help=f"Begin the animation at this time, {TIME}.")
+@click.option("--stop", type=float, metavar="T", help="End it at this time; by default it is the whole run.")
+@click.option(
+    "--frames", type=click.IntRange(2, 100_000), metavar="N", help="Frames of the animation, 60 by default, of mp4 150."
+)
 @click.option("--fps", type=click.IntRange(1, 120), metavar="N", help="Frames per second, 20 by default.")
 @click.option(
     "--pace",
@@ -71,16 +76,18 @@ def view(
     if time is not None and png is None:
         raise StudyError("--time needs --png FILE: it is the instant that is drawn.")
 
-    from meshes import SeriesError
+    from meshes import Series, SeriesError
     from meshes.view import Timing, ViewError, animate, picture, window
 
-    from ..running.progress import bar
+    from ..running.progress import announce, bar
 
     look: dict[str, Any] = {"field": field, "factor": factor, "zoom": 1.0 if zoom is None else zoom}
     try:
         thing = _thing(path)
         if png is not None:
             picture(thing, png, time, **look)
+            if time is not None and isinstance(thing, Series) and (drawn := _drawn(thing, time)) != f"{time:.6g}":
+                announce(f"{png} shows t = {drawn}, the frame nearest to {time:.6g}.")
         for file in films:
             with bar(file.name) as told:
                 animate(thing, file, **look, timing=Timing(**pacing), progress=partial(_fraction, told))
@@ -88,6 +95,10 @@ def view(
             window(thing, **look)
     except (ViewError, SeriesError) as error:
         raise StudyError(str(error)) from None
+
+
+def _drawn(series: Series, time: float) -> str:
+    return f"{series.times[series.nearest_index(time)]:.6g}"
 
 
 def _fraction(told: Callable[[float], None], done: int, total: int) -> None:

@@ -28,6 +28,9 @@ from .case import Outcome
 from .files import StudyError, folder, to_json, write_whole
 from .history import Columns
 
+FILE = "study.sqlite"
+"""Name of the file of rows."""
+
 _FORMAT = 2
 """Of the file; another number is another version's."""
 
@@ -57,7 +60,7 @@ class Store:
 
     def __init__(self, out: str | Path) -> None:
         self.folder = folder(out)
-        self.file = self.folder / "study.sqlite"
+        self.file = self.folder / FILE
         if (self.folder / "histories").exists():
             folder(self.folder / "histories")
         with self._connection() as connection:
@@ -172,6 +175,16 @@ class Store:
         if hashlib.sha256(packed).hexdigest() != digest:
             raise Damaged(key)
         return packed
+
+
+def finished(out: Path) -> int:
+    """How many cases of a folder have a result; none where there is no study, or none that can be read."""
+    if not (out / FILE).is_file():
+        return 0
+    try:
+        return len(Store(out).done())
+    except StudyError:
+        return 0
 
 
 def _checksum(*texts: Any) -> str:

@@ -13,6 +13,7 @@ The solvers are known here only by what every motion has: its pulses and their m
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -73,10 +74,12 @@ def stiffness_study(
     Raises
     ------
     StudyError
-        The rigid hoop has no pulse to study, or too few rungs came through to speak of a limit.
+        No rate, a rigid hoop without a pulse to study, or too few rungs that came through to speak of a limit.
     """
     from flexible import rigid_limit
 
+    if exponent is not None and not 0 < exponent < inf:
+        raise StudyError(f"exponent = {exponent!r} is not possible: a rate is finite and above 0.")
     scene = as_scene(scene)
     ladder = ladder or Ladder.around(scene)
     pool = pool or Here()

@@ -248,7 +248,7 @@ def run_stress(
     seed : int
         Of the sequence.
     quick : bool
-        Some 840 scenes instead of 3000, with fewer steps each: a few minutes on two cores.
+        Fewer scenes, with fewer steps each: a few minutes on two cores.
     progress : callable, optional
         Told the fraction done.
     soft : int

@@ -11,7 +11,7 @@ import meshes
 import rigid
 import studies
 from rigid import load_scene
-from studies import Ladder, limit_study, run_sweep, stiffness_study, sweep_from_dict
+from studies import Ladder, StudyError, limit_study, run_sweep, stiffness_study, sweep_from_dict
 from studies.running.solvers import version
 
 mpl.use("Agg")
@@ -21,6 +21,13 @@ mpl.use("Agg")
 def study():
     """A hoop that tends to the rigid one at a rate that is known."""
     return stiffness_study("paper-3.3-massless", Ladder("both", 1e7, 1e12, 6), solver="third_solver:softened")
+
+
+@pytest.mark.parametrize("rate", [float("nan"), float("inf"), -1.0, 0.0])
+def test_a_rate_that_is_none_is_refused_before_anything_runs(tmp_path, rate):
+    with pytest.raises(StudyError, match="exponent = "):
+        stiffness_study("paper-3.3-massless", exponent=rate, out=tmp_path)
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_study_draws_its_distance(study):
@@ -70,6 +77,19 @@ def test_a_sweep_needs_no_pool():
     assert list(frame[frame["pulse"] == 1]["impulse_ratio"]) == ratios
     assert len(repr(table)) < 60
     assert "impulse_ratio" in table._repr_html_()
+
+
+def test_a_sweep_is_what_says_so(tmp_path):
+    """A dict, a path, its text or a sweep, as a scene is for ``rigid.simulate``."""
+    data = {"sweep": {"scene": "paper-3.1", "solvers": ["rigid"]}, "hoop": {"k": [0.1, 0.25]}}
+    file = tmp_path / "two.toml"
+    file.write_text('[sweep]\nscene = "paper-3.1"\nsolvers = ["rigid"]\n[hoop]\nk = [0.1, 0.25]\n')
+    first, *others = (run_sweep(source).to_csv() for source in (data, file, str(file), sweep_from_dict(data)))
+    assert others == [first] * 3
+    with pytest.raises(rigid.SceneError, match=r"^17 is not a sweep"):
+        run_sweep(17)
+    with pytest.raises(rigid.SceneError, match=r"nowhere\.toml"):
+        run_sweep("nowhere.toml")
 
 
 @pytest.mark.parametrize("package", [rigid, meshes, flexible, studies])

@@ -1,26 +1,45 @@
-"""Options that several commands have, what a shell completes of them, and the folder that a command writes into."""
+"""Options that several commands have, and what a shell completes of them."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import fields
-from functools import partial
+from math import isfinite
 from pathlib import Path
-from typing import Any, TypeVar, get_type_hints, overload
+from typing import Any, TypeVar, get_type_hints
 
 import click
 from click.shell_completion import CompletionItem
 
-from ...running.files import StudyError, folder, write_text
 from ...running.progress import quietly
+from .results import OVERWRITE
 
 F = TypeVar("F", bound=Callable[..., Any])
 
-MADE_BY = "command.txt"
-"""What a folder of results says of itself: the command line that wrote it."""
 
-OVERWRITE = "studies.cli.overwrite"
+class Folder(click.Path):
+    """The name of a folder: an empty one, which a script's unset variable leaves, is not the current folder."""
+
+    def __init__(self) -> None:
+        super().__init__(path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The name as a path."""
+        if not os.fspath(value):
+            self.fail("it takes the name of a folder, and this one is empty.", param, ctx)
+        return super().convert(value, param, ctx)
+
+
+class Finite(click.FloatRange):
+    """A number of a range, which neither infinity nor what is no number belongs to."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The number."""
+        number = super().convert(value, param, ctx)
+        if not isfinite(number):
+            self.fail(f"{number} is not a finite number.", param, ctx)
+        return number
 
 
 class SceneName(click.ParamType):
@@ -103,58 +122,17 @@ def out_folder(help: str = "Write results into this folder.") -> Callable[[F], F
     """``--out DIR``, and ``--overwrite`` for a folder that holds another command's results."""
 
     def decorate(function: F) -> F:
-        out = click.option("--out", type=click.Path(path_type=Path), metavar="DIR", help=help)
+        out = click.option("--out", type=Folder(), metavar="DIR", help=help)
         overwrite = click.option(
             "--overwrite",
             is_flag=True,
             expose_value=False,
             callback=_remember,
-            help="Write into DIR even if it holds the results of another command.",
+            help="Write into DIR even if it holds another command's results, which go, or files of these names.",
         )
         return out(overwrite(function))
 
     return decorate
-
-
-@overload
-def results_folder(path: Path) -> Path: ...
-@overload
-def results_folder(path: None) -> None: ...
-@overload
-def results_folder(path: Path | None) -> Path | None: ...
-def results_folder(path: Path | None) -> Path | None:
-    """The folder of ``--out``, made if need be and marked with the command that writes into it.
-
-    The same command may write into it again, and finds there what it had finished.
-
-    Raises
-    ------
-    StudyError
-        It holds the results of another command, or nothing can be written into it.
-    """
-    if path is None:
-        return None
-    ctx = click.get_current_context()
-    mark = path / MADE_BY
-    try:
-        held = mark.read_text(encoding="utf-8").strip()
-    except (OSError, UnicodeDecodeError):
-        held = ""
-    mine = ctx.command_path
-    other = held.startswith("hoop ") and not f"{held} ".startswith(f"{mine} ")
-    if other and not ctx.meta.get(OVERWRITE):
-        raise StudyError(f"{path} holds the results of `{held}`: name another folder, or add --overwrite.")
-    target = folder(path)
-    write_text(mark, f"{ctx.obj or mine}\n")
-    ctx.call_on_close(partial(_unmark_if_empty, target))
-    return target
-
-
-def _unmark_if_empty(target: Path) -> None:
-    """A command that failed before its first file leaves no folder that looks taken."""
-    with suppress(OSError):
-        if [path.name for path in target.iterdir()] == [MADE_BY]:
-            (target / MADE_BY).unlink()
 
 
 def _hush(ctx: click.Context, _: click.Parameter, value: bool) -> None:

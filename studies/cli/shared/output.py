@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -43,7 +44,7 @@ def field_wishes(frames: int | None = None, times: str | None = None, only: str 
     Raises
     ------
     StudyError
-        Times that are no numbers, or fields that do not exist.
+        Times that are none, or fields that do not exist.
     """
     from flexible.output.fields import FIELDS
 
@@ -54,9 +55,12 @@ def field_wishes(frames: int | None = None, times: str | None = None, only: str 
         if frames is not None:
             raise StudyError("--frames and --times cannot both be: the times say how many frames there are.")
         try:
-            wishes["times"] = [float(entry) for entry in times.split(",")]
+            listed = [float(entry) for entry in times.split(",")]
         except ValueError:
             raise StudyError(f"--times {times} is not possible: it takes numbers with commas between them.") from None
+        if not all(0 <= time < inf for time in listed):
+            raise StudyError(f"--times {times} is not possible: times after the release are finite and from 0.")
+        wishes["times"] = listed
     if only is not None:
         names = [name.strip() for name in only.split(",") if name.strip()]
         unknown = [name for name in names if name not in FIELDS]

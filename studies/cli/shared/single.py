@@ -17,7 +17,7 @@ from rigid import Motion, Scene
 from ...running.files import StudyError, to_json
 from ...running.progress import bar
 from ...running.solvers import ensure_accepts, solver
-from .options import results_folder
+from .results import begin_results, results_folder
 
 if TYPE_CHECKING:
     from flexible import FlexibleMotion
@@ -51,8 +51,8 @@ def one_flexible(
     from ...machine.kernels import compile_on_all_cores, levels_of
 
     resume = None if earlier is None else _earlier(earlier)
-    target = results_folder(out if out is not None else earlier)
     ensure_accepts("flexible", scene)
+    target = results_folder(out if out is not None else earlier)
     compile_on_all_cores(levels_of([scene]))
     with bar("flexible hoop") as progress, _interrupts(target is not None) as stop:
         try:
@@ -104,6 +104,7 @@ def _told(motion: Motion, target: Path | None, as_json: bool, wishes: dict[str, 
     if target is not None:
         from .output import write_fields, write_motion
 
+        begin_results(target)
         write_motion(motion, target)
         if wishes is not None:
             with bar("fields") as progress:

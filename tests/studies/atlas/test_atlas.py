@@ -173,6 +173,22 @@ def test_the_command(hoop, tmp_path):
     assert sorted(path.name for path in (tmp_path / "map").iterdir()) == [*results, "command.txt"]
 
 
+def test_every_number_lies_inside_the_map(drawn: Atlas):
+    """That of a narrow region at the edge too: "10" stands on the left of this one."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    figure = drawn.plot()
+    FigureCanvasAgg(figure).draw()
+    axes = figure.axes[0]
+    inside = axes.get_window_extent()
+    numbers = [text for text in axes.texts if text.get_text().isdecimal()]
+    assert "10" in [text.get_text() for text in numbers]
+    for text in numbers:
+        box = text.get_window_extent()
+        assert inside.x0 <= box.x0 < box.x1 <= inside.x1
+        assert inside.y0 <= box.y0 < box.y1 <= inside.y1
+
+
 @pytest.mark.parametrize("over", ["hoop.k=0.1", "hoop.k=a:b", "hoop.k=0.1:0.2:0.3", "hoop.k=0.1:0.2"])
 def test_the_command_refuses_in_a_sentence(hoop, tmp_path, over: str):
     status, out, err = hoop("study", "atlas", "--over", over, "--out", tmp_path / "map")

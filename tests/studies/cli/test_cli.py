@@ -85,6 +85,7 @@ BAD_SCENES = {
     "mu": ("mu = 0.3", "mu = 0.4", "friction.mu = 0.4"),
     "nan": ("k = 0.1", "k = nan", "hoop.k = nan"),
     "word": ("k = 0.1", "k = 'tiny'", "hoop.k = 'tiny'"),
+    "text": ("k = 0.1", "k = '0.1'", "hoop.k = '0.1' is not possible: it is text, not a number."),
     "key": ("mu_s = 0.35", "mus = 0.35", "friction.mus"),
     "part": ("[release]", "[releese]", "releese"),
     "toml": ("[release]", "[release", "is not TOML"),
@@ -130,6 +131,10 @@ def test_a_hoop_that_cannot_be_flexible_is_one_sentence_and_leaves_nothing(hoop,
         (("study", "stiffness", "paper-3.1", "--solver", "nobody"), "nobody"),
         (("study", "stiffness", "paper-3.1", "--solver", "no.such:solver"), "no.such"),
         (("study", "stiffness", "paper-3.1", "--workers", "0"), "workers"),
+        *((("study", "stiffness", "paper-3.1", f"--rate={rate}"), "--rate") for rate in ("nan", "inf", "-1", "0")),
+        (("study", "limit", "paper-3.1", "--damping", "nan"), "--damping"),
+        (("study", "limit", "paper-3.1", "--flexible", "inf"), "--flexible"),
+        (("study", "hop", "--rtol", "nan"), "--rtol"),
         (("scenes", "paper-9.9"), "paper-9.9"),
         (("view", "paper-9.9"), "paper-9.9"),
         (("view", "nowhere.pvd", "--png", "a.png"), "nowhere.pvd"),
@@ -174,6 +179,20 @@ def test_a_file_that_outgrows_its_place_leaves_nothing_behind(tmp_path):
     assert done.returncode == 2
     assert is_one_sentence(done.stderr)
     assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "cp1252", "utf-8"])
+def test_any_encoding_of_stdout_will_do(encoding):
+    """What it has not is spelled out; what a file or a pipe of UTF-8 gets is as ever."""
+    own = environment(PYTHONIOENCODING=encoding)
+    table = process("rigid", "paper-3.1", env=own, encoding=encoding)
+    assert (table.returncode, table.stderr) == (0, "")
+    assert ("J_F/(μ J_N)" if encoding == "utf-8" else "J_F/(mu J_N)") in table.stdout
+    assert "?" not in table.stdout
+    # click takes an ASCII stream for a mistake of the environment, and its sentences are UTF-8 there
+    refused = process("rigid", "μ.toml", env=own, encoding=encoding, errors="replace")
+    assert refused.returncode == 2
+    assert is_one_sentence(refused.stderr)
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")

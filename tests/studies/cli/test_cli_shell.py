@@ -70,6 +70,25 @@ def test_the_shell_takes_the_script(hoop, shell):
         assert subprocess.run([program, "-n"], input=out, text=True, capture_output=True).returncode == 0
 
 
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        (("view",), {"--time": "seconds", "--start": "seconds", "--stop": "default", "--frames": "60 by default"}),
+        (("view",), {"--field": "von_mises by default", "--factor": "by default", "--zoom": "default"}),
+        (("flexible",), {"--times": "seconds"}),
+        (("stress",), {"--seed": "0 by default", "--soft": "0 by default", "--scenes": "3000 by default"}),
+        (("study", "stiffness"), {"--low": "eps R^2/(m g)", "--high": "by default"}),
+        (("study", "hop"), {"--turns": "by default"}),
+    ],
+)
+def test_help_has_units_and_defaults(hoop, line, said):
+    status, out, _ = hoop(*line, "-h")
+    assert status == 0
+    options = [" ".join(entry.split()) for entry in re.split(r"\n  (?=-)", out)]
+    for option, words in said.items():
+        assert any(entry.startswith(f"{option} ") and words in entry for entry in options), option
+
+
 def test_quiet_is_silence_on_stderr(hoop, tmp_path):
     (tmp_path / "two.toml").write_text(SCENE.format(k="[0.1, 0.2]") + '[sweep]\nsolvers = ["rigid"]\n')
     line = ("study", "sweep", tmp_path / "two.toml", "--workers", 1)

@@ -60,8 +60,16 @@ def test_view_draws_a_picture_and_an_animation(run, tmp_path):
     from PIL import Image
 
     png, gif = tmp_path / "a.png", tmp_path / "a.gif"
+    times = read(run).times
+    nearest = f"{times[np.abs(times - 5.85).argmin()]:.6g}"
+    assert nearest != "5.85"
     done = process("view", run, "--png", png, "--time", 5.85, "--field", "hoop_stress", "--zoom", 4)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert (done.returncode, done.stdout) == (0, "")
+    assert is_one_sentence(done.stderr)
+    assert f"t = {nearest}, the frame nearest to 5.85" in done.stderr
+    for exact in (("--time", nearest), ()):
+        done = process("view", run, "--png", png, *exact)
+        assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     with Image.open(png) as image:
         assert len(image.convert("RGB").getcolors(maxcolors=10**7)) > 100
     done = process("view", run, "--gif", gif, "--frames", 3, "--fps", 5, "--pace", "time", "--factor", 100)
@@ -98,6 +106,10 @@ def test_bad_wishes_are_one_sentence(hoop, run, arguments, words):
         (("--fields",), "--out"),
         (("--out", "o", "--frames", 5), "--fields"),
         (("--out", "o", "--fields", "--times", "1,x"), "1,x"),
+        *(
+            (("--out", "o", "--fields", f"--times={times}"), "--times")
+            for times in ("-1", "1,-1e-9", "nan", "1,inf", "")
+        ),
         (("--out", "o", "--fields", "--times", "1", "--frames", 5), "cannot both be"),
         (("--out", "o", "--fields", "--only", "colour"), "colour"),
         (("--out", "o", "--fields", "--frames", 1), "1"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -52,3 +54,11 @@ def test_the_table_has_a_row_for_each_measure_of_each_run(study):
     assert (seen["distance"] / seen["predicted"]).tolist() == pytest.approx([AWAY] * len(seen), rel=1e-6)
     assert (seen["value"] - seen["limit"]).tolist() == seen["distance"].tolist()
     assert set(frame[frame["failure"] != ""]["solver"]) == {"flexible"}
+
+
+@pytest.mark.parametrize("form", [(), ("--json",)])
+def test_the_command_leaves_with_1_where_a_case_failed(hoop, study, monkeypatch, form):
+    for sights, status in ((study.sights, 1), (study.sights[:-1], 0)):
+        told = dataclasses.replace(study, sights=sights)
+        monkeypatch.setattr("studies.limit.study.limit_study", lambda *_, told=told, **__: told)
+        assert hoop("study", "limit", "paper-3.3-massless", "--workers", 1, *form)[0] == status

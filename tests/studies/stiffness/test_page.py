@@ -92,6 +92,7 @@ def test_the_page_comes_when_all_that_it_names_is_there(hoop, tmp_path, monkeypa
 
     seen = []
     (tmp_path / "report.html").write_text("old")
+    (tmp_path / "command.txt").write_text("hoop study stiffness paper-3.3-massless")  # an earlier run of the same
 
     def fails(*_: object) -> None:
         seen.append((tmp_path / "report.html").exists())

@@ -1,0 +1,166 @@
+"""Folders of results: whose they are, one run's alone, and what an interrupted command says it left."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Callable
+from pathlib import Path
+
+import click
+import pytest
+from command_line import SCENE, is_one_sentence
+
+from studies.cli import hoop as cli
+from studies.cli.shared import results
+from studies.running import progress
+
+
+def names(folder: Path) -> set[str]:
+    return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Callable[..., Path]:
+    """A flexible hoop of few steps; without mass its ring keeps less."""
+
+    def write(k: float = 0.1, more: str = "") -> Path:
+        file = tmp_path / f"scene-{k}.toml"
+        file.write_text(SCENE.format(k=k) + more + "[contact]\nstiffness = 1e7\n[solve]\nrtol = 1e-2\n")
+        return file
+
+    return write
+
+
+@pytest.mark.parametrize(
+    ("line", "file"),
+    [
+        (("rigid", "paper-3.1"), "history.csv"),
+        (("rigid", "paper-3.1"), "command.txt"),
+        (("paper",), "table.csv"),
+        (("paper",), "figure-07-left.csv"),
+        (("study", "atlas"), "atlas.json"),
+        (("bench", "rigid"), "bench-rigid.json"),
+    ],
+)
+def test_a_strangers_file_is_not_written_over(hoop, tmp_path, line, file):
+    out = tmp_path / "d"
+    out.mkdir()
+    (out / file).write_text("mydata")
+    status, printed, err = hoop(*line, "--out", out)
+    assert (status, printed) == (2, "")
+    assert is_one_sentence(err)
+    assert file in err
+    assert "--overwrite" in err
+    assert names(out) == {file}
+    assert (out / file).read_text() == "mydata"
+
+
+def test_a_folder_with_other_files_is_taken_and_they_stay(hoop, tmp_path):
+    (tmp_path / "notes.md").write_text("mine")
+    (tmp_path / "my-pulse.png").write_text("mine")
+    assert hoop("rigid", "paper-3.1", "--out", tmp_path)[0] == 0
+    assert hoop("rigid", "paper-3.4-rough", "--out", tmp_path)[0] == 0
+    assert (tmp_path / "notes.md").read_text() == (tmp_path / "my-pulse.png").read_text() == "mine"
+
+
+def test_overwrite_takes_a_strangers_folder(hoop, tmp_path):
+    (tmp_path / "history.csv").write_text("mydata")
+    assert hoop("rigid", "paper-3.1", "--out", tmp_path, "--overwrite")[0] == 0
+    assert (tmp_path / "history.csv").read_text().startswith("t,phi")
+
+
+@pytest.mark.parametrize("line", [("rigid", "paper-3.1"), ("study", "stiffness", "paper-3.1"), ("stress", "--quick")])
+def test_an_empty_name_is_no_folder(hoop, tmp_path, monkeypatch, line):
+    monkeypatch.chdir(tmp_path)
+    status, out, err = hoop(*line, "--out", "")
+    assert (status, out) == (2, "")
+    assert is_one_sentence(err)
+    assert "--out" in err
+    assert os.listdir(tmp_path) == []
+
+
+def test_a_folder_holds_one_run(hoop, tmp_path, scene):
+    """Fields and figures of the first do not stay beside the second, which has no pulse; somebody's notes do."""
+    out = tmp_path / "p"
+    assert hoop("flexible", scene(0.1), "--out", out, "--fields", "--frames", 3, "--only", "displacement")[0] == 0
+    assert {"fields.pvd", "pulse.png", "fields/about.json"} <= names(out)
+    (out / "fields" / "my notes").write_text("mine")
+    short = tmp_path / "short.toml"
+    short.write_text(scene(0.2).read_text().replace('until = "pulse"', "t_end = 0.5"))
+    status, _, err = hoop("flexible", short, "--out", out)
+    assert status == 0, err
+    assert names(out) == {"command.txt", "motion.json", "motion.npz", "history.csv", "fields/my notes"}
+    assert "short.toml" in (out / "command.txt").read_text()
+
+
+def test_overwriting_another_commands_results_removes_them(hoop, tmp_path, scene):
+    out = tmp_path / "p"
+    assert hoop("flexible", scene(), "--out", out, "--fields", "--frames", 2, "--only", "displacement")[0] == 0
+    assert hoop("study", "atlas", "--side", 16, "--out", out, "--overwrite")[0] == 0
+    assert names(out) == {"command.txt", "atlas.png", "atlas.npz", "atlas.json"}
+    assert not (out / "fields").exists()
+
+
+def test_a_run_that_is_refused_leaves_the_earlier_one(hoop, tmp_path, scene):
+    out = tmp_path / "p"
+    assert hoop("flexible", scene(), "--out", out)[0] == 0
+    before = {name: (out / name).read_bytes() for name in names(out)}
+    thin = tmp_path / "thin.toml"
+    thin.write_text(SCENE.format(k=0.1).replace("r = 1.02", "r = 1.0002"))
+    assert hoop("flexible", thin, "--out", out)[0] == 2
+    assert before == {name: (out / name).read_bytes() for name in names(out)}
+
+
+def test_what_a_command_writes_is_known(hoop, tmp_path, scene):
+    """Or it would stay behind beside the next run's."""
+    sweep = tmp_path / "two.toml"
+    sweep.write_text(SCENE.format(k="[0.1, 0.2]") + '[sweep]\nsolvers = ["rigid"]\nhistories = true\n')
+    study = ("study", "stiffness", scene(), "--count", 2, "--low", 1e6, "--high", 1e7, "--workers", 1)
+    for line in (
+        ("rigid", "paper-3.1"),
+        ("flexible", scene(), "--fields", "--frames", 2),
+        ("study", "sweep", sweep, "--workers", 1),
+        ("study", "limit", "paper-3.3-massless", "--workers", 1),
+        study,
+    ):
+        out = tmp_path / line[0] / Path(line[1]).stem
+        assert hoop(*line, "--out", out)[0] == 0
+        command = " ".join(["hoop", *map(str, line[: 2 if line[0] == "study" else 1])])
+        known = {path for name in results.WRITTEN[command] for path in out.glob(name)}
+        rest = {path.name for path in out.iterdir()} - {path.name for path in known}
+        assert rest <= {"command.txt", "study.sqlite", "histories"}
+        assert {path.name for path in (out / "fields").glob("*")} <= {path.name for path in known}
+
+
+def test_figures_of_studies_are_among_what_is_known():
+    from studies.stiffness.report import CAPTIONS
+
+    assert {f"{name}.svg" for name in CAPTIONS} < set(results.WRITTEN["hoop study stiffness"])
+
+
+def test_every_command_with_a_folder_is_known():
+    def commands(group: click.Group, before: str) -> dict[str, click.Command]:
+        found: dict[str, click.Command] = {}
+        for name, one in group.commands.items():
+            more = commands(one, f"{before} {name}") if isinstance(one, click.Group) else {f"{before} {name}": one}
+            found |= more
+        return found
+
+    writing = {n for n, one in commands(cli.hoop, "hoop").items() if any(p.name == "out" for p in one.params)}
+    assert writing == set(results.WRITTEN)
+
+
+@pytest.mark.parametrize("line", [("stress", "--quick"), ("bench", "rigid", "--quick"), ("paper",)])
+def test_an_interrupted_command_says_only_what_is_true(hoop, tmp_path, monkeypatch, line):
+    """Nothing is kept and no folder stays, made by the command or above it; one that was there is left."""
+
+    def typed(title: str) -> None:
+        signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(progress, "bar", typed)
+    for out in (tmp_path / "new" / "folder", tmp_path):
+        status, _, err = hoop(*line, "--out", out)
+        assert status == 130
+        assert err.strip() == "hoop: Interrupted."
+        assert os.listdir(tmp_path) == []
