@@ -66,7 +66,7 @@ class RestingModes:
 
 
 class RestingNodes:
-    """All free nodes of a :class:`flexible.models.full.NodalRing`.
+    """All free nodes of a :class:`flexible.ring.nodal.NodalRing`.
 
     Parameters
     ----------

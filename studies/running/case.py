@@ -127,8 +127,7 @@ class Outcome:
     phases: tuple[list[str], ...] = ()
     """What the contact does in each pulse, in order."""
     numerical_error: tuple[dict[str, float], ...] = ()
-    """Change of each measure from twice the tolerance to this one, per pulse; empty when nothing was
-    asked."""
+    """Of each measure, from the run at ``FINER`` times the tolerance, per pulse; empty when nothing was asked."""
     motion: dict[str, Any] = field(default_factory=dict, repr=False)
     """The motion as JSON prints it."""
     histories: tuple[Columns, ...] = field(default=(), repr=False)
