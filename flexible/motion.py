@@ -45,7 +45,10 @@ class Ledger:
     like the root of the steps' length where a soft ring lands and rings faster than they follow.
     ``hand_over`` is what went out (came in, where negative) where the rigid hoop was replaced by a flexible one, sagged
     and with a patch, and where it was put back: it tends to zero with growing stiffness. ``residual`` is all that the
-    others leave unexplained; it tends to zero faster than ``numerical_loss``, like rtol^(3/2).
+    others leave unexplained: the work of a patch's points beyond that of the patch as a whole, which is summed by
+    trapezoids over the steps. It falls more slowly than ``numerical_loss``, like rtol^(1/2) or so: below a tenth of
+    ``solve.rtol`` of the initial energy down to 1e-5 in thin walls, but more than ``solve.rtol`` in thick ones on stiff
+    floors (README.md, section 4). It is a limit of the books, and no part of the motion.
     """
 
     initial: Energy[float]
