@@ -14,6 +14,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from importlib import metadata
 from pathlib import Path
 
 import numpy as np
@@ -162,6 +163,17 @@ def test_a_result_of_another_version_is_not_taken_for_ours(monkeypatch):
     monkeypatch.setattr("studies.running.solvers.version", lambda: "99.0")
     build.cache_clear()
     assert Case("rigid", load_scene("paper-3.1")).key != before
+    build.cache_clear()
+
+
+@pytest.mark.parametrize("package", ["numpy", "numba"])
+def test_a_result_of_other_packages_is_not_taken_for_ours(monkeypatch, package):
+    """The last digits of a result are those of the packages that it was computed with."""
+    case = Case("rigid", load_scene("paper-3.1"))
+    there = metadata.version
+    monkeypatch.setattr(metadata, "version", lambda name: "99.0" if name == package else there(name))
+    build.cache_clear()
+    assert Case("rigid", load_scene("paper-3.1")).key != case.key
     build.cache_clear()
 
 
