@@ -149,13 +149,14 @@ class FlexibleMotion(Motion):
     """The motion of the flexible hoop: the common vocabulary, the energy ledger, the steps if they were asked for.
 
     With the steps come the states of the ring (``kept``, one per flexible segment), of which fields are made.
-    ``marches`` is what :func:`flexible.simulate` goes on from.
+    ``marches`` is what :func:`flexible.simulate` goes on from. Two motions are equal if all but these three are, which
+    are arrays that follow from the same steps.
     """
 
     ledger: Ledger
     steps: int
-    history: History | None = None
-    kept: tuple[Kept, ...] = ()
+    history: History | None = dataclasses.field(default=None, compare=False)
+    kept: tuple[Kept, ...] = dataclasses.field(default=(), compare=False)
     marches: tuple[March, ...] = dataclasses.field(default=(), compare=False)
 
     def _lines(self) -> list[tuple[str, str]]:
