@@ -22,9 +22,9 @@ import pytest
 from command_line import HANGS, SCENE, command, environment, is_one_sentence, process
 
 from rigid import SceneError, load_scene, scene_from_dict, scene_to_dict
+from rigid.output import whole
 from studies import StudyError, load_sweep, pool, run_sweep, sweep_from_dict
 from studies.machine.processes import Processes, WorkerDied
-from studies.running import files
 from studies.running.case import Case, run_case
 from studies.running.runs import Estimate, run_cases
 from studies.running.solvers import build
@@ -487,7 +487,7 @@ def test_parts_of_files_that_dead_processes_left_are_removed(tmp_path):
     gone.wait()
     histories = tmp_path / "histories"
     histories.mkdir()
-    host = files._host()
+    host = whole.host()
     dead, alive = (histories / f".part-{host}-{process}-abc_d.npz" for process in (gone.pid, os.getpid()))
     old, young = (histories / f".part-else-where-{process}-abc.npz" for process in (1, 2))
     for part in (dead, alive, old, young):
