@@ -37,10 +37,12 @@ class State(NamedTuple):
 
     @property
     def normal_force(self) -> float:
+        """N, in m g."""
         return self.res.normal
 
     @property
     def friction_force(self) -> float:
+        """F, in m g, positive to the right."""
         return self.res.friction
 
 
