@@ -45,7 +45,10 @@ class Ledger:
     like the root of the steps' length where a soft ring lands and rings faster than they follow.
     ``hand_over`` is what went out (came in, where negative) where the rigid hoop was replaced by a flexible one, sagged
     and with a patch, and where it was put back: it tends to zero with growing stiffness. ``residual`` is all that the
-    others leave unexplained; it tends to zero faster than ``numerical_loss``, like rtol^(3/2).
+    others leave unexplained: the work of a patch's points beyond that of the patch as a whole, which is summed by
+    trapezoids over the steps. It falls more slowly than ``numerical_loss``, like rtol^(1/2) or so: below a tenth of
+    ``solve.rtol`` of the initial energy down to 1e-5 in thin walls, but more than ``solve.rtol`` in thick ones on stiff
+    floors (README.md, section 4). It is a limit of the books, and no part of the motion.
     """
 
     initial: Energy[float]
@@ -146,13 +149,14 @@ class FlexibleMotion(Motion):
     """The motion of the flexible hoop: the common vocabulary, the energy ledger, the steps if they were asked for.
 
     With the steps come the states of the ring (``kept``, one per flexible segment), of which fields are made.
-    ``marches`` is what :func:`flexible.simulate` goes on from.
+    ``marches`` is what :func:`flexible.simulate` goes on from. Two motions are equal if all but these three are, which
+    are arrays that follow from the same steps.
     """
 
     ledger: Ledger
     steps: int
-    history: History | None = None
-    kept: tuple[Kept, ...] = ()
+    history: History | None = dataclasses.field(default=None, compare=False)
+    kept: tuple[Kept, ...] = dataclasses.field(default=(), compare=False)
     marches: tuple[March, ...] = dataclasses.field(default=(), compare=False)
 
     def _lines(self) -> list[tuple[str, str]]:

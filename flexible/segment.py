@@ -81,10 +81,12 @@ class Segment:
 
     @property
     def t_start(self) -> float:
+        """Time of the first record, in sqrt(R/g)."""
         return float(self["t"][0])
 
     @property
     def t_end(self) -> float:
+        """Time of the last record, in sqrt(R/g)."""
         return float(self["t"][-1])
 
     def held(self) -> Array:

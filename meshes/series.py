@@ -15,7 +15,7 @@ from __future__ import annotations
 import json
 import math
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -48,6 +48,11 @@ class SeriesWriter:
         What the colour bar prints, e.g. ``{"von_mises": "m g/R²"}``.
     title : str
         Printed above pictures.
+
+    Raises
+    ------
+    SeriesError
+        The directory cannot be made or written to, the disk is full; so do all methods.
 
     Examples
     --------
@@ -90,7 +95,7 @@ class SeriesWriter:
         Raises
         ------
         SeriesError
-            A time that is not after the last one, or a field that a VTU file cannot hold.
+            A time that is not after the last one, a field that a VTU file cannot hold, or a disk that is full.
         """
         if not self._time < frame.time < math.inf:
             raise SeriesError(f"a frame at t = {frame.time!r} cannot follow one at t = {self._time!r}.")
@@ -119,18 +124,29 @@ class SeriesWriter:
         Any arrays of numbers or strings may be kept. The pictures know ``t``, ``normal_force`` and
         ``friction_force`` (same length), and the phases as ``phase_kind`` (names), ``phase_start`` and
         ``phase_end``.
+
+        Raises
+        ------
+        SeriesError
+            Other arrays, or a disk that is full.
         """
         kept = {name: np.asarray(value) for name, value in arrays.items()}
         for name, value in kept.items():
             if value.dtype.kind not in "biufU":
                 raise SeriesError(f"history {name} holds {value.dtype}: numbers or strings are needed.")
-        write_whole(
+        _write(
             self.folder / "history.npz",
             lambda part: np.savez_compressed(part, **kept),  # type: ignore[arg-type]
         )
 
     def close(self) -> None:
-        """Name the last frames in the PVD."""
+        """Name the last frames in the PVD.
+
+        Raises
+        ------
+        SeriesError
+            The disk is full.
+        """
         if self._unnamed:
             self._write_pvd()
 
@@ -241,4 +257,11 @@ def read(path: str | Path) -> Series:
 
 
 def _replace(path: Path, content: bytes) -> None:
-    write_whole(path, lambda part: part.write_bytes(content))
+    _write(path, lambda part: part.write_bytes(content))
+
+
+def _write(path: Path, write: Callable[[Path], object]) -> None:
+    try:
+        write_whole(path, write)
+    except OSError as error:
+        raise SeriesError(f"{path} cannot be written: {error.strerror or error}.") from None

@@ -144,7 +144,8 @@ class Solve:
     ----------
     level : {"auto", "reduced", "full", "exact", "chain"}
         Reduced modes with static correction, every node of the ring, every node of the geometrically exact ring, or a
-        chain of parts that bend and turn far; "auto" takes the first, or the last for a soft ring.
+        chain of parts that bend and turn far; "auto" takes the first, for a soft ring (E I below 40) the last, and
+        where the wall of a soft ring is too thick for a chain every node of the exact one, a hundred times as slow.
     resolve : {"pulses", "all"}
         Flexible inside the pulses only, with the rigid closed form between them, or flexible throughout.
     start : {"equilibrium", "undeformed"}
@@ -156,7 +157,9 @@ class Solve:
         up to E I = 400, and of the chain of a soft ring up to 480, at 1e-3 from E I = 3 down, at 1e-4 from 10 down.
     through : int or None
         Elements through its wall; by default as many as keep the ring's slow frequencies and its compliances within
-        0.1 %: one up to r = 1.03, three at 1.2, five at 2.
+        0.1 %: one up to r = 1.029, three at 1.2, five at 2; of the chain's mesh two at least. Linear rings ("reduced"
+        and "full") have more where ``rtol`` asks for it, at most ten: at 1e-4 three at 1.2 and nine at 1.5, at 1e-5 two
+        at 1.02 and five at 1.2.
     integrator : {"esdirk3", "esdirk4", "tr-bdf2"}
         Implicit Runge-Kutta method of a step; the others are for comparison.
     """

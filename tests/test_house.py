@@ -192,6 +192,55 @@ def test_nothing_is_larger_than_one_can_read(larger: Callable[[], set[str]]) -> 
     assert not larger()
 
 
+def test_what_is_public_says_what_it_is() -> None:
+    """Functions, classes and their methods have a docstring, or a class of the project that they derive from has it.
+
+    Examples are scripts, each told by its file.
+    """
+    said: dict[str, set[str]] = {}  # methods by class
+    silent, bases = {}, {}
+    for module, path in SOURCES.items():
+        if module.startswith("studies.examples"):
+            continue
+        for owner, node in definitions(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ClassDef):
+                bases[node.name] = [ast.unparse(base).split("[")[0] for base in node.bases]
+            if ast.get_docstring(node):
+                said.setdefault(owner, set()).add(node.name)
+            elif not any(ast.unparse(decorator) == "overload" for decorator in node.decorator_list):
+                silent[f"{module}.{owner}.{node.name}".replace("..", ".")] = owner, node.name
+
+    def inherited(owner: str, name: str) -> bool:
+        return any(name in said.get(base, ()) or inherited(base, name) for base in bases.get(owner, ()))
+
+    left = {place for place, (owner, name) in silent.items() if not (owner and inherited(owner, name))}
+    assert left <= TERSE
+
+
+TERSE = {
+    "flexible.builder.Piece.states",
+    "flexible.ring.fem.Makes.made",
+    "studies.bench.mesh.Place.title",
+    "studies.bench.race.Row.least",
+    "studies.bench.race.Row.median",
+    "studies.bench.soft.Soft.on",
+    "studies.cli.hoop.hoop",  # it is told to click as an argument
+}
+"""What need not say more than its name."""
+
+
+Defined = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
+
+
+def definitions(tree: ast.Module | ast.ClassDef, owner: str = "") -> Iterator[tuple[str, Defined]]:
+    """Public functions, classes and methods of a module, each with its class."""
+    for node in tree.body:
+        if isinstance(node, Defined) and not node.name.startswith("_"):
+            yield owner, node
+            if isinstance(node, ast.ClassDef):
+                yield from definitions(node, node.name)
+
+
 def test_a_friction_law_is_known_by_its_own_file_alone() -> None:
     """The rest of the program asks :class:`flexible.contact.laws.law.Law`, and gets laws from where they are listed."""
     laws = "flexible.contact.laws"

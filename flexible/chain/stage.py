@@ -236,7 +236,7 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         for i in range(FRAME, old.pos.shape[0]):
             predictor.guess[i] = old.pos[i] - predictor.pos[i]
     expected, nothing = plus(predictor.pos, 1.0, predictor.guess), np.zeros(old.pos.shape[0])
-    looked = arrays.looked  # both stages of a step look where the first one does
+    looked = arrays.looked  # all stages of a step look where the first one does
     if first:
         low, high = reach(arrays, expected)
         if old.res.normal > 0:

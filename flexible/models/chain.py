@@ -19,9 +19,9 @@ from ..chain.stage import Arrays, solved
 from ..chain.touch import turned
 from ..chain.whole import energies_of, floor_forces, held, momentum_error, moved, reach
 from ..contact.points.data import Damper
-from ..contact.stage import Predictor, Stage
+from ..contact.stage import Near, Predictor, Stage
 from ..ring.choice import ring_of
-from .rim_contact import RimContact
+from .rim_contact import SLOW, RimContact
 from .state import Energies, State
 
 Array = NDArray[np.float64]
@@ -29,7 +29,6 @@ Window = tuple[int, int]
 
 PER_PART = 2  # rim elements to a part
 THROUGH = 2  # elements through the wall of the mesh that the chain is condensed from
-SLOW = 24  # modes of the ring by whose error steps are chosen, as many as the reduced ring has
 
 
 class ChainHoop(RimContact):
@@ -94,7 +93,7 @@ class ChainHoop(RimContact):
         mode: int,
         damper: Damper,
         predictor: Predictor,
-        near: tuple[Window, Array],
+        near: Near,
         first: bool,
     ) -> Stage:
         """See :class:`flexible.models.state.Model`."""

@@ -44,7 +44,7 @@ class RestingRing(Protocol):
         """Take the shape under rim forces; the largest change of a coordinate, relative to the largest."""
 
 
-class RestingModes:
+class RestingModes(RestingRing):
     """Modes and residual static compliance; ``arrays(window)`` gives modes and compliance on a window."""
 
     def __init__(self, dynamic: Array, load: Array, arrays: Any) -> None:
@@ -65,8 +65,8 @@ class RestingModes:
         return 0.0
 
 
-class RestingNodes:
-    """All free nodes of a :class:`flexible.models.full.NodalRing`.
+class RestingNodes(RestingRing):
+    """All free nodes of a :class:`flexible.ring.nodal.NodalRing`.
 
     Parameters
     ----------

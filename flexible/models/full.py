@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from rigid import Scene
 
 from ..contact.forces import contact_forces
-from ..contact.guess import off_its_way, slipping_on
-from ..contact.newton import before_bend, goes
+from ..contact.guess import off_its_way, shift, slipping_on
+from ..contact.newton import before_bend, goes, round_off
 from ..contact.points.data import MOST_ITERATIONS, Before, Damper, Rim, pulling
 from ..contact.stage import Near, Predictor, Stage
 from ..contact.vectors import largest
@@ -24,15 +24,15 @@ from ..ring.choice import ring_of
 from ..ring.fem import Ring
 from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
-from .rim_contact import RimContact
+from .rim_contact import SLOW, RimContact
 from .state import Energies, State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
 
-SLOW = 24  # modes of the ring by whose error steps are chosen, as many as the reduced ring has
 _WINDOWS = 8  # of which the columns are kept: a patch that moves on comes to others
 _LARGEST_LAG = 1e-3  # of beta times the change of omega since the ring's matrix was factored
+_STALE = 0.05  # of a misfit, what a step of Newton leaves at most with a matrix that is kept
 
 
 class _Factored:
@@ -182,7 +182,9 @@ class FullHoop(RimContact):
             res = contact.res
             by = off_its_way(res, way) if iteration > 0 else slipping_on(before, damper, res)
             if by != 0:  # as in flexible.models.stage
-                d[3 + dofs] += by * np.tile([sin(pos[2]), cos(pos[2])], len(u))
+                moved = np.zeros_like(u)
+                shift(moved, pos[2], by, 0.0)
+                d[3 + dofs] += moved.ravel()
                 pos = pos_pred + d
                 u = pos[3:][dofs].reshape(-1, 2)
                 contact = contact_forces(pos[:3], u, rim, law, mode, before, damper, True)
@@ -196,13 +198,10 @@ class FullHoop(RimContact):
                 return Stage(False), False
             small = known * (1 + abs(res.normal))
             if worst > small:
-                depth = abs(pos[1]) + np.abs(u).max()
-                small += 4e-16 * (law.eps_n + law.eps_t) * res.length * depth * (damper.relaxation + 1)
-                small += 1e-14 * (damper.relaxation + 1) * res.elastic
-                steepness = max(damper.drag, res.steepness)
-                small += 1e-15 * steepness * (abs(res.way) + abs(damper.way_0)) + self.ring.round_off(pos[3:])
+                scale = (law.eps_n + law.eps_t) * res.length
+                small += round_off(contact, pos[1], u, scale, damper) + self.ring.round_off(pos[3:])
                 small += 4e-16 * np.abs(acc[3:]).max(initial=0.0) * self.ring.body.ring_mass
-            factored = self._factor(pos, vel, acc, beta, lags and iteration > 1 and worst > 0.05 * last)
+            factored = self._factor(pos, vel, acc, beta, lags and iteration > 1 and worst > _STALE * last)
             matrix = NewtonMatrix(factored, own, contact.tangent, window)
             if worst <= small and iteration > 0:
                 if damper.pulls and res.eta < 0:

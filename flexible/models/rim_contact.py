@@ -24,6 +24,8 @@ KNOWN = EXACTLY, 1e-4  # of 1 + N: Newton's least and largest tolerance on the f
 #: least share of a step's tolerance on a soft ring; E I from which on it may have all of it, and rtol down from which;
 #: E I below which the first and the last are less, like its root
 STEPS = 0.3, 33.0, 3e-4, 1.0
+#: modes by whose error steps are chosen of a ring of nodes or parts; a reduced one has all of its own
+SLOW = 24
 COARSE = 1e-3  # rtol at which a law has its number of points; their share of the error falls like its cube, and faster
 
 

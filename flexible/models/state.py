@@ -37,10 +37,12 @@ class State(NamedTuple):
 
     @property
     def normal_force(self) -> float:
+        """N, in m g."""
         return self.res.normal
 
     @property
     def friction_force(self) -> float:
+        """F, in m g, positive to the right."""
         return self.res.friction
 
 
@@ -101,7 +103,7 @@ class Model(Protocol):
         near: Any,
         first: bool,
     ) -> Stage:
-        """Solve one stage, the ``first`` of a step or not.
+        """Solve one stage, the ``first`` of a step or not: a chain looks for its patch there alone.
 
         Newton may start from the last stage that was solved, ``near`` (:class:`flexible.contact.stage.Near`).
         Whatever fails in it is a stage that is not ok, or a LinAlgError.

@@ -1,9 +1,9 @@
 """What the wall yields besides at the corners of the weld, where its stress is singular.
 
 The strain energy that quads of size h miss at a corner falls but like h, and it is the mesh's largest error by far. So
-the two columns of quads to either side of a corner are cut finer and finer toward it (:mod:`meshes.corner`), and the
-finer nodes are condensed: their equilibrium under what the mesh's own nodes do. Mesh, rim and inertia stay as they are,
-and so does the price of a step.
+the columns of quads to either side of a corner, two of them and up to eight where the wall is thick, are cut finer and
+finer toward it (:mod:`meshes.corner`), and the finer nodes are condensed: their equilibrium under what the mesh's own
+nodes do. Mesh, rim and inertia stay as they are, and so does the price of a step.
 
 What that changes is a quadratic form of the nodes' displacements, and since no rigid motion feels it, one of the
 strains at the quads' Gauss points. So it is taken where a ring turns far, with Green's strains.

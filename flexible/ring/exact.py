@@ -113,6 +113,7 @@ class ExactElasticity:
         return np.asarray(stress)
 
     def strain_energy(self, u: Array) -> float:
+        """Of a displacement (n_free,) of the free dofs, at E b = 1."""
         strain = self._strain(u)[1]
         return float((strain * self._stress(strain)).sum()) / 2
 

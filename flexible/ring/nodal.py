@@ -100,6 +100,7 @@ class NodalRing:
         return self._linear
 
     def strain_energy(self, u: Array) -> float:
+        """Of a displacement (n,) of the free dofs, in m g R."""
         return float(u @ (self._linear @ u)) / 2
 
     def round_off(self, u: Array) -> float:

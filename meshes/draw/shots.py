@@ -80,14 +80,23 @@ class Source(Protocol):
     """Anything that can be drawn."""
 
     @property
-    def span(self) -> tuple[float, float]: ...
+    def span(self) -> tuple[float, float]:
+        """First and last time, in the run's unit."""
+
     @property
-    def title(self) -> str: ...
+    def title(self) -> str:
+        """Printed above the picture."""
+
     @property
-    def units(self) -> dict[str, str]: ...
+    def units(self) -> dict[str, str]:
+        """Unit of each field, for colour bars."""
+
     @property
-    def curves(self) -> Curves: ...
-    def shot(self, time: float) -> Shot: ...
+    def curves(self) -> Curves:
+        """Forces and phases over time, below the picture."""
+
+    def shot(self, time: float) -> Shot:
+        """What is seen at a time."""
 
 
 @dataclass(frozen=True)

@@ -29,6 +29,8 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any
 
+from ..output.whole import PART, write_whole
+
 NAME = "hoop-pulse"
 PACKAGES = ("rigid", "meshes", "flexible", "studies")
 SHARED = ".hoop-pulse-kernels"  # beside the packages, and no name that could be imported
@@ -170,7 +172,7 @@ def home(name: str, stamp: str) -> Path:
 
 def is_compiled(place: Path) -> bool:
     """Whether there is compiled code in a folder."""
-    return any(place.glob("__pycache__/*.nbc"))
+    return any(not file.name.startswith(PART) for file in place.glob("__pycache__/*.nbc"))
 
 
 def is_cold(package: str) -> bool:
@@ -185,17 +187,18 @@ def _copy(ready: Path, place: Path) -> None:
     """
     for file in sorted(ready.rglob("*")):  # code before the index that names it
         copy = place / file.relative_to(ready)
-        if file.is_file() and not copy.exists():
+        if file.is_file() and not file.name.startswith(PART) and not copy.exists():
             _write(copy, file.read_bytes(), file.stat().st_mtime_ns)
 
 
 def _write(file: Path, content: bytes, changed: int | None = None) -> None:
+    def fill(part: Path) -> None:
+        part.write_bytes(content)
+        if changed is not None:
+            os.utime(part, ns=(changed, changed))
+
     file.parent.mkdir(parents=True, exist_ok=True)
-    part = file.with_name(f"{file.name}.{os.getpid()}.part")
-    part.write_bytes(content)
-    if changed is not None:
-        os.utime(part, ns=(changed, changed))
-    os.replace(part, file)
+    write_whole(file, fill)
 
 
 def share() -> Path:

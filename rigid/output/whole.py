@@ -4,22 +4,47 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
+PART = ".part-"
+"""With what the name of an unfinished file begins; then come machine, process and what tells its threads apart."""
 
-def write_whole(path: Path, write: Callable[[Path], object]) -> None:
+
+@cache
+def host() -> str:
+    """Name of this machine."""
+    import platform
+
+    return platform.node() or "here"
+
+
+def write_whole(path: Path, write: Callable[[Path], object], synced: bool = False) -> None:
     """Let ``write`` fill a file beside ``path``, then rename it: a reader sees all of it or none.
 
-    Its temporary name keeps the suffix, from which writers tell the format.
+    Its temporary name keeps the suffix, from which writers tell the format, and is no other's: any number of threads
+    and processes may write the same file, and the last one counts.
+
+    Parameters
+    ----------
+    path : Path
+    write : callable
+        Takes the temporary path, of an empty file.
+    synced : bool
+        Whether the file is on the disk before it has its name, so that it outlives a loss of power.
 
     Raises
     ------
     OSError
-        It cannot be written; the error names ``path``, never the temporary file.
+        It cannot be written; the error names ``path``, never the temporary file, and nothing is left behind.
     """
-    part = path.with_name(f".{os.getpid()}-{path.name}")
+    part = path.with_name(f"{PART}{host()}-{os.getpid()}-{os.urandom(6).hex()}{path.suffix}")
     try:
+        part.touch(exist_ok=False)
         write(part)
+        if synced:
+            with part.open("rb+") as whole:
+                os.fsync(whole.fileno())
         os.replace(part, path)
     except OSError as error:
         if error.errno is None:  # a sentence of some library's, which may name what it was given

@@ -66,10 +66,3 @@ def contact_mobility(body: Body, psi: float) -> tuple[float, float, float]:
     """(by N on ddot h, across, by F on dot v): accelerations of the contact point under unit forces."""
     a, b, _ = arms(body.e, body.one_minus_e, psi)
     return 1 + a * a / body.gyration, -a * b / body.gyration, 1 + b * b / body.gyration
-
-
-def impulses_of_slip(body: Body, psi: float, change: float) -> tuple[float, float]:
-    """Impulses (of N, of F) in an instant that change the slip velocity by ``change`` and leave dot h = 0."""
-    a, b, _ = arms(body.e, body.one_minus_e, psi)
-    friction = change * (body.gyration + a * a) / rolling_inertia(body, psi)
-    return friction * a * b / (body.gyration + a * a), friction

@@ -72,6 +72,7 @@ class Stated:
     """How many times more or less it may be, for what the machine's load moves; 1 is to the last digit stated."""
 
     def written(self, readme: str) -> str | None:
+        """The number as it stands in the README; None where the words are not there."""
         found = re.search(self.words, readme)
         return found[1] if found else None
 

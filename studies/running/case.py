@@ -62,7 +62,7 @@ class Case:
     histories : bool
         Whether the forces through each pulse come back too.
     build : str
-        Version and sources that it is meant for; those of this process by default.
+        Version, sources and packages that it is meant for, see :func:`build`; those of this process by default.
     cut : bool
         Whether a motion that stops before what was asked is a result too, as far as it came; otherwise it is a failure.
     """
@@ -80,8 +80,7 @@ class Case:
 
     @property
     def key(self) -> str:
-        """Under which the result is stored: a hash of all that determines it, the version of this package
-        too."""
+        """Under which the result is stored: a hash of all that determines it, sources and versions of packages too."""
         described = {
             "solver": self.solver,
             "scene": _floats(scene_to_dict(self.scene)),
@@ -127,8 +126,7 @@ class Outcome:
     phases: tuple[list[str], ...] = ()
     """What the contact does in each pulse, in order."""
     numerical_error: tuple[dict[str, float], ...] = ()
-    """Change of each measure from twice the tolerance to this one, per pulse; empty when nothing was
-    asked."""
+    """Of each measure, from the run at ``FINER`` times the tolerance, per pulse; empty when nothing was asked."""
     motion: dict[str, Any] = field(default_factory=dict, repr=False)
     """The motion as JSON prints it."""
     histories: tuple[Columns, ...] = field(default=(), repr=False)
@@ -136,7 +134,7 @@ class Outcome:
 
 
 class OtherBuild(RuntimeError):
-    """A case came to a process whose sources are not those it is meant for."""
+    """A case came to a process whose sources or packages are not those it is meant for."""
 
 
 def run_case(case: Case) -> Outcome:
@@ -145,10 +143,13 @@ def run_case(case: Case) -> Outcome:
     Raises
     ------
     OtherBuild
-        It is meant for other sources than this process has: the result would be filed under a wrong key.
+        It is meant for other sources or packages than this process has: the result would be filed under a wrong key.
     """
     if case.build != (ours := build(case.solver)):
-        raise OtherBuild(f"The workers run hoop-pulse {ours}, the sweep is one of {case.build}: they must agree")
+        raise OtherBuild(
+            f"The workers run hoop-pulse {ours}, the sweep is one of {case.build}: they must agree, and so must their"
+            " versions of Python, numpy, scipy, numba and scikit-fem"
+        )
     start = running_clock()
     known = {
         "key": case.key,

@@ -6,13 +6,14 @@ import errno
 import json
 import math
 import os
-import platform
 import tempfile
 import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
+
+from rigid.output import whole
 
 
 class StudyError(Exception):
@@ -60,8 +61,6 @@ def folder(path: str | Path) -> Path:
     return path
 
 
-_PART = ".part-"
-
 _FORGOTTEN = 24 * 3600.0
 """Seconds after which a part of another machine's is taken for left behind: no file here takes a minute to write."""
 
@@ -72,19 +71,15 @@ def clear_parts(path: Path) -> None:
     A part's name says whose it is. Of another machine's processes, on a shared disk, it cannot be known whether they
     live; their parts go by their age.
     """
-    for part in path.glob(f"{_PART}*"):
-        host, _, rest = part.name.removeprefix(_PART).rpartition("-")[0].rpartition("-")
+    for part in path.glob(f"{whole.PART}*"):
+        host, _, rest = part.name.removeprefix(whole.PART).rpartition("-")[0].rpartition("-")
         with suppress(OSError):  # its writer may have finished it meanwhile
-            if host == _host() and rest.isdecimal() and os.name == "posix":
+            if host == whole.host() and rest.isdecimal() and os.name == "posix":
                 left = not _alive(int(rest))
             else:
                 left = time.time() - part.stat().st_mtime > _FORGOTTEN
             if left:
                 part.unlink()
-
-
-def _host() -> str:
-    return platform.node() or "here"
 
 
 def _alive(process: int) -> bool:
@@ -99,9 +94,7 @@ def _alive(process: int) -> bool:
 
 
 def write_whole(path: str | Path, write: Callable[[Path], Any]) -> Path:
-    """Let ``write`` fill a temporary file beside ``path``, then rename: a reader sees all of it or none.
-
-    The temporary name keeps the suffix, from which writers of images tell the format.
+    """Let ``write`` fill a temporary file beside ``path``, then rename: see :func:`rigid.output.whole.write_whole`.
 
     Raises
     ------
@@ -110,28 +103,10 @@ def write_whole(path: str | Path, write: Callable[[Path], Any]) -> Path:
     """
     path = Path(path)
     try:
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f"{_PART}{_host()}-{os.getpid()}-", suffix=path.suffix)
+        whole.write_whole(path, write, synced=True)
     except OSError as error:
         raise StudyError(trouble(error, path)) from None
-    os.close(handle)
-    part = Path(name)
-    try:
-        write(part)
-        with part.open("rb+") as whole:
-            os.fsync(whole.fileno())
-        part.chmod(0o666 & ~_umask())
-        os.replace(part, path)
-    except OSError as error:
-        raise StudyError(trouble(error, path).replace(name, str(path))) from None
-    finally:
-        part.unlink(missing_ok=True)
     return path
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def write_text(path: str | Path, text: str) -> Path:

@@ -78,7 +78,7 @@ def friction_loss(motion: Motion, pulse: Pulse) -> float:
 
 @measure("damping loss", Unit.ENERGY)
 def damping_loss(motion: Motion, pulse: Pulse) -> float:
-    """What the dampers of contact and ring take."""
+    """What the contact's damper takes; the ring has none."""
     return getattr(pulse, "damping_loss", 0.0)
 
 

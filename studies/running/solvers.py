@@ -10,6 +10,7 @@ built-in solvers alone.
 from __future__ import annotations
 
 import hashlib
+import json
 from collections.abc import Callable
 from functools import cache
 from importlib import import_module, metadata
@@ -95,14 +96,17 @@ def ensure_accepts(name: str, scene: Scene) -> None:
 
 @cache
 def build(name: str = "rigid") -> str:
-    """Version and a digest of the sources, a solver's own module among them: results of a checkout that has changed
-    since are not taken for its own."""
-    digest = hashlib.sha256()
+    """Version and a digest of the sources, a solver's own module among them, and of what :func:`versions` names.
+
+    Results of a checkout that has changed since, or of another numpy, are not taken for its own.
+    """
+    digest = hashlib.sha256(json.dumps(versions()).encode())
     for package in ("rigid", "meshes", "flexible", "studies"):
         spec = find_spec(package)
         for place in spec.submodule_search_locations or [] if spec is not None else []:
             for source in sorted(Path(place).rglob("*.py")):
-                digest.update(source.read_bytes())
+                file = source.relative_to(Path(place).parent).as_posix()
+                digest.update(file.encode() + b"\0" + source.read_bytes() + b"\0")
     if name not in NAMED:
         digest.update(_source_of(name.partition(":")[0]))
     return f"{version()}+{digest.hexdigest()[:12]}"

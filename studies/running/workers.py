@@ -28,7 +28,9 @@ _DEATHS = 3
 class Pool(Protocol):
     """Where cases run."""
 
-    def submit(self, case: Case) -> Future[Outcome]: ...
+    def submit(self, case: Case) -> Future[Outcome]:
+        """Have a case run; its trouble is in the outcome, but for an OtherBuild or a worker's death."""
+        ...
 
     def beside(self, function: Callable[..., T], *arguments: object) -> Future[T]:
         """Have this machine call an importable function that leaves files here."""
@@ -49,7 +51,7 @@ def at_once(function: Callable[..., T], *arguments: object) -> Future[T]:
     return future
 
 
-class Here:
+class Here(Pool):
     """In this process, one after the other."""
 
     beside = staticmethod(at_once)
@@ -66,7 +68,7 @@ class Here:
         return 1
 
 
-class Machine:
+class Machine(Pool):
     """In processes of this machine, each on one core."""
 
     def __init__(self, workers: int) -> None:
@@ -91,6 +93,7 @@ class Machine:
         return self._count
 
     def stop(self) -> None:
+        """End the processes, whatever they do."""
         self._processes.stop()
 
 
@@ -99,7 +102,7 @@ def _awake() -> None:
     import flexible  # noqa: F401
 
 
-class Cluster:
+class Cluster(Pool):
     """On a Dask cluster, which itself moves the cases of a dead worker to another one."""
 
     beside = staticmethod(at_once)
@@ -122,6 +125,7 @@ class Cluster:
         return max(1, sum(self.client.nthreads().values()))
 
     def stop(self) -> None:
+        """Leave the cluster, which goes on."""
         self.executor.shutdown(wait=False)
         self.client.close()
 

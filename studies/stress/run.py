@@ -75,6 +75,7 @@ class Finding:
 
     @property
     def failed(self) -> bool:
+        """Whether a check failed or the run broke down."""
         return bool(self.broken or self.crash)
 
     def text(self) -> str:
@@ -94,9 +95,11 @@ class Report:
 
     @property
     def failures(self) -> list[Finding | str]:
+        """What failed, and the scenes whose worker was lost, in words."""
         return [*(finding for finding in self.findings if finding.failed), *self.lost]
 
     def of(self, solver: str) -> list[Finding]:
+        """What came of that solver's scenes."""
         return [finding for finding in self.findings if finding.solver == solver]
 
     def completed(self, solver: str) -> float | None:

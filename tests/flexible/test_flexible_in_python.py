@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import matplotlib as mpl
 import numpy as np
 import pytest
@@ -63,6 +65,8 @@ def test_a_motion_comes_back_from_its_file(tmp_path, motion):
         path = tmp_path / f"motion{number}"
         found.save(path)
         again = load_motion(path)
+        assert again == found
+        assert again != dataclasses.replace(found, steps=found.steps + 1)
         assert (again.scene, again.ended, again.steps) == (found.scene, found.ended, found.steps)
         assert again.ledger == found.ledger
         assert again.phases == found.phases

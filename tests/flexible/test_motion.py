@@ -330,9 +330,11 @@ def test_losses_of_a_wide_patch(law, damping):
 
 
 def test_a_tight_tolerance_is_met_in_finite_time():
-    """Steps grow like rtol^(-1/2) or, where the contact's kinks are resolved one by one, a little faster."""
+    """Steps of third order grow like rtol^(-1/3), 2.2 times a decade; contact's kinks, at which the order is the first,
+    like rtol^(-1/2), 3.2 times. Attempts that fail come on top: here 3.1 times in all, and 2.7 in the next decade.
+    """
     scene = rigid.load_scene("paper-3.4-rough").replace(run={"until": "pulse"})
     coarse, fine = (flexible.simulate(scene.replace(solve={"rtol": rtol})) for rtol in (1e-4, 1e-5))
     assert fine.completed
-    assert fine.steps < 30 * coarse.steps
+    assert coarse.steps < fine.steps < 4 * coarse.steps
     assert fine.pulses[0].normal_impulse == pytest.approx(coarse.pulses[0].normal_impulse, rel=1e-4)

@@ -232,6 +232,27 @@ def test_a_directory_that_cannot_be_made(tmp_path):
         SeriesWriter(tmp_path / "file")
 
 
+@pytest.mark.parametrize("full_at", ["about.json", "history.npz", "disk-00000.vtu", "fields.pvd"])
+def test_a_disk_that_is_full_is_a_sentence(tmp_path, monkeypatch, written, full_at):
+    """Whichever of its files does not fit."""
+    replace = os.replace
+
+    def full(part, path):
+        if Path(path).name == full_at:
+            raise OSError(28, "No space left on device", str(part))
+        replace(part, path)
+
+    def write() -> None:
+        with SeriesWriter(tmp_path) as writer:
+            writer.history(t=TIMES)
+            writer.add(written[1][0])
+
+    monkeypatch.setattr(os, "replace", full)
+    with pytest.raises(SeriesError, match=f"{full_at} cannot be written: No space left"):
+        write()
+    assert not list(tmp_path.rglob(".part-*"))
+
+
 def test_arrays_that_do_not_fit():
     square = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), np.array([[0, 1, 2, 3]])
     with pytest.raises(SeriesError, match="point field u"):

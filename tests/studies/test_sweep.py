@@ -14,6 +14,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from importlib import metadata
 from pathlib import Path
 
 import numpy as np
@@ -21,9 +22,9 @@ import pytest
 from command_line import HANGS, SCENE, command, environment, is_one_sentence, process
 
 from rigid import SceneError, load_scene, scene_from_dict, scene_to_dict
+from rigid.output import whole
 from studies import StudyError, load_sweep, pool, run_sweep, sweep_from_dict
 from studies.machine.processes import Processes, WorkerDied
-from studies.running import files
 from studies.running.case import Case, run_case
 from studies.running.runs import Estimate, run_cases
 from studies.running.solvers import build
@@ -162,6 +163,17 @@ def test_a_result_of_another_version_is_not_taken_for_ours(monkeypatch):
     monkeypatch.setattr("studies.running.solvers.version", lambda: "99.0")
     build.cache_clear()
     assert Case("rigid", load_scene("paper-3.1")).key != before
+    build.cache_clear()
+
+
+@pytest.mark.parametrize("package", ["numpy", "numba"])
+def test_a_result_of_other_packages_is_not_taken_for_ours(monkeypatch, package):
+    """The last digits of a result are those of the packages that it was computed with."""
+    case = Case("rigid", load_scene("paper-3.1"))
+    there = metadata.version
+    monkeypatch.setattr(metadata, "version", lambda name: "99.0" if name == package else there(name))
+    build.cache_clear()
+    assert Case("rigid", load_scene("paper-3.1")).key != case.key
     build.cache_clear()
 
 
@@ -475,7 +487,7 @@ def test_parts_of_files_that_dead_processes_left_are_removed(tmp_path):
     gone.wait()
     histories = tmp_path / "histories"
     histories.mkdir()
-    host = files._host()
+    host = whole.host()
     dead, alive = (histories / f".part-{host}-{process}-abc_d.npz" for process in (gone.pid, os.getpid()))
     old, young = (histories / f".part-else-where-{process}-abc.npz" for process in (1, 2))
     for part in (dead, alive, old, young):

@@ -19,13 +19,20 @@ class PatchState(Protocol):
     """The patch at an instant of the march."""
 
     @property
-    def mode(self) -> int: ...
+    def mode(self) -> int:
+        """What the patch does, of the modes that its law knows."""
+
     @property
-    def slip_velocity(self) -> float: ...
+    def slip_velocity(self) -> float:
+        """Of the patch as a whole, along the floor, sqrt(g R)."""
+
     @property
-    def rates(self) -> Rates: ...
+    def rates(self) -> Rates:
+        """How it changes."""
+
     @property
-    def res(self) -> Resultants: ...
+    def res(self) -> Resultants:
+        """Its forces and energies."""
 
 
 class Rolling(NamedTuple):

@@ -101,16 +101,20 @@ def test_the_impulse_is_the_momentum_of_the_mass_centre(soft):
 
 
 def test_the_energies_of_a_hop_close(soft):
-    """Each term is found by itself. What is left unexplained is of the order of the ledger's own, rtol^(3/2)."""
+    """Each term is found by itself. What is left unexplained is the ledger's own, the work of the patch's points.
+
+    That is summed by trapezoids: of the hop behind the pulse 0.6, 1.7, 1.3 and 1.6 % of rtol at 1e-3 to 3e-5.
+    """
+    left = 0.05 * RTOL
     told = [flight for flight in soft.motion.flights if flight.energies is not None]
     assert told
     for flight in told:
         energies = flight.energies
-        assert abs(energies.residual) < 3 * RTOL**1.5
+        assert abs(energies.residual) < left
         assert min(energies.stored_in_ring, energies.stored_in_floor, energies.vibration) >= 0, "squares"
-        assert min(energies.friction, energies.landing) >= -(RTOL**1.5), "works, found by a quadrature"
+        assert min(energies.friction, energies.landing) >= -left / 5, "works, found by a quadrature"
     stored = max(flight.energies.stored for flight in told)
-    assert stored > 20 * 3 * RTOL**1.5, "the residual is small against what is stored"
+    assert stored > 100 * left, "the residual is small against what is stored"
 
 
 def test_what_goes_into_the_mass_centre_is_the_work_of_the_normal_force_on_it(soft):
