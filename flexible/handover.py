@@ -235,10 +235,9 @@ def _balanced(hoop: Hoop, state: State, pose: Pose) -> State:
     """
     wanted = np.array([pose.normal_force, pose.friction_force])
     best, least = restart(hoop, state, state.mode), np.inf
-    pull = best.res.friction or np.inf
-    inverse = np.diag(
-        [-1 / (hoop.law.parameters.eps_n * best.res.length + 1e-300), 1 / pull]
-    )  # of the forces' derivatives
+    # bristles that are to pull nothing have no stretch to take more or less of
+    by_stretch = 1 / best.res.friction if pose.friction_force and best.res.friction else 0.0
+    inverse = np.diag([-1 / (hoop.law.parameters.eps_n * best.res.length + 1e-300), by_stretch])  # of their derivatives
     change, step, off = np.zeros(2), np.zeros(2), np.zeros(2)  # of height and share of the stretch
     for _ in range(25):
         raised = state.pos.copy()

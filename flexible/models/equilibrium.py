@@ -7,13 +7,15 @@ them, exactly for a linear ring, near its present shape for the exact one, which
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial
-from math import isfinite
 from typing import Any, Protocol
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
+
+from rigid.kernel.interrupts import answer
 
 from ..contact.forces import contact_forces
 from ..contact.laws.listing import sharing
@@ -171,7 +173,7 @@ class Patch:
             # what a misfit of the rim makes of the force: patch and ring in series
             scale = 1 + abs(tangent[1, 1]) / (1 + abs(tangent[1, 1]) * np.abs(compliance).max())
             error = max(largest(force[1:2] - wanted), scale * largest(misfit))
-            if not isfinite(error):
+            if not np.isfinite(error):
                 return False
             floor = 1e-15 * (1 + abs(tangent[1, 1])) * (abs(self.height) + np.abs(self.u).max())
             if error < 1e-10 * (1 + wanted) + floor:
@@ -257,8 +259,7 @@ def _in_shares(ring: RestingRing, patch: Patch) -> float:
 
 def _from_soft(ring: RestingRing, patch: Patch) -> bool:
     """Find the patch on a soft foundation and follow it to its own; whether that was reached."""
-    law = patch.law
-    softness, step = (LONG / patch.half) ** 3, 10.0
+    law, softness, step = patch.law, (LONG / patch.half) ** 3, 10.0
     patch.lie_on(law, softness)
     if _in_shares(ring, patch) < 1:
         return False
@@ -276,12 +277,10 @@ def _from_soft(ring: RestingRing, patch: Patch) -> bool:
 def _try(ring: RestingRing, patch: Patch, share: float, change: Callable[[], None] = lambda: None) -> bool:
     """Whether ring and patch come to rest under a share of the loads; if not they stay what they were."""
     start, known = ring.coordinates, dict(patch.__dict__)
-    try:
+    with suppress(np.linalg.LinAlgError):
         change()
         if _settled(ring, patch, share):
             return True
-    except np.linalg.LinAlgError:
-        pass
     ring.coordinates, patch.__dict__ = start, known
     return False
 
@@ -289,6 +288,7 @@ def _try(ring: RestingRing, patch: Patch, share: float, change: Callable[[], Non
 def _settled(ring: RestingRing, patch: Patch, share: float) -> bool:
     change = np.inf
     for _ in range(15):
+        answer()  # of all nodes of an exact ring one of these takes seconds
         ring.linearise(share)
         if not patch.solve(ring, share):
             return False

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 LEAST = 8  # points to a patch: with fewer the force of a patch that moves is noise
 KNOWN = EXACTLY, 1e-4  # of 1 + N: Newton's least and largest tolerance on the forces of a step
 #: least share of a step's tolerance on a soft ring; E I from which on it may have all of it, and rtol down from which;
-#: E I below which the first and the last are less, like its root
+#: E I below which the first and the last are less, like its power 3/2
 STEPS = 0.3, 33.0, 3e-4, 1.0
 #: modes by whose error steps are chosen of a ring of nodes or parts; a reduced one has all of its own
 SLOW = 24
@@ -101,7 +101,7 @@ def share_of_steps(scene: Scene) -> float:
     """
     least, stiff, fine, limp = STEPS
     bending = scene.ring.bending_stiffness
-    of_softer = max(least, fine / scene.solve.rtol) * min(1.0, sqrt(bending / limp))
+    of_softer = max(least, fine / scene.solve.rtol) * min(1.0, (bending / limp) ** 1.5)
     return min(max(of_softer, bending / stiff), 1.0) * LAWS[scene.contact.law].steps_of_soft
 
 
