@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import ceil, pi, sqrt
+from math import ceil, pi
 from typing import Any
 
 import numpy as np

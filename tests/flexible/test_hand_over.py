@@ -134,7 +134,7 @@ def test_a_rigid_hoop_that_adds_energy_is_no_stand_in():
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("law", ["patch", "brush", "regularised"])
 def test_a_hoop_that_stands_on_its_head_is_handed_over_without_a_friction(law):
-    """The disk straight above the floor pulls no way, and bristles that are to pull nothing have no stretch to change."""
+    """The disk straight above the floor pulls no way, and bristles that are to pull nothing have no stretch."""
     scene = Scene(Hoop(0.1, 1.02, 0.1), Friction(0.35, 0.3), Release(0.0), Run(t_end=1.0))
     motion = flexible.simulate(scene.replace(contact={"law": law}, solve={"rtol": 1e-3, "resolve": "all"}))
     assert motion.completed

@@ -37,8 +37,8 @@ def test_a_soft_hoop_at_rest_takes_long_steps():
     Bristles that enter in a long step count their way from the same rate as the drag. Where Newton moved that rate to
     have the friction that it foresaw, it had more than twice as much; a step of 0.03 was never solved.
     """
-    # of so rough a tolerance the steps of so soft a ring have a fifth, 3e-4
-    motion = flexible.simulate(FLAT.replace(run=Run(t_end=1.0), solve={"rtol": 1.4e-3}))
+    # of so rough a tolerance the steps of so soft a ring have a tenth, 3e-4
+    motion = flexible.simulate(FLAT.replace(run=Run(t_end=1.0), solve={"rtol": 2.8e-3}))
     assert motion.completed, motion.ended
     assert motion.steps < 60  # of 0.02 on the mean, though the first is of 1e-4
 
