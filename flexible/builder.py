@@ -43,6 +43,7 @@ class Piece:
     x_C: float = 0.0  # where the hoop's centre stands at the start of ``motion``
 
     def states(self, t: Array, side: Side) -> States:
+        """At times of the whole motion, (n,)."""
         if self.segment is not None:
             return self.segment.states(t, side)
         assert self.motion is not None

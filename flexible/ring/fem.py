@@ -41,7 +41,8 @@ class Makes(Protocol):
     """What keeps what was made of it."""
 
     @property
-    def made(self) -> dict[Any, Any]: ...
+    def made(self) -> dict[Any, Any]:
+        """By what made it, and of which arguments."""
 
 
 K = TypeVar("K", bound=Makes)

@@ -38,6 +38,7 @@ class Place(NamedTuple):
 
     @property
     def title(self) -> str:
+        """The row's, in tables and figures."""
         return f"r = {self.r:g}, {self.name}"
 
 

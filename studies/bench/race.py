@@ -34,10 +34,12 @@ class Row:
 
     @property
     def median(self) -> float:
+        """Of the runs, s; NaN of none."""
         return statistics.median(self.seconds) if self.seconds else NAN
 
     @property
     def least(self) -> float:
+        """The quickest run, s; NaN of none."""
         return min(self.seconds, default=NAN)
 
     def to_dict(self) -> dict[str, Any]:

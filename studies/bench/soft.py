@@ -55,6 +55,7 @@ class Soft:
     """The same of the time off the floor."""
 
     def on(self, level: str, rtol: float) -> Scene:
+        """The scene for a level and a tolerance, all nodes on their own mesh."""
         around, through = self.around, None
         if level == "exact":
             around, through = self.nodes_around or around, self.through
