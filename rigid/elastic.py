@@ -23,19 +23,19 @@ class Ring:
         Poisson's ratio, plane stress.
     thickness : float or None
         Wall h over R, of a hoop with r = 1 alone, 0.02 by default; with r > 1 it is 1 - 1/r.
-    section_width : float or None
-        Width b of the wall over R, by which stresses are divided; without it they are those of a hoop of width R. No
-        motion knows of it. A section in SI units in a scene file says it.
     weld_half_angle : float
         Half the arc of the inner rim that is welded to the disk, seen from the centre, in radians;
         ``weld_half_angle_deg`` gives it in degrees.
+    section_width : float or None
+        Width b of the wall over R, by which stresses are divided; without it they are those of a hoop of width R. No
+        motion knows of it. A section in SI units in a scene file says it.
     """
 
     bending_stiffness: float = 1e4
     poisson: float = 0.3
     thickness: float | None = None
-    section_width: float | None = None
     weld_half_angle: float = radians(3)
+    section_width: float | None = None
 
     def __post_init__(self) -> None:
         require(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -104,7 +105,10 @@ positive = st.floats(1e-6, 1e12)
 @settings(max_examples=100, deadline=None)
 @given(
     scenes(),
-    st.builds(Ring, positive, st.floats(-0.9, 0.5), st.one_of(st.none(), st.floats(0.01, 0.5)), st.floats(0.01, 1.5)),
+    st.builds(
+        Ring, positive, st.floats(-0.9, 0.5), st.one_of(st.none(), st.floats(0.01, 0.5)), st.floats(0.01, 1.5),
+        st.one_of(st.none(), positive),
+    ),
     st.builds(Contact, st.sampled_from(LAWS), positive, positive, st.floats(0, 3)),
     st.builds(
         Solve, st.sampled_from(["auto", "full"]), st.sampled_from(["pulses", "all"]),
@@ -112,6 +116,7 @@ positive = st.floats(1e-6, 1e12)
     ),
 )  # fmt: skip
 def test_a_scene_survives_its_file(scene, ring, contact, solve):
-    """Written as TOML and read again it is the same scene."""
+    """Written as TOML and read again it is the same scene; a thickness is for a hoop whose radii say none."""
+    ring = ring if scene.hoop.r == 1 else replace(ring, thickness=None)
     scene = scene.replace(ring=ring, contact=contact, solve=solve)
     assert scene_from_dict(tomllib.loads(checks.toml(scene))) == scene
