@@ -6,6 +6,8 @@ them by about n m g R^2/(E I); what that changes in a pulse grows with it.
 
 from __future__ import annotations
 
+import logging
+from functools import cache
 from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
@@ -50,6 +52,14 @@ def ring_for(scene: Scene) -> Ring:
     return ring_of(scene, linear=level != "exact")
 
 
+@cache
+def _tell_of_all_nodes() -> None:
+    """Once in a process."""
+    logging.getLogger("hoop-pulse").warning(
+        "hoop: the ring is too thick for a chain of rods: all its nodes are moved, which takes minutes for seconds."
+    )
+
+
 def hoop_of(scene: Scene) -> Hoop:
     """The scene's hoop at that level; of a ring that is no rod and was left to choose, all nodes.
 
@@ -67,6 +77,7 @@ def hoop_of(scene: Scene) -> Hoop:
             if scene.solve.level == "chain":
                 raise
             level = "exact"
+            _tell_of_all_nodes()
     if level == "exact":
         from .exact import ExactHoop
 

@@ -10,6 +10,7 @@ from flexible.contact.laws.patch import SLIDE_RIGHT
 from flexible.contact.points.data import UNDAMPED, Before, Rim
 from flexible.contact.points.rim import turned
 from flexible.handover import Pose, equilibrium, undeformed
+from flexible.models import select
 from flexible.models.chain import ChainHoop
 from flexible.models.exact import ExactHoop
 from flexible.models.full import FullHoop, NewtonMatrix, _Factored
@@ -156,13 +157,21 @@ def test_linear_against_exact():
     assert apart[1] == pytest.approx(apart[0] / 10, rel=0.3)
 
 
-def test_level_of_a_scene():
-    """By name, or the chain where the linear ring would be too soft, or all nodes where that is no rod."""
+def test_level_of_a_scene(caplog):
+    """By name, or the chain where the linear ring would be too soft, or all nodes where that is no rod.
+
+    That these take long is said, once.
+    """
+    select._tell_of_all_nodes.cache_clear()
     assert isinstance(hoop_of(HOOP.replace(solve={"level": "auto"})), ReducedHoop)
     assert type(hoop_of(HOOP.replace(solve={"level": "full"}))) is FullHoop
     soft = HOOP.replace(solve={"level": "auto"}, ring={"bending_stiffness": 1.0})
     assert isinstance(hoop_of(soft), ChainHoop)
-    assert isinstance(hoop_of(soft.replace(hoop={"r": 1.5})), ExactHoop)
+    assert not caplog.messages
+    for _ in range(2):
+        assert isinstance(hoop_of(soft.replace(hoop={"r": 1.5})), ExactHoop)
+    assert len(caplog.messages) == 1
+    assert "too thick for a chain" in caplog.messages[0]
 
 
 def test_a_linear_ring_that_goes_too_far_says_so():
