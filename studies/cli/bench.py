@@ -33,7 +33,7 @@ def bench(
     rigid     a first cycle against forty digits, beside scipy
     flexible  the pulse of a stiff ring against all nodes, knob by knob
     mesh      what elements leave by wall and stiffness, and what they are
-              chosen by; ten minutes, two with --quick
+              chosen by; 15 minutes, two with --quick
     knobs     what elements, modes, contact points and steps each leave at
               the tolerance that chose them; a quarter of an hour, a minute
               with --quick
