@@ -111,7 +111,7 @@ def write_fields(
     instants = instants_at(motion, when)
     painter = _Painter(scene, asked, instants)
     units = SI_UNITS if si else UNITS
-    if scene.ring.section_width is None:
+    if si and scene.ring.section_width is None:
         units = units | {kind: f"{units[kind]} (b = R)" for kind in ("stress", "energy_density")}
     units = units | {name: unit(name, units) for name in FIELDS}
     with SeriesWriter(directory, units, _title(scene)) as writer:
