@@ -184,6 +184,9 @@ class Solve:
             require_whole("solve.through", self.through, 1, 20)
 
 
+#: keys of [hoop] of which all others have their units
+UNITS = ("R", "m", "g")
+
 #: keys of [ring] in a scene file that say in SI units what section the ring has
 SECTION = ("youngs_modulus", "width", "height", "tube_diameter", "tube_wall", "density")
 
@@ -212,7 +215,7 @@ def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[d
         No SI units, the same thing said twice, half a section, or a value that cannot be.
     """
     first = next(key for key in SECTION if key in ring)
-    for key in ("R", "m", "g"):
+    for key in UNITS:
         if key not in hoop:
             raise SceneError(f"ring.{first} is in SI units: hoop.R, hoop.m and hoop.g must be given in them too.")
         require(f"hoop.{key}", hoop[key], 1e-30, 1e30, f"{key} lies between 1e-30 and 1e30")
@@ -225,7 +228,7 @@ def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[d
         )
     if "youngs_modulus" not in ring:
         raise SceneError(f"ring.youngs_modulus is missing: ring.{first} says the section alone.")
-    R, m, g = (float(hoop[key]) for key in ("R", "m", "g"))
+    R, m, g = (float(hoop[key]) for key in UNITS)
     high, area, moment = _section(ring)
     if high >= R:
         raise SceneError(f"The ring's section is {high!r} m high: it must be less than hoop.R = {R!r}.")

@@ -19,13 +19,12 @@ from pathlib import Path
 from typing import Any
 
 from .allowed import SceneError, in_radians, plain, unknown
-from .elastic import SECTION, ring_of_section
+from .elastic import SECTION, UNITS, ring_of_section
 from .scene import PARTS, Scene
 
 SceneLike = Scene | str | PathLike[str] | Mapping[str, Any]
 """What a solver takes for a scene: one, the name of a shipped one, the path of a file, what a file says as a dict."""
 
-UNITS = "R", "m", "g"
 _NEEDED = {"hoop": ("k",), "friction": ("mu_s", "mu"), "release": ("phi0_deg",)}
 _IN_DEGREES = {"phi0": "phi0_deg", "weld_half_angle": "weld_half_angle_deg"}
 

@@ -18,7 +18,7 @@ from scipy.linalg import eigh
 
 from rigid import Scene
 
-from ..ring.fem import Ring, membrane_stiffness, once
+from ..ring.fem import Ring, membrane_stiffness
 from ..ring.mirror import positive_part
 from ..ring.reduction import body_of
 from .bordered import no_blocks
@@ -187,11 +187,6 @@ class _Shape:
         return positive_part(self.ring.rim_compliance - held, self.ring.mirror)
 
 
-@once
-def _shape(ring: Ring, parts: int) -> _Shape:
-    return _Shape(ring, parts)
-
-
 class ChainRing:
     """The chain of a scene's ring, R = m = g = 1.
 
@@ -213,7 +208,7 @@ class ChainRing:
     """
 
     def __init__(self, scene: Scene, ring: Ring, parts: int) -> None:
-        self.shape = _shape(ring, parts)
+        self.shape = ring.once(_Shape, parts)
         self.ring = ring
         self.stiffness = membrane_stiffness(scene)
         self.within = ring.within / self.stiffness

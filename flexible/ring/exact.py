@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from skfem import Basis, ElementQuad2
 
 from .corners import Corners
-from .fem import Ring, once
+from .fem import Ring
 
 Array = NDArray[np.float64]
 
@@ -163,7 +163,6 @@ def _gathered(by_nodes: Array, place: NDArray[np.int64], count: int) -> Array:
     return matrix.reshape(-1, count)
 
 
-@once
 def elasticity_of(ring: Ring) -> ExactElasticity:
     """That of a ring, made once."""
-    return ExactElasticity(ring)
+    return ring.once(ExactElasticity)

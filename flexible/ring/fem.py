@@ -8,9 +8,9 @@ Plane stress; the weld (a short arc of the inner rim) is clamped to the disk's f
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property, wraps
+from functools import cached_property
 from math import ceil, pi
-from typing import Any, Concatenate, ParamSpec, Protocol, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 import scipy.sparse as sp
@@ -37,31 +37,7 @@ def membrane_stiffness(scene: Scene) -> float:
     return 12 * scene.ring.bending_stiffness / scene.wall**3
 
 
-class Makes(Protocol):
-    """What keeps what was made of it."""
-
-    @property
-    def made(self) -> dict[Any, Any]:
-        """By what made it, and of which arguments."""
-
-
-K = TypeVar("K", bound=Makes)
-P = ParamSpec("P")
 T = TypeVar("T")
-
-
-def once(make: Callable[Concatenate[K, P], T]) -> Callable[Concatenate[K, P], T]:
-    """Make a thing of a ring once for the same arguments, and keep it for as long as the ring is kept."""
-
-    @wraps(make)
-    def kept(of: K, *args: P.args, **kwargs: P.kwargs) -> T:
-        key = (make, args, *kwargs.items())
-        if key not in of.made:
-            of.made[key] = make(of, *args, **kwargs)
-        found: T = of.made[key]
-        return found
-
-    return kept
 
 
 class Ring:
@@ -85,7 +61,7 @@ class Ring:
     """
 
     def __init__(self, mesh: RingMesh, poisson: float) -> None:
-        self.made: dict[Any, Any] = {}
+        self._made: dict[Any, Any] = {}
         self.mesh = mesh
         self.poisson = poisson
         self.basis: Basis = mesh.vector_basis(intorder=4)
@@ -108,6 +84,14 @@ class Ring:
         self.mass: sp.csr_matrix = mass.assemble(self.basis).tocsr() / self.area
         clamped = mesh.node_dofs[mesh.weld_nodes].ravel()
         self.free: NDArray[np.int64] = np.setdiff1d(np.arange(self.basis.N), clamped)
+
+    def once(self, make: Callable[..., T], *args: Any) -> T:
+        """What ``make`` makes of this ring and the arguments: made once, and kept for as long as the ring is."""
+        key = make, *args
+        if key not in self._made:
+            self._made[key] = make(self, *args)
+        made: T = self._made[key]
+        return made
 
     @cached_property
     def _position(self) -> NDArray[np.int64]:

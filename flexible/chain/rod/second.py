@@ -22,7 +22,7 @@ from scipy.sparse.linalg import splu
 from meshes import RingMesh
 
 from ...ring.exact import elasticity_of
-from ...ring.fem import once
+from ...ring.fem import Ring
 from .section import FADING, RodCompliance, radial, transfer
 
 Array = NDArray[np.float64]
@@ -51,10 +51,12 @@ class SecondOrder(NamedTuple):
     moment: Array
 
 
-@once
 def second_order(compliance: RodCompliance, theta: float) -> SecondOrder:
-    """Answers of the section at ``theta``, loaded by dead forces far behind it."""
-    ring = compliance.ring
+    """Answers of the section at ``theta``, loaded by dead forces far behind it; found once."""
+    return compliance.ring.once(_answers, compliance, theta)
+
+
+def _answers(ring: Ring, compliance: RodCompliance, theta: float) -> SecondOrder:
     mesh, wall, whole = ring.mesh, 1 - ring.mesh.inner / ring.mesh.outer, elasticity_of(ring)
     vertex = mesh.rim_theta[::2]
     loaded = float(vertex[vertex > theta + FADING * wall][0])

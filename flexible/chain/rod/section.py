@@ -10,10 +10,9 @@ two (Saint-Venant).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, cos, pi, sin
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +20,7 @@ from numpy.typing import NDArray
 from meshes import gauss_gradient, ring_mesh
 from rigid import SceneError
 
-from ...ring.fem import Ring, once
+from ...ring.fem import Ring
 
 Array = NDArray[np.float64]
 
@@ -74,7 +73,6 @@ class RodCompliance:
     ring: Ring
     answers: Array
     misfit: float
-    made: dict[Any, Any] = field(default_factory=dict, repr=False)
 
     def piece(self, angle: float) -> Array:
         """(3, 3) displacement and rotation of the end of a piece from theta = 0 to ``angle`` that is held at 0."""
@@ -160,7 +158,6 @@ def _measurable(ring: Ring) -> Ring:
     return Ring(ring_mesh(1 - wall, 1.0, around, len(mesh.grid) // 2, mesh.weld_half_angle), ring.poisson)
 
 
-@once
 def rod_compliance(ring: Ring, end: float) -> RodCompliance:
     """Compliance of a ring as a rod; its end piece reaches ``end`` beyond the weld, or as far as Saint-Venant asks.
 
@@ -178,6 +175,10 @@ def rod_compliance(ring: Ring, end: float) -> RodCompliance:
     SceneError
         The wall is too thick, or the weld too wide, for a rod.
     """
+    return ring.once(_measured, end)
+
+
+def _measured(ring: Ring, end: float) -> RodCompliance:
     ring = _measurable(ring)
     mesh = ring.mesh
     inner = mesh.inner / mesh.outer
