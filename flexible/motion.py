@@ -64,7 +64,7 @@ class Ledger:
     residual: Energy[float]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class FlexiblePulse(Pulse):
     """A pulse as the flexible hoop goes through it, over the phi-interval of the rigid pulse.
 

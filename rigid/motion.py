@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .output import sampling, summary
+from .output.same import Same
 from .output.units import AngularAcceleration, AngularVelocity, Energy, Force, Impulse, Length, Number, Time, Velocity
 from .scene import Scene
 from .scenefile import scene_to_dict
@@ -62,8 +63,8 @@ class Turn:
     energy: Energy[float]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Pulse:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Pulse(Same):
     """One sweep of the disk past the floor: the phi-interval around phi = pi (mod 2 pi) with rigid N > M g.
 
     ``friction_loss`` is the integral of |F v|. Restitution compares the velocity of the mass centre G before

@@ -5,6 +5,7 @@
 ``axes``      curves over time or angle, in matplotlib
 ``summary``   text of a screen's length, and the same as HTML
 ``file``      arrays and a header, written whole and read with care
+``same``      equality of values that may be unknown
 ``whole``     files that are there whole or not at all
 
 Nothing here knows a motion: plain names and arrays come in. matplotlib and pandas are loaded where they are used.

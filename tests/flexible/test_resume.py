@@ -82,6 +82,7 @@ def test_through_a_file(name: str, tmp_path: Any) -> None:
     loaded = load_motion(tmp_path / "part.npz")
     assert isinstance(loaded, FlexibleMotion)
     assert_same(loaded, part)
+    assert loaded == part
     assert_same(simulate(SCENES[name], history=True, resume=loaded), whole(name))
 
 

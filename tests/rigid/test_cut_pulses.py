@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+from dataclasses import replace
 from math import isnan, pi
 
 import numpy as np
@@ -69,6 +71,19 @@ def test_the_two_halves_of_a_pulse_add_up_to_it(whole):
     for name in ("normal_impulse", "friction_impulse", "friction_loss"):
         # a restart carries the round-off of phi ~ 1e-16 into forces that change over k ~ 0.1
         assert getattr(first, name) + getattr(second, name) == pytest.approx(getattr(whole, name), rel=1e-9)
+
+
+def test_what_is_unknown_alike_is_the_same():
+    """NaN is no number's equal, and no reason for a motion not to be its own copy's; all that is known counts."""
+    scene = SCENE.replace(run={"t_end": 5.72})
+    (pulse,) = simulate(scene).pulses
+    for other in (simulate(scene).pulses[0], pickle.loads(pickle.dumps(replace(pulse, sample=None)))):
+        assert isnan(other.newton_restitution)
+        assert other == pulse
+        assert len({other, pulse}) == 1
+    for name in ("t_end", "friction_loss", "newton_restitution"):
+        assert replace(pulse, **{name: 1.0}) != pulse
+    assert pulse != "a pulse"
 
 
 def test_whole_pulses_are_not_marked(whole):
