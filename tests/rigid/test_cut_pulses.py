@@ -8,6 +8,7 @@ from math import isnan, pi
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize_scalar
 
 from rigid import Friction, Hoop, Release, Run, Scene, load_scene, simulate, simulate_batch
 from studies.running.case import Case, run_case
@@ -71,6 +72,38 @@ def test_the_two_halves_of_a_pulse_add_up_to_it(whole):
     for name in ("normal_impulse", "friction_impulse", "friction_loss"):
         # a restart carries the round-off of phi ~ 1e-16 into forces that change over k ~ 0.1
         assert getattr(first, name) + getattr(second, name) == pytest.approx(getattr(whole, name), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        # on the way down, at 1.97, N is largest where the run ends; at 2.1, on the way up, at the bottom
+        Scene(Hoop(0.3), Friction(9, 9), Release(phi0_deg=90), Run(t_end=1.97)),
+        Scene(Hoop(0.3), Friction(9, 9), Release(phi0_deg=90), Run(t_end=2.1)),
+        # comes down from a flight and skids over the bottom: N has its peak between that and the end of the skid
+        Scene(
+            Hoop(0.44781469193473705, mass_ratio=0.1), Friction(0.119127058399771, 0.08869228363016206),
+            Release(5.437209478259936, 1.430481507294281), Run(t_end=5.9),
+        ),
+    ],
+    ids=["down", "up", "skid"],
+)  # fmt: skip
+def test_the_peak_is_the_largest_force(scene):
+    """Nowhere in the listed part of a pulse is N larger."""
+    motion = simulate(scene)
+    pulse = motion.pulses[-1]
+    assert pulse.cut
+    t = np.linspace(pulse.t_start, pulse.t_end, 2001)
+    normal = motion.at(t).normal_force
+    best = int(np.argmax(normal))
+    around = t[max(best - 1, 0)], t[min(best + 1, 2000)]
+    found = minimize_scalar(
+        lambda time: -float(motion.at(time).normal_force), bounds=around, method="bounded", options={"xatol": 1e-10}
+    )
+    # the peak is flat: a place known to 1e-8 gives its height to round-off
+    assert pulse.peak_normal_force == pytest.approx(max(-found.fun, normal[best]), rel=1e-10)
+    batch = simulate_batch([scene], t_end=scene.run.t_end)
+    assert batch.peak_normal_force[0, len(motion.pulses) - 1] == pytest.approx(pulse.peak_normal_force, rel=1e-14)
 
 
 def test_what_is_unknown_alike_is_the_same():

@@ -187,6 +187,7 @@ def roll(par, state, work, events):
             state[T] = limit
             place = place_in(zeta, g, below, abs(reach))
             arrive(zeta, state, d if reach > 0 else -d, place, d, bottom, origin)
+            note_force(par, state)
             if limit < par[T_END]:
                 return WHIRLS if below <= 0 and par[UNTIL] != REST else ROLLS
             return TIME_REACHED

@@ -217,41 +217,40 @@ def force_on(par, mu_hat, s, h, omega):
 
 
 @kernel
+def force_at(par, way, x, rows):
+    """N at a place of the way, and how it grows with that."""
+    s, h = place(way.panel, x)
+    n, slope = force_on(par, way.mu_hat, s, h, interpolate(rows, Q_OMEGA, x))
+    return n, slope if way.panel.length > 0 else -slope
+
+
+@kernel
 def peak_on(par, way, start, stop, rows):
-    """The largest N on a part of the way."""
+    """The largest N on a part of the way, but for its ends."""
     low, high = (1.0 - stop, 1.0 - start) if way.inward else (start, stop)
     top, best = 0.0, -1
     for i in range(ROW):
         if low <= rows[Q_NODE + i] <= high and rows[Q_N1 + i] > top * rows[Q_D + i]:
             top, best = rows[Q_N1 + i] / rows[Q_D + i], i
-    if best < 0:
-        return 0.0
-    left = rows[Q_NODE + best - 1] if best > 0 else 0.0
-    right = rows[Q_NODE + best + 1] if best < NODES else 1.0
-    left, right = max(left, low), min(right, high)
-    sign = 1.0 if way.panel.length > 0 else -1.0
-    peak, slope = force_on(par, way.mu_hat, rows[Q_SIN + best], rows[Q_H + best], rows[Q_OMEGA + best])
-    slope *= sign
-    a, slope_a, z, slope_z = rows[Q_NODE + best], slope, right, 0.0
-    if slope <= 0.0:
-        a, slope_a, z, slope_z = left, 0.0, rows[Q_NODE + best], slope
-    other = left if slope <= 0.0 else right
-    if other == rows[Q_NODE + best] or other == 0.0:
+    peak, a, z, slope = 0.0, low, high, 0.0
+    if best >= 0:
+        middle = rows[Q_NODE + best]
+        peak, slope = force_on(par, way.mu_hat, rows[Q_SIN + best], rows[Q_H + best], rows[Q_OMEGA + best])
+        slope = slope if way.panel.length > 0 else -slope
+        if slope > 0.0:
+            a, z = middle, min(rows[Q_NODE + best + 1], high) if best < NODES else high
+        else:
+            a, z = max(rows[Q_NODE + best - 1], low) if best > 0 else low, middle
+    if a == z or a == 0.0:  # at a turn N does not peak
         return peak
-    s, h = place(way.panel, other)
-    _, slope = force_on(par, way.mu_hat, s, h, interpolate(rows, Q_OMEGA, other))
-    if slope_a == 0.0:
-        slope_a = slope * sign
-    else:
-        slope_z = slope * sign
+    slope_a = slope if slope > 0.0 else force_at(par, way, a, rows)[1]
+    slope_z = slope if slope < 0.0 else force_at(par, way, z, rows)[1]
     # regula falsi (Anderson and Björck): the peak is flat, so eight digits of its place are sixteen of its height
     if slope_a > 0.0 and slope_z < 0.0:
         for _ in range(12):
             x = (a * slope_z - z * slope_a) / (slope_z - slope_a)
-            s, h = place(way.panel, x)
-            n, slope = force_on(par, way.mu_hat, s, h, interpolate(rows, Q_OMEGA, x))
+            n, slope = force_at(par, way, x, rows)
             peak = max(peak, n)
-            slope *= sign
             if min(x - a, z - x) < 1e-8 or slope == 0.0:
                 break
             if slope > 0.0:
