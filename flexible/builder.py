@@ -19,6 +19,7 @@ from .models.select import Hoop as FlexibleHoop
 from .models.select import Range
 from .models.state import State
 from .motion import FlexibleMotion, FlexiblePulse, Kept, Ledger, March
+from .output.body import whole
 from .packed import pack
 from .segment import Segment, history_of
 from .time.adaptive import LIMITS, Limits, march
@@ -66,7 +67,7 @@ class Sampler:
         for number, piece in enumerate(self.pieces):
             told: dict[str, Any] = {name: getattr(piece, name) for name in ("t_start", "t_end", "origin", "x_C")}
             if piece.segment is not None:
-                found = piece.segment.columns
+                found, told["rise"] = piece.segment.columns, piece.segment.rise
                 told["columns"] = list(found)
             else:
                 assert piece.motion is not None
@@ -188,10 +189,10 @@ class Builder:
         self.t += until
         return ends
 
-    def _add_flexible(self, marched: Marched) -> Segment:
-        """A flexible segment that begins now."""
+    def _add_flexible(self, marched: Marched, rise: float) -> Segment:
+        """A flexible segment that begins now, with the mass centre rising so fast."""
         records = marched.records
-        segment = Segment(records, self.hoop)
+        segment = Segment(records, self.hoop, rise)
         held = segment.held()
         self._meet(float(held[0]))
         last = records[-1]
@@ -208,6 +209,11 @@ class Builder:
         self.t, self.x_C = last.t, last.x_C
         self.steps += marched.attempts
         return segment
+
+    def list_pulse(self, pulse: FlexiblePulse, cut: bool) -> None:
+        """A pulse, if it is one: a hoop that flies over the floor all along has none."""
+        if pulse.normal_impulse > 0:
+            self.pulses.append(pulse.marked_cut() if cut else pulse)
 
     def march(
         self, hoop: FlexibleHoop, state: State, ends: Ends, rtol: float, progress: Callable[[float, float], None] | None
@@ -251,7 +257,7 @@ class Builder:
             self.kept.append(Kept(hoop, tuple(states)))
         first = marched.records[0].t
         self.marches.append(March(marched, tuple(turned for turned in self.range.records if turned[0] > first)))
-        return marched.state, self._add_flexible(marched), marched.ended
+        return marched.state, self._add_flexible(marched, whole(hoop, state).velocity[1]), marched.ended
 
     def _earlier(self, number: int, state: State) -> tuple[March | None, bool]:
         """The march of that number in the motion to go on from, and whether it is its last one.

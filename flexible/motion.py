@@ -91,7 +91,8 @@ class FlexiblePulse(Pulse):
 class History:
     """Every accepted step of the flexible segments, as arrays over time; stored only when asked for.
 
-    Losses and impulses are running totals.
+    Losses and impulses are running totals over these segments: what the rigid hoop between them loses, and the floor
+    gives it, is not among them.
     """
 
     t: Time[Array]
@@ -101,7 +102,7 @@ class History:
     x_C: Length[Array]
     y_C: Length[Array]
     slip_velocity: Velocity[Array]  # of the patch's centre against the floor, tangential
-    approach_velocity: Velocity[Array]  # of the patch's centre, upward
+    approach_velocity: Velocity[Array]  # of the hoop's centre C, upward
     normal_force: Force[Array]
     friction_force: Force[Array]
     patch_length: Length[Array]

@@ -59,7 +59,7 @@ def _piece(number: int, told: dict[str, Any], stored: Stored, hoop: Any) -> Piec
     arrays = _named(f"{number}.", stored)
     where = {name: told[name] for name in ("t_start", "t_end", "origin", "x_C")}
     if "columns" in told:
-        return Piece(**where, segment=Segment.of({name: arrays[name] for name in told["columns"]}, hoop))
+        return Piece(**where, segment=Segment.of({name: arrays[name] for name in told["columns"]}, hoop, told["rise"]))
     return Piece(**where, motion=unstored(Stored("rigid", told["rigid"], arrays), scene_from_dict(told["scene"])))
 
 

@@ -21,6 +21,12 @@ from .motion import FlexiblePulse, History
 Array = NDArray[np.float64]
 
 
+#: columns whose rate is another one
+RATES = {
+    "phi": "omega", "y_C": "approach_velocity", "normal_impulse": "normal_force", "friction_impulse": "friction_force",
+}  # fmt: skip
+TOTALS = ("friction_loss", "damping_loss", "numerical_loss", "normal_impulse", "friction_impulse")
+
 T = TypeVar("T", float, Array)
 
 
@@ -52,13 +58,14 @@ def peak(t: Array, y: Array) -> float:
 class Segment:
     """The records of one march as arrays, and what is read off them."""
 
-    def __init__(self, records: list[Record], hoop: Hoop) -> None:
+    def __init__(self, records: list[Record], hoop: Hoop, rise: float) -> None:
         self.hoop = hoop
+        self.rise = rise  # of the mass centre G, upward velocity at the first record
         table = np.array(records, dtype=float).reshape(-1, len(Record._fields))
         self.columns: dict[str, Array] = dict(zip(Record._fields, table.T.copy(), strict=True))
 
     @classmethod
-    def of(cls, columns: dict[str, Array], hoop: Hoop) -> Segment:
+    def of(cls, columns: dict[str, Array], hoop: Hoop, rise: float) -> Segment:
         """The same from its columns.
 
         Raises
@@ -66,7 +73,7 @@ class Segment:
         KeyError
             One that a record has is missing.
         """
-        segment = cls([], hoop)
+        segment = cls([], hoop, rise)
         segment.columns = {name: columns[name] for name in segment.columns}
         return segment
 
@@ -98,23 +105,28 @@ class Segment:
 
         An event left two records of one time, before and after it: ``side`` says which of them counts.
         """
+        if name == "x_C":  # the way that it rolls, and what the hoop slips beside it
+            slid = self._between(self["x_C"] - self["phi"], None, t, side)
+            return slid + self.value("phi", t, side)
+        rate = RATES.get(name)
+        return self._between(self[name], None if rate is None else self[rate], t, side)
+
+    def _between(self, y: Array, slope: Array | None, t: Array, side: Side) -> Array:
+        """What has the values ``y`` at the records, and the rates ``slope`` if they are known."""
         times = self["t"]
-        rate = {"phi": "omega", "normal_impulse": "normal_force", "friction_impulse": "friction_force"}.get(name)
         i = np.clip(np.searchsorted(times, t, side) - 1, 0, len(times) - 2)
-        y = self[name]
-        if rate is None:
-            length = times[i + 1] - times[i]
-            share = (t - times[i]) / np.where(length > 0, length, 1.0)
-            share = np.where(length > 0, np.clip(share, 0.0, 1.0), 1.0 if side == "right" else 0.0)
-            return (1 - share) * y[i] + share * y[i + 1]
-        slope = self[rate]
-        return _hermite(t, times[i], times[i + 1], y[i], y[i + 1], slope[i], slope[i + 1])
+        if slope is not None:
+            return _hermite(t, times[i], times[i + 1], y[i], y[i + 1], slope[i], slope[i + 1])
+        length = times[i + 1] - times[i]
+        share = (t - times[i]) / np.where(length > 0, length, 1.0)
+        share = np.where(length > 0, np.clip(share, 0.0, 1.0), 1.0 if side == "right" else 0.0)
+        return (1 - share) * y[i] + share * y[i + 1]
 
     def states(self, t: Array, side: Side = "right") -> States:
         """The common vocabulary at times ``t``; energy is all that is held."""
         names = (field.name for field in dataclasses.fields(States) if field.name not in ("t", "energy"))
         columns = {name: self.value(name, t, side) for name in names}
-        return States(t=t, **columns, energy=np.interp(t, self["t"], self.held()))
+        return States(t=t, **columns, energy=self._between(self.held(), None, t, side))
 
     def kinds(self) -> list[Kind]:
         """What the patch does from each record to the next."""
@@ -191,13 +203,10 @@ class Segment:
             return float(np.diff(self.value(name, ends))[0])
 
         mass = 1 + self.hoop.mass_ratio
-        start = self.states(grid[:1])
-        # the mass centre's velocity, from its rigid place and then from the impulse
-        rise = np.interp(first, t, self["approach_velocity"])
-        y_rate = rise - self.hoop.e * np.sin(start.phi[0]) * start.omega[0]
+        # the mass centre's velocity follows from the impulse, however the ring bends
         impulse = self.value("normal_impulse", grid)
+        velocity = self.rise + impulse / mass - (grid - self.t_start)
         impulse = impulse - impulse[0]
-        velocity = y_rate + impulse / mass - (grid - first)
         normal_force = self.value("normal_force", grid)
         work = normal_force * velocity
         gained = np.concatenate([[0.0], np.cumsum((work[1:] + work[:-1]) / 2 * np.diff(grid))])
@@ -235,11 +244,13 @@ class Segment:
 
 
 def history_of(segments: Iterable[Segment | None]) -> History:
-    """Every step of the flexible segments of a motion, in the solver's units."""
+    """Every step of the flexible segments of a motion, in the solver's units; totals go on from one to the next."""
     found = [segment for segment in segments if segment is not None]
-    return History(
-        **{
-            field.name: np.concatenate([segment[field.name] for segment in found] or [np.empty(0)])
-            for field in dataclasses.fields(History)
-        }
-    )
+    columns: dict[str, Array] = {}
+    for field in dataclasses.fields(History):
+        each, before = [np.empty(0)], 0.0
+        for segment in found:
+            each.append(segment[field.name] + before)
+            before = float(each[-1][-1]) if field.name in TOTALS else 0.0
+        columns[field.name] = np.concatenate(each)
+    return History(**columns)

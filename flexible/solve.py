@@ -7,7 +7,8 @@ rigid hoop is always the one that the contact law tends to (:mod:`flexible.conta
 
 A run to rest ends where the rigid hoop, released from the flexible one's state, would slip no more: it rolls for ever
 with |F| < mu_s N, or the floor is smooth; or a hundred slips more would take less than a ten-thousandth of its energy.
-The rigid solver asks the same of itself.
+The rigid solver asks the same of itself, and as there a run to a number of turns ends where there is none to wait
+for: where the rigid hoop would roll over the top for ever, once it has done so once.
 """
 
 from __future__ import annotations
@@ -30,14 +31,13 @@ from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
 from .motion import FlexibleMotion
+from .pulses import add_pulses, lead, over_bottom, turn_that_ends, turns_of
 from .ring.possible import ensure_possible
-from .segment import Segment
 from .time.adaptive import MarchError
 from .time.advance import SHORTEST
 from .time.events import Ends
 from .told import Progress, Report, in_time_of, last_turn, swept, too_soft
 
-LEAD = 0.5  # a flexible segment begins this many pulse lengths before the pulse, to let its start settle
 BACK = 0.01  # of the way through a segment, by which a hoop that turned back is out where it came in
 WAITS = 10.0  # sqrt(R/g) that a hoop may take for it, beyond four pulse lengths: a swing takes a few
 
@@ -100,6 +100,8 @@ def simulate(
 
 def _resumable(earlier: FlexibleMotion, scene: Scene, states: bool) -> FlexibleMotion:
     """A motion that a run of a scene can go on from."""
+    if not isinstance(earlier, FlexibleMotion):
+        raise ValueError(f"The motion to resume is none of the flexible hoop, but {type(earlier).__name__}.")
     if replace(earlier.scene, run=scene.run) != scene:
         raise ValueError("The motion to resume is of another scene: all but how far to run must be the same.")
     if states and earlier.marches and not earlier.kept:
@@ -110,7 +112,8 @@ def _resumable(earlier: FlexibleMotion, scene: Scene, states: bool) -> FlexibleM
 def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Progress) -> str:
     """Rigid between pulses, flexible inside."""
     current = scene
-    done = 0
+    done, whole = 0, True  # segments, and whether a pulse that begins at once is one of its own
+    whirled = False
     while True:
         motion = rigid.simulate(rigid_limit(current))
         try:
@@ -119,14 +122,19 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         except MarchError as error:
             builder.completed = False
             return str(error)
-        pulse = next((p for p in motion.pulses if p.t_start > 0 or (not builder.pulses and _over_bottom(p))), None)
+        # what a motion that takes over begins in is the rest of the pulse that is just over
+        pulse = next((p for p in motion.pulses if p.t_start > 0 or whole), None)
         at_rest = scene.run.until == "rest" and _slips_no_more(motion)  # what it rolls through is no pulse with a loss
+        whirls = _whirls(motion)
+        if whirls and whirled:  # for a revolution at least, as the rigid hoop does
+            return motion.ended
+        whirled = whirls
         if pulse is None or at_rest:
             builder.add_rigid(motion, motion.t_end)
             builder.completed = motion.completed
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
             return last_turn(scene.run.turns or 0) if over else motion.ended
-        start = max(0.0, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
+        start = lead(motion, pulse)
         ends_there = builder.add_rigid(motion, start)
         try:
             state = hand_over(hoop, motion, start, one_of(ends_there, 1))
@@ -141,32 +149,32 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         ends = Ends(t=builder.t + pulse.t_end - start)
         if not cut:
             sides = sorted((span[0] - BACK * (span[1] - span[0]), span[1]))
-            ends = Ends(ends.t + 3 * (pulse.t_end - start) + WAITS, sides[0], sides[1])
+            ends = Ends(
+                ends.t + 3 * (pulse.t_end - start) + WAITS, sides[0], sides[1], turn_that_ends(motion, pulse, start)
+            )
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, swept(span))
         state, segment, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
-        back = not cut and sign * (float(state.pos[2]) - pulse.phi_end) < 0
+        at_turn = 0 < ends.turns <= len(segment.turns())
+        back = not (cut or at_turn) and sign * (float(state.pos[2]) - pulse.phi_end) < 0
         if not trouble and back and ends.t - state.t < SHORTEST:
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get out of the pulse"
         if trouble:
             builder.completed = False
             return trouble + too_soft(scene)
         first = segment.crossing(pulse.phi_start, segment.t_start)
-        leaves = max(segment.crossings(pulse.phi_start), default=segment.t_end) if back else segment.t_end
-        measured = segment.pulse(segment.t_start if first is None else first, leaves)
-        builder.pulses.append(measured.marked_cut() if pulse.cut else measured)
-        done += 1
-        if scene.run.until == "pulse":
+        if first is not None or not back:  # else it turned back before it came to the pulse
+            leaves = max(segment.crossings(pulse.phi_start), default=segment.t_end) if back else segment.t_end
+            measured = segment.pulse(segment.t_start if first is None else first, leaves)
+            # a pulse that begins at once is cut by the release alone, not where the one before it ended with a turn
+            builder.list_pulse(measured, pulse.cut and (pulse.t_start > 0 or len(builder.marches) == 1))
+        done, whole = done + 1, at_turn
+        if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse):
             return "the first pulse is over" + (": the hoop turned back in it" if back else "")
         rest = _rest_of(scene.run, builder)
         if rest is None:
             return "the time to run is over" if scene.run.turns is None else last_turn(scene.run.turns)
         current = _from_here(scene, hoop, state, rest)
-
-
-def _over_bottom(pulse: Pulse) -> bool:
-    """Whether the disk passes its lowest point, phi = pi (mod 2 pi), in a pulse."""
-    return floor((pulse.phi_start - pi) / (2 * pi)) != floor((pulse.phi_end - pi) / (2 * pi))
 
 
 def _rest_of(run: Run, builder: Builder) -> Run | None:
@@ -196,6 +204,12 @@ def _slips_no_more(motion: Motion) -> bool:
     return bool(before - after <= LEAST_LOSS * after)
 
 
+def _whirls(motion: Motion) -> bool:
+    """Whether a run to turns has none to wait for: this rigid motion has none, and slips no more."""
+    waits = motion.scene.run.turns is not None
+    return waits and motion.period is not None and not motion.turns and _slips_no_more(motion)
+
+
 def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Progress) -> str:
     """Flexible from the release on, swing by swing; each pulse is measured over the rigid hoop's interval.
 
@@ -209,6 +223,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Pr
         builder.completed = False
         return str(error) + too_soft(scene)
     run: Run | None = scene.run
+    whirled = False
     horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
     watch = progress.watch(0.0, 1.0, lambda t, phi: t / horizon)
     while run is not None:
@@ -216,21 +231,19 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Pr
         swing = rigid.simulate(rigid_limit(here))
         if run.until == "rest" and builder.pieces and _slips_no_more(swing):
             return swing.ended
-        # a swing that begins at a turn has no rest of a pulse to list
+        # a swing that begins at a turn has no rest of a pulse to list, and a pulse that goes on through one is one
         pulses = [p for p in swing.pulses if not p.cut or (p.t_start == 0 and not builder.pieces)]
         phi = float(state.pos[2]) / (2 * pi)
         limit = builder.t + 4 * swing.t_end + 10
         ends = Ends(
             t=limit if scene.run.t_end is None else scene.run.t_end,
-            low=2 * pi * (ceil(phi) - 1), high=2 * pi * (floor(phi) + 1), turns=1,
+            low=2 * pi * (ceil(phi) - 1), high=2 * pi * (floor(phi) + 1), turns=turns_of(swing, pulses, run.turns),
         )  # fmt: skip
         if run.until == "pulse" and pulses:  # before the first whole pulse there may be the rest of one
             ends = _to_the_end_of(pulses[-1], ends, float(state.pos[2]))
         began = state.t
         state, segment, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
-        _add_pulses(
-            builder, segment, pulses, over=not trouble and scene.run.t_end is not None and ends.t - state.t < 1e-12
-        )
+        add_pulses(builder, segment, swing, pulses, over=not trouble and _rest_of(scene.run, builder) is None)
         if not trouble and state.t == began and _rest_of(scene.run, builder) is not None:
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: a swing of no length"
         elif not trouble and scene.run.t_end is None and state.t >= limit:
@@ -238,9 +251,16 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Pr
         if trouble:
             builder.completed = False
             return trouble + too_soft(scene)
-        if run.until == "pulse" and any(not pulse.cut for pulse in builder.pulses):
+        if run.until == "pulse" and any(map(over_bottom, builder.pulses)):
             return "the first pulse is over"
         run = _rest_of(scene.run, builder)
+        onward = None
+        if run is not None and run.turns is not None and not segment.turns():
+            onward = rigid.simulate(rigid_limit(_from_here(scene, hoop, state, Run(turns=1))))
+        whirls = onward is not None and _whirls(onward)
+        if onward is not None and whirls and whirled:
+            return onward.ended
+        whirled = whirls
     return "the time to run is over" if scene.run.turns is None else last_turn(scene.run.turns)
 
 
@@ -251,19 +271,3 @@ def _to_the_end_of(pulse: Pulse, ends: Ends, phi: float) -> Ends:
     if ends.low < pulse.phi_end < phi and pulse.phi_end < pulse.phi_start:
         return ends._replace(low=pulse.phi_end)
     return ends
-
-
-def _add_pulses(builder: Builder, segment: Segment, pulses: list[Pulse], over: bool) -> None:
-    """The pulses of a swing, each over its rigid one's angles; where the run is over inside one, the part before."""
-    for pulse in pulses:
-        enters = segment.t_start if pulse.cut else segment.crossing(pulse.phi_start, segment.t_start)
-        if enters is None:
-            return
-        leaves = segment.crossing(pulse.phi_end, enters)
-        cut = pulse.cut or leaves is None
-        if leaves is None and over:
-            leaves = segment.t_end
-        if leaves is None or leaves <= enters:
-            return
-        found = segment.pulse(enters, leaves)
-        builder.pulses.append(found.marked_cut() if cut else found)

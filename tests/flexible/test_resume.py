@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scenes import HOOP
 
+import rigid
 from flexible import FlexibleMotion, load_motion, simulate, write_fields
 from meshes import SeriesError
 from rigid import Scene
@@ -110,3 +111,5 @@ def test_what_cannot_be_resumed_is_refused() -> None:
         simulate(SCENES["brush"], resume=part)
     with pytest.raises(ValueError, match="did not keep its states"):
         simulate(SCENES["pulses"], history=True, resume=part)
+    with pytest.raises(ValueError, match="none of the flexible hoop, but Motion"):
+        simulate(SCENES["pulses"], resume=rigid.simulate(SCENES["pulses"]))  # type: ignore[arg-type]

@@ -12,7 +12,7 @@ def turning(t, phi, omega):
     """Records of a hoop that turns, and does nothing else."""
     nothing = dict.fromkeys(Record._fields, 0.0)
     rows = [{**nothing, "t": a, "phi": b, "omega": c, "mode": 0} for a, b, c in zip(t, phi, omega, strict=True)]
-    return Segment([Record(**row) for row in rows], Hoop(k=0.1))
+    return Segment([Record(**row) for row in rows], Hoop(k=0.1), 0.0)
 
 
 def test_an_event_at_the_very_angle_is_no_crossing_of_its_own():
@@ -28,3 +28,12 @@ def test_a_hoop_thrown_back_passes_an_angle_once_each_way():
     t = np.array([0.0, 0.3, 1.1, 1.1, 2.0])
     segment = turning(t, t * (2 - t), 2 - 2 * t)
     assert list(segment.crossings(0.5)) == pytest.approx([1 - 0.5**0.5, 1 + 0.5**0.5], abs=1e-14)
+
+
+def test_a_hoop_that_rolls_does_so_between_the_steps():
+    """x_C = phi = t (2 - t): a way straight between the steps would have the hoop slip there and back."""
+    t = np.array([0.0, 0.3, 1.1, 2.0])
+    segment = turning(t, t * (2 - t), 2 - 2 * t)
+    segment.columns["x_C"] = segment["phi"].copy()
+    between = np.linspace(0, 2, 23)
+    assert segment.value("x_C", between) == pytest.approx(between * (2 - between), abs=1e-14)

@@ -1,0 +1,120 @@
+"""Which pulses a flexible motion has, and what is measured of them, beside the rigid hoop's."""
+
+from math import pi
+
+import numpy as np
+import pytest
+from scenes import HOOP
+
+import flexible
+import rigid
+from flexible.output.body import whole
+from rigid import Friction, Hoop, Release, Run, Scene, Solve
+
+
+def near_the_bottom(k, mass_ratio, mu, run, *release):
+    """A hoop that rocks, slips and turns back where its pulses are."""
+    return Scene(
+        Hoop(k, r=1.02, mass_ratio=mass_ratio), Friction(1.1 * mu, mu), Release(*release), run, solve=Solve(rtol=1e-3)
+    )  # fmt: skip
+
+
+TURNS, FIRST = Run(turns=3), Run(until="pulse")
+SCENES = {
+    "turns shortly before its pulses": near_the_bottom(0.1, 0.0, 0.3, TURNS, 2.922, 0.682),
+    "the same, with a slip": near_the_bottom(0.1, 0.0, 0.716, TURNS, 2.0856, 0.5144, -1.1989),
+    "released on the way up": near_the_bottom(0.1, 0.1, 0.599, TURNS, 3.0924, -0.6816, 0.2106),
+    "turns inside a pulse": near_the_bottom(0.3, 0.0, 0.71, FIRST, 3.1512, -0.0995, 0.8943),
+    "on the way up, to the first": near_the_bottom(0.3, 0.1, 0.7, FIRST, 3.17367, 0.45069, -0.36776),
+    "from the bottom": near_the_bottom(0.1, 0.0, 0.3, Run(t_end=1.5), pi, 0.5),
+    "from the bottom, the other way": near_the_bottom(0.1, 0.0, 0.3, Run(t_end=1.5), pi, -0.5),
+    "the paper's": rigid.load_scene("paper-3.2-k0.25").replace(run={"turns": 12}, solve={"rtol": 1e-3}),
+}
+
+
+@pytest.mark.parametrize("resolve", ["pulses", "all"])
+@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+def test_a_stiff_hoop_has_the_rigid_hoops_pulses(scene, resolve):
+    """No more and none less, cut where those are; impulses differ as the patch's half-width, 1e-3, makes events."""
+    exact, motion = rigid.simulate(scene), flexible.simulate(scene.replace(solve={"resolve": resolve}))
+    assert motion.completed
+    assert [pulse.cut for pulse in motion.pulses] == [pulse.cut for pulse in exact.pulses]
+    for found, known in zip(motion.pulses, exact.pulses, strict=True):
+        assert found.normal_impulse == pytest.approx(known.normal_impulse, abs=1e-2)
+        assert found.t_start == pytest.approx(known.t_start, abs=2e-2)
+    assert motion.t_end == pytest.approx(exact.t_end, abs=2e-2)
+
+
+def test_a_pulse_that_ends_with_a_turn_at_the_bottom():
+    """There N = M g, and the angle at which it ends is passed again only by the next pulse but one."""
+    scene = Scene(Hoop(0.1, r=1.02, mass_ratio=0.1), Friction(0.35, 0.3), Release(pi, slip0=1), Run(t_end=3.5))
+    exact, motion = rigid.simulate(scene), flexible.simulate(scene.replace(solve={"rtol": 1e-3}))
+    assert [pulse.cut for pulse in motion.pulses] == [pulse.cut for pulse in exact.pulses] == [False, False]
+    for found, known in zip(motion.pulses, exact.pulses, strict=True):
+        assert found.normal_impulse == pytest.approx(known.normal_impulse, rel=1e-3)
+        assert found.friction_impulse == pytest.approx(known.friction_impulse, rel=1e-3)
+
+
+def test_no_pulse_in_the_air():
+    """Over the angles at which a rigid hoop on the floor had one this hoop flies, from a swing into the next."""
+    scene = Scene(
+        Hoop(0.3, r=1.02, mass_ratio=0.1), Friction(0.35, 0.3),
+        Release(5.912483501685977, 0.9833534339803927, 0.6176876180693398), Run(turns=2),
+        solve=Solve(rtol=1e-3, resolve="all"),
+    ).replace(ring={"bending_stiffness": 1e6})  # fmt: skip
+    motion = flexible.simulate(scene)
+    assert any(phase.kind == "flight" and phase.t_end - phase.t_start > 1 for phase in motion.phases)
+    assert motion.pulses
+    assert all(pulse.normal_impulse > 0 for pulse in motion.pulses)
+
+
+@pytest.mark.parametrize("resolve", ["pulses", "all"])
+def test_the_totals_of_a_history_go_on(resolve):
+    """Through all segments: what friction takes in them is what the ledger has, or less by what the rigid hoop lost."""
+    scene = HOOP.replace(run={"turns": 3}, contact={"damping": 1.0}, solve={"resolve": resolve})
+    motion = flexible.simulate(scene, history=True)
+    steps, ledger = motion.history, motion.ledger
+    assert steps is not None
+    assert (np.diff(steps.normal_impulse) >= 0).all()
+    assert steps.damping_loss[-1] == pytest.approx(ledger.damping_loss, rel=1e-12)
+    if resolve == "all":
+        assert steps.friction_loss[-1] == pytest.approx(ledger.friction_loss, rel=1e-12)
+        # at rest and at a turn G neither rises nor falls: the floor has carried the weight
+        weight = (1 + scene.hoop.mass_ratio) * motion.t_end
+        assert steps.normal_impulse[-1] == pytest.approx(weight, rel=1e-3)
+    else:
+        pulses = sum(pulse.friction_loss for pulse in motion.pulses)
+        assert pulses <= steps.friction_loss[-1] <= ledger.friction_loss
+
+
+def test_the_restitution_of_a_soft_heavy_ring():
+    """By the velocity of the mass centre, of the bent ring as it is: where its parts are taken to stand on a circle
+    Newton's number comes out a tenth off."""
+    scene = HOOP.replace(
+        hoop={"mass_ratio": 1.0}, ring={"bending_stiffness": 5.0}, contact={"stiffness": 1e7, "damping": 1.0},
+        solve={"level": "auto", "resolve": "all"},
+    )  # fmt: skip
+    motion = flexible.simulate(scene, history=True)
+    (pulse,), (kept,) = motion.pulses, motion.kept
+    t = np.array([state.t for state in kept.states])
+    rises = []
+    for end in (pulse.t_start, pulse.t_end):
+        near = np.flatnonzero(np.abs(t - end) <= np.sort(np.abs(t - end))[3])
+        rise = [whole(kept.hoop, kept.states[i]).velocity[1] for i in near]
+        rises.append(np.interp(end, t[near], rise))
+    # straight between steps, of which a pulse has hundreds
+    assert pulse.newton_restitution == pytest.approx(-rises[1] / rises[0], rel=5e-3)
+
+
+@pytest.mark.parametrize("resolve", ["pulses", "all"])
+def test_a_hoop_that_goes_over_the_top_for_ever_has_no_turn_to_wait_for(resolve):
+    """Neither solver waits: each goes round once, and says the same."""
+    scene = Scene(
+        Hoop(0.1, r=1.02, mass_ratio=0.5), Friction(0.777, 0.518), Release(4.869, 0.927), Run(turns=2),
+        solve=Solve(rtol=1e-2, resolve=resolve),
+    )  # fmt: skip
+    exact, motion = rigid.simulate(scene), flexible.simulate(scene)
+    assert motion.completed
+    assert not motion.turns
+    assert motion.ended.split(";")[0] == exact.ended.split(";")[0]  # then comes the period
+    assert len(motion.pulses) == len(exact.pulses) == 1
