@@ -4,6 +4,7 @@ from math import pi, radians
 
 import numpy as np
 import pytest
+from scenes import HOOP
 
 import flexible
 import rigid
@@ -140,3 +141,20 @@ def test_a_hoop_that_stands_on_its_head_is_handed_over_without_a_friction(law):
     assert motion.completed
     # it stands there, but for what round-off grows to: exp(t) at most, sqrt(e/K) < 1.1
     assert abs(float(motion.at(1.0).phi)) < 1e-6
+
+
+def test_behind_a_pulse_the_rigid_hoop_goes_on_from_where_it_is():
+    """To a turn: its centre does not jump, and all that it holds there is its height, and sliding along by then.
+
+    Over 1e-9 to either side of the hand-over the centre goes by less than 1e-8.
+    """
+    motion = flexible.simulate(HOOP.replace(run={"turns": 1}))
+    over = motion.pulses[0].t_end
+    assert over < motion.t_end - 0.1
+    before, behind = motion.at(over + np.array([-1e-9, 1e-9])).x_C
+    assert behind == pytest.approx(before, abs=1e-8)
+    assert abs(before) > 1
+    end, M = motion.at(motion.t_end), 1 + HOOP.hoop.mass_ratio
+    assert motion.ledger.gravity == pytest.approx(M * (1 + HOOP.hoop.e * np.cos(end.phi)), rel=1e-9)
+    assert motion.ledger.kinetic == pytest.approx(M * end.slip_velocity**2 / 2, rel=1e-9)
+    assert motion.ledger.ring_strain == motion.ledger.contact_spring == 0

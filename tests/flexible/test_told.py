@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from scenes import HOOP
+
 from flexible import simulate
 from flexible.told import in_time_of
 from rigid import load_scene
@@ -25,3 +27,12 @@ def test_a_run_that_is_stopped_says_when_in_its_own_unit():
     asked = iter(range(5))
     motion = simulate(scene, stop=lambda: next(asked, None) is None)
     assert motion.ended.startswith(f"stopped at t = {motion.t_end:.6g} s as asked")
+
+
+def test_a_run_that_is_out_of_steps_tells_all_that_it_took():
+    """Those of its first pulse too, where it ends in the second."""
+    scene = HOOP.replace(run={"turns": 2}, solve={"rtol": 1e-2})
+    first = simulate(scene.replace(run={"until": "pulse"})).steps
+    motion = simulate(scene, most_steps=first + 5)
+    assert len(motion.pulses) == 1
+    assert motion.ended == f"stopped at t = {motion.t_end:.6g} after {first + 5} steps"

@@ -92,3 +92,10 @@ def test_frames_are_even_without_a_force_and_dense_where_it_changes():
     for bad in ((0, 1, 1), (1, 1, 5)):
         with pytest.raises(ValueError, match="cannot be chosen"):
             frame_times(*bad)
+
+
+def test_frames_follow_how_far_the_force_goes_and_not_for_how_long():
+    """Two rises of one height, one nine times as steep: each gets half of the frames that follow the force."""
+    t, force = np.array([0.0, 0.1, 1.0]), np.array([0.0, 1.0, 2.0])
+    times = frame_times(0.0, 1.0, 1001, t, force, share=0.8)
+    assert (times < 0.1).mean() == pytest.approx(0.2 * 0.1 + 0.8 / 2, abs=2e-3)  # a frame more or less at either end

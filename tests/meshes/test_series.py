@@ -1,6 +1,7 @@
 """A series of fields: bit-exact round trip, other readers, damaged files, a writer that is killed."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -10,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshes import Block, Frame, SeriesError, SeriesWriter, disk_block, floor_block, read
+from meshes import Block, Frame, Placement, SeriesError, SeriesWriter, disk_block, floor_block, read
 
 TIMES = np.array([0.1, 0.1 + 1e-16 + 2**-50, 1 / 3, 2.0])  # two that differ in the last bits
 
@@ -263,3 +264,14 @@ def test_arrays_that_do_not_fit():
         Block(*square, 28)
     with pytest.raises(SeriesError, match="no points"):
         Block(np.zeros(4), square[1], 9)
+
+
+def test_other_programs_are_told_which_component_of_the_stress_is_which(tmp_path):
+    """(xx, yy, xy), the order that :meth:`meshes.Placement.stress` has: of a pull along y alone the second is not 0."""
+    stress = Placement(0.0, 0.0, 1.0).stress(np.array([[7.0, 0.0, 0.0]]))  # y1 points up
+    block = Block(np.zeros((4, 2)), np.array([[0, 1, 2, 3]]), 9, {"stress": np.repeat(stress, 4, axis=0)})
+    with SeriesWriter(tmp_path) as writer:
+        writer.add(Frame(0.0, {"ring": block}))
+    (file,) = (tmp_path / "fields").glob("ring-*.vtu")
+    names = [re.search(rf'ComponentName{i}="(..)"', file.read_bytes().decode("latin-1"))[1] for i in range(3)]
+    assert dict(zip(names, stress[0], strict=True)) == pytest.approx({"xx": 0.0, "yy": 7.0, "xy": 0.0})

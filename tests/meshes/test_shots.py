@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from meshes import Block
+from meshes.draw.scales import tidy
 from meshes.draw.shots import Shot
 from meshes.fields import LINE
 
@@ -38,3 +39,11 @@ def test_without_a_pressure_it_is_below_the_centre():
     assert off.contact(1.0) == 3.0
     assert replace(off, rim=None).contact(1.0) == 3.0
     assert replace(off, rim=off.ring).contact(1.0) == 3.0
+
+
+@pytest.mark.parametrize(
+    ("factor", "tidied"), [(0.3, 1), (1, 1), (1.99, 1), (2, 2), (4.9, 2), (5, 5), (20, 20), (999, 500)]
+)
+def test_a_tidy_factor_is_the_next_one_below(factor, tidied):
+    """1, 2 or 5 times a power of ten, which are their own."""
+    assert tidy(factor) == pytest.approx(tidied, rel=1e-12)

@@ -92,6 +92,13 @@ def test_rolling_for_ever_lists_any_number_of_turns(turns):
     assert float(motion.at(motion.turns[-3].t).omega) == pytest.approx(0, abs=1e-9)
 
 
+def test_a_period_is_in_the_time_of_its_scene():
+    """From a turn to the next but one, in seconds."""
+    motion = simulate(ROLLING.replace(hoop={"R": 0.3, "m": 2.0, "g": 9.81}, run={"turns": 4}))
+    assert motion.period == pytest.approx(motion.turns[3].t - motion.turns[1].t, rel=1e-12)
+    assert motion.period == pytest.approx(simulate(ROLLING).period * (0.3 / 9.81) ** 0.5, rel=1e-12)
+
+
 def test_lists_that_repeat_are_sequences():
     motion = simulate(SMOOTH["from rest"].replace(run={"turns": 50}))
     turns = motion.turns

@@ -134,6 +134,19 @@ def test_landing_against_its_differential_equation():
     assert reversed_or_stuck > 5
 
 
+@pytest.mark.parametrize(("share", "sticks"), [(0.9, False), (1.1, True)])
+def test_a_slip_that_stops_in_a_landing_is_held_by_the_static_coefficient(share, sticks):
+    """While it sticks F/N = e s (1 + e c)/(K + (1 + e c)^2): mu_s holds that or not, mu, which is less, has no say."""
+    hoop, phi = Hoop(0.3), 2.0
+    arm, es = 1 + hoop.e * cos(phi), hoop.e * sin(phi)
+    needed = es * arm / (hoop.K + arm**2)
+    par = parameters(Scene(hoop, Friction(share * needed, 0.8 * needed), Release(1.0)))
+    state = at_landing(par, phi, 0.0, 0.01, -1.0)
+    strike(par, state, 0.0)
+    assert (state[SLIP] == 0) == sticks
+    assert state[SLIP] <= 0, "else it slips on the other way"
+
+
 def test_no_landing_makes_energy():
     rng = np.random.default_rng(3)
     for _ in range(400):

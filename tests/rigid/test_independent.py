@@ -6,12 +6,14 @@ D phidd = (e s + mu^ (1 + e c)) (1 - e c w) with D = K + e s (e s + mu^ (1 + e c
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import cos, radians, sin
 
 import mpmath
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
 
 from rigid import Friction, Hoop, Kind, Release, Run, Scene, simulate
 from rigid.phases.rolling.closed_form import rolling_time
@@ -159,3 +161,33 @@ def test_impulses_against_quadrature():
         assert normal == pytest.approx(pulse.normal_impulse, rel=1e-11)
         assert friction == pytest.approx(pulse.friction_impulse, rel=1e-10)
         assert loss == pytest.approx(pulse.friction_loss, rel=1e-10)
+
+
+@pytest.mark.parametrize("name", ["section 3.1", "section 3.3, m_h/m = 0.1"])
+def test_restitutions_against_quadrature(name):
+    """Newton's by ydot_G = -e sin(phi) phidot; Poisson's and Stronge's by integrals of N and N ydot_G to its zero and
+    from there.
+    """
+    motion = simulate(Scene(*SCENES[name], run=Run(turns=2)))
+    e = motion.scene.hoop.e
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+
+    def taken(start, end):
+        """Impulse and work of N."""
+        edges = {start, end, *(p.t_start for p in motion.phases if start < p.t_start < end)}
+        edges = sorted(edges | set(np.linspace(start, end, 30)))
+        total = np.zeros(2)
+        for a, b in pairwise(edges):
+            now = motion.at((a + b) / 2 + (b - a) / 2 * nodes)
+            up = -e * np.sin(now.phi) * now.omega
+            total += (b - a) / 2 * np.array([weights @ now.normal_force, weights @ (now.normal_force * up)])
+        return total
+
+    for pulse in motion.pulses:
+        turned = brentq(lambda t: float(np.sin(motion.at(t).phi)), pulse.t_start, pulse.t_end, xtol=1e-15)
+        (into, absorbed), (out, returned) = taken(pulse.t_start, turned), taken(turned, pulse.t_end)
+        ends = motion.at(np.array([pulse.t_start, pulse.t_end]))
+        before, behind = -e * np.sin(ends.phi) * ends.omega
+        assert pulse.newton_restitution == pytest.approx(-behind / before, rel=1e-10)
+        assert pulse.poisson_restitution == pytest.approx(out / into, rel=1e-9)
+        assert pulse.energetic_restitution == pytest.approx((-returned / absorbed) ** 0.5, rel=1e-9)

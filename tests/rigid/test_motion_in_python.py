@@ -14,7 +14,9 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 
-from rigid import Friction, Hoop, Pulse, Release, Run, Scene, load_scene, simulate, simulate_batch
+from rigid import Friction, Hoop, Pulse, Release, Run, Scene, States, load_scene, simulate, simulate_batch
+from rigid.output.axes import label
+from rigid.output.units import Unit, units_of
 
 mpl.use("Agg")
 ROOT = Path(__file__).parents[2]
@@ -191,3 +193,11 @@ def test_a_batch_tells_the_phases_of_each_pulse():
         assert all(batch.phases(i, j) == () for j in range(len(motion.pulses), 2))
     assert len(seen) > 10
     assert any("impact" in phases for phases in seen)
+
+
+def test_the_unit_on_an_axis_is_the_one_that_the_quantity_says():
+    """A symbol over its unit; an angle is in radians whatever the scene."""
+    for name, unit in units_of(States).items():
+        said = label(name, dimensionless=True)
+        assert said.endswith("(rad)" if unit is Unit.NUMBER else (f"/{unit.formula}$", f"/({unit.formula})$")), said
+        assert "/" not in label(name, dimensionless=False)

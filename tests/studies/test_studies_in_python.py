@@ -47,6 +47,18 @@ def test_a_study_draws_its_distance(study):
     pyplot.close("all")
 
 
+def test_a_point_is_called_above_the_rigid_value_where_it_is(study):
+    """The loss of the third solver is too small and its impulse too large, which the ratio has with its sign."""
+    from matplotlib import pyplot
+
+    for axes, (name, limit) in zip(study.plot("impulse_ratio", "friction_loss"), study.limits.items(), strict=False):
+        told = {line.get_label(): len(line.get_xdata()) for line in axes.lines}
+        above = sum(rung.measure(name) > limit.rigid for rung in study.rungs)
+        assert told.get("above the rigid value", 0) == above
+        assert told.get("below it", 0) == len(study.rungs) - above
+    pyplot.close("all")
+
+
 def test_a_study_as_a_table_and_in_a_few_lines(study):
     table = study.to_dataframe()
     assert list(table["contact_stiffness"]) == pytest.approx(list(np.geomspace(1e7, 1e12, 6)))

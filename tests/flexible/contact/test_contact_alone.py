@@ -53,6 +53,24 @@ def test_steady_rolling_of_the_brush(xi, way):
 
 
 @pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize("stuck", [0.3, 0.6, 0.9])
+def test_steady_rolling_of_a_brush_that_slides_by_less_than_it_holds(stuck, way):
+    """F/N = 3 mu_s (b^2 - b^3) + mu (1 - 3 b^2 + 2 b^3), b the share that sticks (:mod:`flexible.contact.laws.brush`).
+
+    A point that has broken loose slides on under mu p. Within 1e-2: the friction jumps where they break, point by point
+    of 200.
+    """
+    mu_s, mu, depth = 0.45, 0.3, 1e-8
+    a = sqrt(2 * depth)
+    rim = Floor(parameters("brush", 2 * a / 200, EPS, 0.8 * EPS, mu_s, mu), depth)
+    creep = 4 * mu_s * depth * (1 - stuck) / (0.8 * 2 * a)
+    found = [rim.move(creep * a / 37, way * a / 37) for _ in range(160)][-37:]
+    b = stuck
+    exact = 3 * mu_s * (b**2 - b**3) + mu * (1 - 3 * b**2 + 2 * b**3)
+    assert np.mean([res.friction / res.normal for res in found]) == pytest.approx(-exact, rel=1e-2)
+
+
+@pytest.mark.parametrize("way", [1, -1])
 @pytest.mark.parametrize("points", [12, 48])
 def test_steady_rolling_of_a_sticking_patch(points, way):
     """Bristles stretch with their way from the leading edge: F = eps_t gamma (2 a)^2/2, smoothly, and F gamma is lost.
@@ -131,6 +149,17 @@ def test_regularised_friction(ratio):
     assert res.bristle_energy == 0
     assert (res.stuck > 0) == (ratio < 1)
     assert floor.bristles.pull == pytest.approx(0)  # of bristles, which there are none of
+
+
+def test_bristles_of_a_sliding_patch_hold_nothing_of_what_a_damper_adds():
+    """Pressed twice as hard by it F is mu N, twice as large, and what the bristles store is that of the springs."""
+    law = parameters("patch", 1e-4, EPS, 0.8 * EPS)
+    alone, pressed = (
+        Floor(law, 1e-6, mode=SLIDE_LEFT).move(1e-5, 0.0, UNDAMPED._replace(eta_0=eta)) for eta in (1.0, 2.0)
+    )
+    assert (alone.friction, pressed.friction) == pytest.approx((-0.3 * alone.elastic, -0.6 * alone.elastic))
+    assert pressed.bristle_energy == pytest.approx(alone.bristle_energy, rel=1e-12)
+    assert alone.bristle_energy > 0
 
 
 def test_every_law_has_a_name_a_scene_may_hold():

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from scipy.sparse.linalg import spsolve
 
-from flexible import simulate
+from flexible import simulate, write_fields
 from flexible.contact.laws.listing import sticks
 from flexible.output.interior import interior_of
 from flexible.output.patch import profile
 from flexible.output.recovery import ExactInterior, Interior
 from flexible.ring.fem import Ring
-from meshes import hoop_stress, ring_mesh
+from meshes import hoop_stress, read, ring_mesh
 from rigid import load_scene
 
 POISSON = 0.3
@@ -170,3 +170,16 @@ def test_modes_that_come_back_turned_among_themselves_change_nothing(kept):
         np.testing.assert_allclose(again.displacement(state), before, rtol=1e-12, atol=1e-20)
     finally:
         ring.__dict__["_modes"].update(original)
+
+
+def test_the_disk_lies_against_the_inner_rim(tmp_path):
+    """Its radius is k times the inner one; its centre is 1 - k of that from the hoop's, at the angle of the motion."""
+    scene = load_scene("paper-3.3-massless").replace(hoop={"k": 0.4, "r": 1.25}, run={"t_end": 0.05})
+    motion = simulate(scene, history=True)
+    write_fields(motion, tmp_path, times=[0.05], fields=("displacement",))
+    points = read(tmp_path)[0].blocks["disk"].points[:, :2]
+    state = motion.at(0.05)
+    centre, rim = points[0], points[1:]
+    assert np.linalg.norm(rim - centre, axis=1) == pytest.approx(0.4 / 1.25)
+    far = 0.6 / 1.25 * np.array([np.sin(state.phi), np.cos(state.phi)])
+    assert centre - [state.x_C, state.y_C] == pytest.approx(far, abs=1e-12)

@@ -98,3 +98,13 @@ def test_damping_loss_of_a_bounce_against_an_integration():
     assert records[-1].friction_loss == pytest.approx(0, abs=1e-12)
     leaving = next(r for r in records if r.contact_spring == 0 and r.t > 0.002)
     assert leaving.approach_velocity == pytest.approx(-exact[1], rel=5e-3)
+
+
+def test_a_patch_that_its_damper_lets_go_of_is_off_the_floor():
+    """No force is no contact, whether its springs are still pressed or not: some 70 steps of 1e-5 here."""
+    records = bounce(0.3)
+    t = np.array([r.t for r in records])
+    off = np.array([r.normal_force == 0 for r in records])
+    pressed = off & np.array([r.contact_spring > 0 for r in records])
+    assert pressed.sum() > 20
+    assert records[-1].off_floor == pytest.approx(np.diff(t)[off[1:]].sum(), abs=3e-5)  # its edges lie within steps

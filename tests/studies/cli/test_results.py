@@ -10,6 +10,7 @@ import click
 import pytest
 from command_line import SCENE, is_one_sentence
 
+from studies import StudyError
 from studies.cli import hoop as cli
 from studies.cli.shared import results
 from studies.running import progress
@@ -109,6 +110,20 @@ def test_a_run_that_is_refused_leaves_the_earlier_one(hoop, tmp_path, scene):
     thin.write_text(SCENE.format(k=0.1).replace("r = 1.02", "r = 1.0002"))
     assert hoop("flexible", thin, "--out", out)[0] == 2
     assert before == {name: (out / name).read_bytes() for name in names(out)}
+
+
+def test_the_earlier_motion_stays_until_the_next_one_is_whole(hoop, tmp_path, scene, monkeypatch):
+    """It may be the one that is gone on from, and the only one: whatever fails before it is replaced."""
+    out = tmp_path / "p"
+    assert hoop("flexible", scene(), "--out", out)[0] == 0
+    before = (out / "motion.npz").read_bytes()
+
+    def full(path: object, text: str) -> None:
+        raise StudyError("the disk is full.")
+
+    monkeypatch.setattr("studies.cli.shared.output.write_text", full)
+    assert hoop("flexible", scene(), "--out", out)[0] == 2
+    assert (out / "motion.npz").read_bytes() == before
 
 
 def test_what_a_command_writes_is_known(hoop, tmp_path, scene):

@@ -87,6 +87,16 @@ def test_a_motion_has_units_everywhere(scene, screen, width):
     assert all(re.fullmatch(NUMBER, cell) for cell in found["pulse 4"])
 
 
+def test_a_phase_begins_where_the_one_before_it_ends(scene, screen):
+    """In time and in angle; and none of these ends where it began."""
+    found = table_of(screen(200, motion_tables(simulate(scene[1]))))
+    time = "s" if scene[0] else "sqrt(R/g)"
+    for of, unit in (("t", time), ("phi", "deg")):
+        starts, ends = found[f"from {of} [{unit}]"], found[f"to {of} [{unit}]"]
+        assert starts[1:] == ends[:-1]
+        assert all(start != end for start, end in zip(starts, ends, strict=True))
+
+
 @pytest.fixture(scope="module")
 def sweep():
     """24 scenes of four keys, of which one in three cannot be: mu is more than mu_s."""

@@ -130,6 +130,39 @@ def test_what_goes_into_the_mass_centre_is_the_work_of_the_normal_force_on_it(so
     assert work == pytest.approx(flight.energies.mass_centre, rel=0.05, abs=3 * RTOL)
 
 
+def test_the_energy_of_the_rise_is_that_of_the_whole_mass_and_of_its_momentum(soft):
+    """M ydot_G^2/2 at lift-off, ydot_G = J_N/M - t from rest."""
+    history, M = soft.steps.history, 1.1
+    told = [flight for flight in soft.motion.flights if flight.energies is not None]
+    for flight in told:
+        lift = int(np.searchsorted(history.t, flight.t, side="right")) - 1
+        up = history.normal_impulse[lift] / M - history.t[lift]
+        assert flight.energies.upward == pytest.approx(M * max(up, 0.0) ** 2 / 2, rel=0.01)  # thousands of steps
+    assert max(flight.energies.upward for flight in told) > 1e-3
+
+
+def test_the_loss_of_a_landing_begins_with_the_step_that_comes_down(soft):
+    """Of flights within a slow period of one another: all that was lost between the last instants off and on it."""
+    history, scales = soft.steps.history, soft.motion.scales
+    lost, off = history.friction_loss + history.damping_loss, spans(history.normal_force == 0)
+    slow, told = max(scales.period, 2 * pi * scales.sag**0.5), 0
+    for flight, (_, last), (again, _) in zip(soft.motion.flights, off, off[1:], strict=False):
+        if flight.energies is not None and history.t[again - 1] - history.t[last + 1] <= slow:
+            assert flight.energies.landing == pytest.approx(lost[again - 1] - lost[last], abs=1e-9)
+            told += 1
+    assert told
+
+
+def test_before_a_hop_of_a_ring_without_mass_a_swing_of_the_hoop_on_it_is_looked_at():
+    """It has no period of its own, and the hoop on it swings with 2 pi sqrt(sag)."""
+    motion = roll(scene_of(10.0, 4.2, damping=1.0).replace(hoop={"mass_ratio": 0.0}), history=True)
+    flight = next(flight for flight in motion.flights if flight.energies is not None)
+    t, stored = motion.history.t, steps_of(motion).stored
+    before = (t > flight.t - 2 * pi * motion.scales.sag**0.5) & (t <= flight.t)
+    assert motion.history.normal_force[before].min() > 0, "on the floor all the time"
+    assert flight.energies.stored == pytest.approx(stored[before].max(), rel=1e-12)
+
+
 def stored_at_peak(stored: np.ndarray, flight) -> float:
     """The entry of ``stored`` at which a flight's energies begin."""
     return float(stored[np.argmin(np.abs(stored - flight.energies.stored))])

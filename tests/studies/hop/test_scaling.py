@@ -10,8 +10,8 @@ from scipy.integrate import trapezoid
 from scipy.linalg import eigvalsh, null_space
 
 from flexible.ring.choice import ring_of
-from rigid import Friction, Hoop, Release, Run, Scene, simulate
-from studies.hop.rolling.rule import slowest_period
+from rigid import Friction, Hoop, Release, Run, Scene, load_scene, simulate
+from studies.hop.rolling.rule import scales_of, slowest_period
 from studies.hop.rolling.scaling import LEFT, SYMMETRIC, foreseen, pulse_time, relief, suddenness
 
 
@@ -102,3 +102,11 @@ def test_what_is_foreseen_is_where_the_amplitude_is_the_least_normal_force():
 
 def test_a_ring_without_mass_has_no_vibration_to_leave():
     assert suddenness(rolling(0.1, 0.0)) == 0.0
+
+
+@pytest.mark.parametrize("mass_ratio", [0.0, 5.0])
+def test_the_depth_that_flights_are_measured_by_is_that_under_disk_and_hoop(mass_ratio):
+    """Winkler: N = 4/3 eps delta sqrt(2 delta)."""
+    scene = load_scene("paper-3.3-heavier").replace(hoop={"mass_ratio": mass_ratio}, contact={"stiffness": 1e6})
+    depth = scales_of(scene, 0.0).depth
+    assert 4 / 3 * 1e6 * depth * (2 * depth) ** 0.5 == pytest.approx(1 + mass_ratio)

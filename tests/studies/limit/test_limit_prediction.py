@@ -13,11 +13,13 @@ from scipy.optimize import brentq
 
 from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, simulate
 from studies.inner.body import arms
-from studies.inner.events import START, passage
+from studies.inner.events import START, STOP, passage
+from studies.inner.layers import period_of
 from studies.inner.march import FRICTION_IMPULSE, NORMAL_IMPULSE, REGULARISED
+from studies.inner.scales import epsilon, theta_of
 from studies.inner.separate import separate_from
 from studies.limit.compliant import go_through, march_through
-from studies.limit.damping import damping_map
+from studies.limit.damping import damping_map, decay_in_stick
 from studies.limit.onset import brush_end, regularised_lead
 from studies.limit.outer import Shift
 from studies.limit.prediction import _walk, powers, predict
@@ -173,6 +175,30 @@ def test_units_of_a_prediction():
     assert there["impulse_ratio"].coefficient == pytest.approx(here["impulse_ratio"].coefficient, rel=1e-6)
     unit = si.impulse_unit
     assert there["normal_impulse"].coefficient == pytest.approx(here["normal_impulse"].coefficient * unit, rel=1e-6)
+
+
+def test_units_of_a_compliant_pulse():
+    """Impulses in N s and the loss in J, to round-off of another order of the factors."""
+    scene = scene_of(0.1, 0.1, "patch").replace(contact={"stiffness": 1e8})
+    si = scene.replace(hoop={"R": 0.5, "m": 0.3, "g": 9.81})
+    here, there = go_through(scene), go_through(si)
+    assert there.normal_impulse == pytest.approx(here.normal_impulse * si.impulse_unit, rel=1e-6)
+    assert there.friction_impulse == pytest.approx(here.friction_impulse * si.impulse_unit, rel=1e-6)
+    assert there.loss == pytest.approx(here.loss * si.energy_unit, rel=1e-6)
+
+
+def test_ringing_decays_in_a_stick_as_its_oscillator_does():
+    """H'' = -omega^2 (H + theta H'): the real part of its roots, over the shortest stick between two events."""
+    scene = scene_of(0.1, 0.0, "patch", 0.02)
+    way, theta = passage(scene), theta_of(scene)
+    decays = []
+    for now, following in zip(way.events, way.events[1:], strict=False):
+        if now.kind == STOP:
+            square = (2 * pi / period_of(way.body, now)) ** 2
+            roots = np.roots([1.0, square * theta, square])
+            assert np.iscomplex(roots).all(), "so little damping lets it ring"
+            decays.append(-roots[0].real * (following.t - now.t) / epsilon(scene))
+    assert decay_in_stick(scene) == pytest.approx(min(decays), rel=1e-9)
 
 
 def test_a_regularised_law_comes_like_the_four_fifths_power():

@@ -147,3 +147,10 @@ def test_a_measure_that_does_not_change_is_its_own_limit():
     found = limit_of(S, np.full(S.size, 2.942), 2.942)
     assert (found.value, found.uncertainty) == (2.942, 0.0)
     assert found.rigid_inside
+
+
+def test_a_fitted_rate_is_no_better_known_than_the_slowest_that_may_be_behind_it():
+    """Of 1/s alone: nothing in it tells that no s^(-1/3) comes behind, and the limit with that counts in."""
+    y = 0.17 + 0.02 * S[0] / S
+    found, slowest = limit_of(S, y, 0.17), richardson(S, y, exponent=1 / 3)[0]
+    assert found.uncertainty >= abs(found.value - slowest) > 1e3 * richardson(S, y)[1]

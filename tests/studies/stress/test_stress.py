@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 import signal
 import tomllib
+from dataclasses import replace
 from math import inf
 
+import numpy as np
 import pytest
 
-from rigid import scene_from_dict
+from rigid import Run, load_scene, scene_from_dict, simulate
 from studies.stress import checks, draws, figures, run
 from studies.stress.flexible import flexible_margins
 from studies.stress.run import Finding, Report
@@ -70,6 +72,17 @@ def test_what_is_wrong_is_found(monkeypatch):
     assert checks.listed(dataclasses.replace(motion, phases=motion.phases[::-1]))["in order"] > 1
     lost = dataclasses.replace(motion.turns[0], t=float("nan"))
     assert checks.listed(dataclasses.replace(motion, turns=(lost,)))["finite"] > 1
+
+
+@pytest.mark.parametrize("turned", [checks.mirrored, lambda scene: scene])
+def test_a_friction_that_no_floor_has_is_found_whichever_way_it_pulls(turned):
+    """A first roll, which ends as |F| comes to mu_s N, held against half of that; mirrored F has the other sign."""
+    scene = turned(load_scene("paper-3.1"))
+    motion = simulate(scene.replace(run=Run(t_end=0.999 * simulate(scene).phases[0].t_end)))
+    assert np.ptp(np.sign(motion.at(np.linspace(0.5, 1.0, 20) * motion.t_end).friction_force)) == 0
+    assert checks.sampled(motion)["|F| <= mu_s N"] <= 1
+    smoother = scene.replace(friction={"mu_s": scene.friction.mu_s / 2, "mu": 0.0})
+    assert checks.sampled(replace(motion, scene=smoother))["|F| <= mu_s N"] > 1
 
 
 def test_a_crash_and_a_run_without_end_are_told():

@@ -1,0 +1,73 @@
+"""A case and its outcome: what determines a result, what its error is, and that nothing is lost where it is kept."""
+
+from __future__ import annotations
+
+import dataclasses
+from math import isnan
+
+import numpy as np
+import pytest
+from third_solver import softened
+
+from flexible import FlexiblePulse
+from rigid import Motion, Scene, load_scene
+from studies.running.case import Case, run_case
+from studies.running.store import Store
+
+SCENE = load_scene("paper-3.1")
+TAKEN = 0.125
+"""What the steps of :func:`losing` take of the energy, whatever the tolerance."""
+
+
+@pytest.mark.parametrize("asked", [{"histories": True}, {"cut": True}, {"build": "another"}])
+def test_all_that_is_asked_of_a_case_is_in_its_key(asked):
+    """A result without histories is none of a case that wants them."""
+    case = Case("rigid", SCENE)
+    assert dataclasses.replace(case, **asked).key != case.key
+
+
+def test_a_case_that_wants_histories_is_run_again_where_there_are_none(tmp_path):
+    from studies.running.runs import run_cases
+    from studies.running.workers import Here
+
+    for histories in (False, True):
+        (found,) = run_cases([Case("rigid", SCENE, histories=histories)], Here(), tmp_path)
+        assert len(found.histories) == (len(found.pulses) if histories else 0)
+    assert len(found.pulses) > 0
+
+
+def test_a_measure_that_there_is_not_comes_back_as_none(tmp_path):
+    """Without friction there is no J_F/(mu J_N): NaN, which JSON has not, and no number."""
+    smooth = SCENE.replace(friction={"mu_s": 0.0, "mu": 0.0})
+    outcome = run_case(Case("rigid", smooth))
+    store = Store(tmp_path)
+    store.add(outcome)
+    back = store.get(outcome.key)
+    for mine, theirs in zip(outcome.pulses, back.pulses, strict=True):
+        assert isnan(mine["impulse_ratio_over_mu"])
+        np.testing.assert_array_equal(list(theirs.values()), list(mine.values()))
+
+
+def losing(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
+    """The third solver's motion, of which the steps themselves have taken ``TAKEN``."""
+    motion = softened(scene)
+    nothing = {"time_off_floor": 0.0, "ring_energy_peak": 0.0, "contact_energy_peak": 0.0, "damping_loss": 0.0}
+    pulses = tuple(
+        FlexiblePulse(**vars_of(pulse), **nothing, numerical_loss=TAKEN, phases=()) for pulse in motion.pulses
+    )
+    return dataclasses.replace(motion, pulses=pulses)
+
+
+def vars_of(pulse: object) -> dict[str, object]:
+    """A record's fields as they are."""
+    return {field.name: getattr(pulse, field.name) for field in dataclasses.fields(pulse)}
+
+
+@pytest.mark.parametrize("taken", [TAKEN, -TAKEN])
+def test_energy_that_the_steps_took_friction_may_have_had(monkeypatch, taken):
+    """The error of the friction loss is no less, however well two runs agree."""
+    monkeypatch.setattr(f"{__name__}.TAKEN", taken)
+    outcome = run_case(Case(f"{__name__}:losing", SCENE, against=(("friction_loss", 0.0, 10.0),)))
+    assert not outcome.failure
+    assert outcome.numerical_error[0]["impulse_ratio"] < 1e-3
+    assert outcome.numerical_error[0]["friction_loss"] >= abs(taken)
