@@ -17,9 +17,8 @@ from rigid.output.units import in_units
 
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range
-from .models.state import State
+from .models.state import State, momentum
 from .motion import FlexibleMotion, FlexiblePulse, Kept, Ledger, March
-from .output.body import whole
 from .packed import pack
 from .segment import Segment, history_of
 from .time.adaptive import LIMITS, Limits, march
@@ -257,7 +256,8 @@ class Builder:
             self.kept.append(Kept(hoop, tuple(states)))
         first = marched.records[0].t
         self.marches.append(March(marched, tuple(turned for turned in self.range.records if turned[0] > first)))
-        return marched.state, self._add_flexible(marched, whole(hoop, state).velocity[1]), marched.ended
+        rise = momentum(hoop, state, np.eye(len(state.vel))[1]) / (1 + self.hoop.mass_ratio)
+        return marched.state, self._add_flexible(marched, rise), marched.ended
 
     def _earlier(self, number: int, state: State) -> tuple[March | None, bool]:
         """The march of that number in the motion to go on from, and whether it is its last one.

@@ -125,6 +125,20 @@ class Model(Protocol):
         """
 
 
+def momentum(model: Model, state: State, rates: Array) -> float:
+    """Momentum of a state along ``rates`` of its coordinates, (n,): along a unit rate of h it is M times the velocity
+    of the mass centre upwards.
+
+    Kinetic energy is a quadratic form of the rates, so this is half a difference of its values: exact, and the same for
+    every level of the hoop.
+    """
+
+    def energy(vel: Array) -> float:
+        return float(model.energies(state._replace(vel=vel))[0])
+
+    return (energy(state.vel + rates) - energy(state.vel - rates)) / 2
+
+
 class Record(NamedTuple):
     """One accepted instant, and what was lost and transferred up to it (cumulative)."""
 

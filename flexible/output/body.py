@@ -1,8 +1,7 @@
 """How a hoop moves as a whole: mass centre, spin, and what of its kinetic energy is neither; its rim
 and the lowest point of that.
 
-The kinetic energy is a quadratic form of the rates, so momenta and inertias are differences of its values at rates
-that a rigid motion adds. That is exact, and the same for every level of the hoop.
+Momenta, and inertias as those of a unit turn, follow from the kinetic energy (:func:`flexible.models.state.momentum`).
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..contact.points.rim import gap_at, sideways, upward
 from ..models.select import Hoop
-from ..models.state import State
+from ..models.state import State, momentum
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
@@ -44,21 +43,16 @@ def whole(hoop: Hoop, state: State) -> Whole:
     right[0] = up[1] = turn[2] = 1.0
     turn[0] = -1.0  # C stands: V = x_C - phi
 
-    def energy(rates: Array) -> float:
-        return float(hoop.energies(state._replace(vel=rates))[0])
-
-    def between(one: Array, two: Array) -> float:
-        return (energy(one + two) - energy(one - two)) / 2
-
-    mass = 2 * energy(right)
-    momentum = np.array([between(right, state.vel), between(up, state.vel)])
-    carried = np.array([between(right, turn), between(up, turn)])  # momentum of a unit turn about C
-    inertia = 2 * energy(turn) - float(carried @ carried) / mass
-    about = between(turn, state.vel) - float(carried @ momentum) / mass
-    moved, spun = float(momentum @ momentum) / (2 * mass), about**2 / (2 * inertia)
-    vx, vy = (momentum / mass).tolist()
+    turning = state._replace(vel=turn)
+    mass = momentum(hoop, state._replace(vel=right), right)
+    moving = np.array([momentum(hoop, state, right), momentum(hoop, state, up)])
+    carried = np.array([momentum(hoop, turning, right), momentum(hoop, turning, up)])  # by a unit turn about C
+    inertia = momentum(hoop, turning, turn) - float(carried @ carried) / mass
+    about = momentum(hoop, state, turn) - float(carried @ moving) / mass
+    moved, spun = float(moving @ moving) / (2 * mass), about**2 / (2 * inertia)
+    vx, vy = (moving / mass).tolist()
     height = 1 + float(state.pos[1]) + float(carried[0]) / mass
-    return Whole((vx, vy), height, about / inertia, moved, spun, energy(state.vel) - moved - spun)
+    return Whole((vx, vy), height, about / inertia, moved, spun, float(hoop.energies(state)[0]) - moved - spun)
 
 
 def outline(hoop: Hoop, state: State) -> Array:

@@ -212,8 +212,8 @@ def _share(hop: dict[str, Any] | None, *names: str) -> str:
 def _units(study: HopStudy) -> tuple[str, str, str]:
     from ..running.measures import Unit
 
-    time, energy = (unit.label(study.scene) for unit in (Unit.TIME, Unit.ENERGY))
-    return time, "R" if study.scene.hoop.R == 1 else "m", energy
+    time, length, energy = (unit.label(study.scene) for unit in (Unit.TIME, Unit.LENGTH, Unit.ENERGY))
+    return time, length, energy
 
 
 def scaling_sentences(study: HopStudy) -> list[str]:
