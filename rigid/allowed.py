@@ -34,7 +34,7 @@ def unknown(kind: str, name: str, known: Sequence[str]) -> SceneError:
     """What to say of a key that there is not: the one that was meant, if that can be told, or all that there are."""
     key = name.rpartition(".")[2]
     meant = _MEANT.get(key)
-    near = [meant] if meant in known else get_close_matches(key, known, n=1)
+    near = [meant] if meant in known else get_close_matches(key, known, n=1, cutoff=0.7)
     hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}."
     return SceneError(f"{name} is not a {kind}: {hint}")
 
@@ -58,7 +58,9 @@ def plain(key: str, value: Any) -> Any:
     return value
 
 
-def answering(name: str | None, degrees: Mapping[str, str] | None = None) -> Callable[[type[C]], type[C]]:
+def answering(
+    name: str | None, degrees: Mapping[str, str] | None = None, in_files: Mapping[str, str] | None = None
+) -> Callable[[type[C]], type[C]]:
     """A constructor that answers a wrong key, a missing one or a wrong type as a scene file is answered.
 
     Parameters
@@ -67,6 +69,8 @@ def answering(name: str | None, degrees: Mapping[str, str] | None = None) -> Cal
         The table of a scene file that this class stands for; None for the scene, whose keys are its parts.
     degrees : mapping, optional
         Fields that may be given in degrees too, and how they are called then.
+    in_files : mapping, optional
+        Keys of the table that are no fields, and how to say here what they say.
     """
     angles = {key: field for field, key in (degrees or {}).items()}
     table = "a scene" if name is None else f"[{name}]"
@@ -90,6 +94,8 @@ def answering(name: str | None, degrees: Mapping[str, str] | None = None) -> Cal
                 raise SceneError(f"{table} has {len(fields)} keys, {', '.join(fields)}: {len(values)} were given.")
             given = dict(zip(fields, values, strict=False))
             for key, value in keys.items():
+                if key in (in_files or {}):
+                    raise SceneError(f"{called(key)} is a key of files and dicts alone: {(in_files or {})[key]}.")
                 if key not in fields and key not in angles:
                     raise unknown(kind, called(key), [*fields, *angles])
                 field = angles.get(key, key)

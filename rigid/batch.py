@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .allowed import SceneError
+from .allowed import SceneError, shown
 from .kernel import layout as at
 from .kernel.compile import compiled, kernel
 from .kernel.layout import HOPS, MORE, RECORDS, STATE, STEPS, WIDTH, WORK_BOUND, T
@@ -39,7 +39,7 @@ from .record.rows import (  # fmt: skip
     Rows,
     gather,
 )
-from .scene import Friction, Hoop, Landing, Release, Run, hoop_constants, is_point_mass
+from .scene import LIGHTEST, Friction, Hoop, Landing, Release, Run, Scene, hoop_constants, is_point_mass
 from .scenefile import SceneLike, as_scene
 from .solve import LOG_RECORDS, UNTIL_CODES
 from .solve import STEPS as WORK
@@ -250,27 +250,27 @@ def _table(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
         unknown = set(scenes) - set(QUANTITIES)
         missing = set(QUANTITIES) - set(scenes) - set(_DEFAULTS)
         if unknown or missing:
-            names = ", ".join(sorted(unknown or missing))
             what = "is not a quantity of" if unknown else "is missing in"
-            raise SceneError(f"{names} {what} a batch: {', '.join(QUANTITIES)}.")
+            raise SceneError(f"{', '.join(sorted(unknown or missing))} {what} a batch: {', '.join(QUANTITIES)}.")
         columns = [np.asarray(scenes.get(name, _DEFAULTS.get(name)), dtype=float) for name in QUANTITIES]
         table = np.stack(np.broadcast_arrays(*np.atleast_1d(*columns)), axis=1)
         _check(table)
         return np.ascontiguousarray(table)
+    if isinstance(scenes, (str, os.PathLike, Scene)):
+        raise SceneError(f"{shown(scenes)} is one scene: a batch takes a list of them, or a dict of arrays.")
     rows = []
     for scene in map(as_scene, scenes):
         hoop, friction, release = scene.hoop, scene.friction, without_units(scene.release, scene)
         hoop_and_friction = (hoop.k, hoop.r, hoop.mass_ratio, friction.mu_s, friction.mu)
-        bounce = scene.landing.restitution
-        rows.append((*hoop_and_friction, release.phi0, release.omega0, release.slip0, bounce))
+        rows.append((*hoop_and_friction, release.phi0, release.omega0, release.slip0, scene.landing.restitution))
     return np.array(rows, dtype=float).reshape(len(rows), len(QUANTITIES))
 
 
 def _check(table: Array) -> None:
     """Raise what the first impossible row would raise as a scene."""
     k, r, mass, mu_s, mu, *_, bounce = table.T
-    fine = np.isfinite(table).all(axis=1) & (k >= 0) & (k < 1) & (r >= 1) & (mass >= 0) & (mu >= 0) & (mu_s >= mu)
-    fine &= (bounce >= 0) & (bounce <= 1) & ((k > 0) | (mass > 0) | (r == 1))
+    fine = np.isfinite(table).all(axis=1) & (k >= 0) & (k < 1) & (r >= 1) & (mu >= 0) & (mu_s >= mu)
+    fine &= (bounce >= 0) & (bounce <= 1) & ((k > 0) | (mass > 0) | (r == 1)) & ((mass == 0) | (mass >= LIGHTEST))
     fine &= (np.abs(np.delete(table, 2, axis=1)) <= 1e9).all(axis=1) & (mass <= 1e12)
     if not fine.all():
         index = int(np.argmin(fine))

@@ -9,8 +9,22 @@ from typing import Any
 
 from .allowed import SceneError, answering, require, require_choice, require_whole
 
+#: keys of [hoop] of which all others have their units
+UNITS = ("R", "m", "g")
 
-@answering("ring", {"weld_half_angle": "weld_half_angle_deg"})
+#: keys of [ring] in a scene file that say in SI units what section the ring has
+SECTION = ("youngs_modulus", "width", "height", "tube_diameter", "tube_wall", "density")
+
+
+#: stiffness, over any unit that a scene has, with whose inverse a float can still be reckoned
+LEAST = 1e-12
+
+
+@answering(
+    "ring",
+    {"weld_half_angle": "weld_half_angle_deg"},
+    dict.fromkeys(SECTION, "a ring that is made has bending_stiffness = E I/(m g R^2), without units"),
+)
 @dataclass(frozen=True, slots=True)
 class Ring:
     """The elastic ring of the flexible hoop (the rigid solver does not look at it).
@@ -41,10 +55,9 @@ class Ring:
         require(
             "ring.bending_stiffness",
             self.bending_stiffness,
-            0,
-            inf,
-            "E I/(m g R^2) must be positive",
-            open_low=True,
+            LEAST,
+            1e30,
+            f"E I/(m g R^2) must be positive, {LEAST:.0e} to 1e+30",
         )
         require("ring.poisson", self.poisson, -1, 0.5, "Poisson's ratio lies between -1 and 0.5", open_low=True)
         if self.thickness is not None:
@@ -62,10 +75,9 @@ class Ring:
         require(
             "ring.weld_half_angle_deg",
             self.weld_half_angle * 180 / pi,
-            0,
+            1e-9,
             90,
-            "the weld's half angle lies between 0 and 90",
-            open_low=True,
+            "the weld's half angle lies between 0 and 90, not below 1e-9",
         )
 
 
@@ -111,18 +123,16 @@ class Contact:
         require(
             "contact.stiffness",
             self.stiffness,
-            0,
+            LEAST,
             STIFFEST,
-            f"the foundation eps_n R^2/(m g) lies above 0 and is at most {STIFFEST:.0e}",
-            open_low=True,
+            f"the foundation eps_n R^2/(m g) lies above 0, {LEAST:.0e} to {STIFFEST:.0e}",
         )
         require(
             "contact.tangential_ratio",
             self.tangential_ratio,
-            0,
-            inf,
-            "the tangential over the normal foundation must be positive",
-            open_low=True,
+            LEAST,
+            1 / LEAST,
+            f"the tangential over the normal foundation must be positive, {LEAST:.0e} to {1 / LEAST:.0e}",
         )
         require("contact.damping", self.damping, 0, inf, "the damping ratio is at least 0")
         require(
@@ -184,13 +194,6 @@ class Solve:
             require_whole("solve.through", self.through, 1, 20)
 
 
-#: keys of [hoop] of which all others have their units
-UNITS = ("R", "m", "g")
-
-#: keys of [ring] in a scene file that say in SI units what section the ring has
-SECTION = ("youngs_modulus", "width", "height", "tube_diameter", "tube_wall", "density")
-
-
 def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     """What a scene file says of the section of a ring one can hold, as keys of [ring] and [hoop] without units.
 
@@ -221,7 +224,7 @@ def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[d
         require(f"hoop.{key}", hoop[key], 1e-30, 1e30, f"{key} lies between 1e-30 and 1e30")
     for key in SECTION:
         if key in ring:
-            require(f"ring.{key}", ring[key], 0, 1e30, f"{key} is in SI units, above 0", open_low=True)
+            require_section(key, ring[key])
     if "bending_stiffness" in ring:
         raise SceneError(
             f"ring.bending_stiffness and ring.{first} cannot both be given: each says how stiff the ring is."
@@ -252,6 +255,11 @@ def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[d
     width = 12 * moment / high**3
     of_ring = {"bending_stiffness": ring["youngs_modulus"] * moment / (m * g * R**2), "section_width": width / R}
     return of_ring, of_hoop
+
+
+def require_section(key: str, value: Any) -> None:
+    """Refuse what no section has of one of the keys in ``SECTION``."""
+    require(f"ring.{key}", value, 0, 1e30, f"{key} is in SI units, above 0", open_low=True)
 
 
 def _section(ring: Mapping[str, Any]) -> tuple[float, float, float]:

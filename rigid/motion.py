@@ -120,8 +120,8 @@ class Pulse(Same):
         return draw(_columns(sample(t, "right")), quantities, over, dimensionless=paper, axes=axes)
 
 
-@dataclass(frozen=True, slots=True)
-class States:
+@dataclass(frozen=True, slots=True, eq=False)
+class States(Same):
     """A motion sampled at times ``t``; every field is an array of the shape of ``t``.
 
     ``omega`` and ``alpha`` are phidot and phiddot, ``x_C`` and ``y_C`` the hoop's centre, ``slip_velocity`` is that

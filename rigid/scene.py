@@ -28,6 +28,10 @@ from .output.units import AngularVelocity, Measured, Number, Time, Velocity, wit
 N = TypeVar("N", float, NDArray[np.float64])
 
 
+LIGHTEST = 1e-100
+"""Least mass of a hoop that has one, over the disk's: of a lighter one's frequencies no float holds the square."""
+
+
 class HoopConstants(NamedTuple, Generic[N]):
     """The constants of a hoop, (3) and (6), over the outer radius where the paper's are over the inner."""
 
@@ -57,7 +61,7 @@ def is_point_mass(hoop: HoopConstants[N]) -> bool | NDArray[np.bool_]:
     return (hoop.K < 1e-100) & (hoop.one_minus_e < 1e-40)
 
 
-@answering("hoop")
+@answering("hoop", in_files={"point_mass": "here a point mass is k = 0 on a hoop without mass"})
 @dataclass(frozen=True, slots=True)
 class Hoop:
     """The hoop and the disk welded inside its rim.
@@ -86,7 +90,8 @@ class Hoop:
         require("hoop.k", self.k, 0, 1, allowed, open_high=True)
         # the upper bounds here and below keep squares and products within what a float holds
         require("hoop.r", self.r, 1, 1e9, "r is the hoop's outer over its inner radius, 1 to 1e9")
-        require("hoop.mass_ratio", self.mass_ratio, 0, 1e12, "mass_ratio is m_h/m, 0 to 1e12")
+        lightest = LIGHTEST if self.mass_ratio != 0 else 0
+        require("hoop.mass_ratio", self.mass_ratio, lightest, 1e12, f"mass_ratio is m_h/m, 0 or {LIGHTEST} to 1e12")
         for key in ("R", "m", "g"):
             require(f"hoop.{key}", getattr(self, key), 1e-30, 1e30, f"{key} lies between 1e-30 and 1e30")
         if self.k == 0 and self.mass_ratio == 0 and self.r != 1:
@@ -250,6 +255,10 @@ class Scene(Measured):
 
         A part may also be given whole; ``run`` given as a dict replaces how far to run. Angles may be in degrees
         (``phi0_deg``), as in a file.
+
+        A ring that its file describes by material and section is numbers without units by now: with another ``R``,
+        ``m`` or ``g`` it keeps E I/(m g R^2) and m_h/m, so it is not of the same section. That is said in the file, in
+        a dict, or in a sweep from the file.
 
         Raises
         ------

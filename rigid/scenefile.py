@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 import tomllib
+import warnings
 from collections.abc import Mapping
 from difflib import get_close_matches
 from importlib.resources import files
@@ -19,13 +20,16 @@ from pathlib import Path
 from typing import Any
 
 from .allowed import SceneError, in_radians, plain, unknown
-from .elastic import SECTION, UNITS, ring_of_section
+from .elastic import SECTION, UNITS, require_section, ring_of_section
 from .scene import PARTS, Scene
 
 SceneLike = Scene | str | PathLike[str] | Mapping[str, Any]
 """What a solver takes for a scene: one, the name of a shipped one, the path of a file, what a file says as a dict."""
 
 _NEEDED = {"hoop": ("k",), "friction": ("mu_s", "mu"), "release": ("phi0_deg",)}
+_AGREEABLE = {"hoop": {"k": 0.5}, "friction": {"mu_s": 1e9, "mu": 0.0}, "release": {"phi0": 0.0}}
+"""What every possible value of another key of the table can stand beside."""
+
 _IN_DEGREES = {"phi0": "phi0_deg", "weld_half_angle": "weld_half_angle_deg"}
 
 
@@ -73,11 +77,31 @@ def scene_from_dict(data: Mapping[str, Any]) -> Scene:
     return Scene(**{part: PARTS[part](**values) for part, values in parts.items()})
 
 
+def ensure_possible(part: str, key: str, value: Any) -> None:
+    """Whether some scene can have this value, beside whatever else.
+
+    Raises
+    ------
+    SceneError
+        There is no such key, or no scene with this value.
+    """
+    _ensure_known({part: {key: value}})
+    if part == "ring" and key in SECTION:
+        require_section(key, plain(f"{part}.{key}", value))
+    elif key == "point_mass":
+        _point_mass({key: value}, {part: {}})
+    else:
+        others = {name: its for name, its in _AGREEABLE.get(part, {}).items() if _IN_DEGREES.get(name) != key}
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # of an angle: the scene with it says that again
+            PARTS[part](**others | {key: value})
+
+
 def _ensure_all_units(hoop: Mapping[str, Any]) -> None:
-    """Whether SI units are those of lengths, masses and gravity, or of none: m = 1 kg and g = 1 m/s^2 mean nobody."""
+    """Whether SI units are those of lengths, masses and gravity, or of none, whatever the numbers: nobody's g is 1."""
     given = [key for key in UNITS if key in hoop]
     missing = [key for key in UNITS if key not in hoop]
-    if given and missing and any(hoop[key] != 1 for key in given):
+    if given and missing:
         others = " and ".join(f"hoop.{key}" for key in missing)
         raise SceneError(f"hoop.{given[0]} is in SI units: {others} must be given in them too.")
 
@@ -197,10 +221,21 @@ def load_scene(source: str | PathLike[str]) -> Scene:
     SceneError
         No such scene, not TOML, or a scene that cannot be.
     """
+    return scene_from_dict(scene_tables(source))
+
+
+def scene_tables(source: str | PathLike[str]) -> dict[str, Any]:
+    """What the file of a scene says, in its own words: a section in SI units too, of which a scene knows no more.
+
+    Raises
+    ------
+    SceneError
+        No such scene, or not TOML.
+    """
     path = Path(source)
     if path.is_file():
         try:
-            text = path.read_text(encoding="utf-8")
+            text = path.read_text(encoding="utf-8-sig")  # an editor may begin it with a mark
         except (OSError, UnicodeDecodeError) as error:
             raise SceneError(f"{path} cannot be read: {error}.") from None
     elif str(source) in scene_names():
@@ -209,7 +244,6 @@ def load_scene(source: str | PathLike[str]) -> Scene:
         near = get_close_matches(str(source), scene_names(), n=3) or scene_names()
         raise SceneError(f"{source} is neither a file nor the name of a scene: try {', '.join(near)}.")
     try:
-        data = tomllib.loads(text)
+        return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # a number of thousands of digits is a ValueError
         raise SceneError(f"{source} is not TOML: {error}.") from None
-    return scene_from_dict(data)

@@ -42,7 +42,8 @@ if TYPE_CHECKING:
     from .stiffness.ladder import Ladder
     from .stiffness.limits import Limit, limit_of
     from .stiffness.study import stiffness_study
-    from .sweep import Sweep, Table, load_sweep, run_sweep, sweep_from_dict
+    from .sweep import Table, run_sweep
+    from .sweepfile import Sweep, load_sweep, sweep_from_dict
 
 _HOMES = {
     "Atlas": "atlas.study",
@@ -59,17 +60,17 @@ _HOMES = {
     "Rung": "stiffness.found",
     "StiffnessStudy": "stiffness.found",
     "StudyError": "running.files",
-    "Sweep": "sweep",
+    "Sweep": "sweepfile",
     "Table": "sweep",
     "Unit": "running.measures",
     "limit_of": "stiffness.limits",
-    "load_sweep": "sweep",
+    "load_sweep": "sweepfile",
     "measure": "running.measures",
     "measures": "running.measures",
     "pool": "running.workers",
     "run_sweep": "sweep",
     "stiffness_study": "stiffness.study",
-    "sweep_from_dict": "sweep",
+    "sweep_from_dict": "sweepfile",
 }
 
 

@@ -3,73 +3,24 @@ point."""
 
 from __future__ import annotations
 
-import itertools
-import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from math import prod
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rigid import Scene, SceneError, load_scene, scene_from_dict, scene_to_dict
+from rigid import SceneError
 
 from .running.case import Case, Outcome
-from .running.files import trouble
 from .running.history import rows_to_csv
 from .running.measures import MEASURES
 from .running.runs import run_cases
 from .running.solvers import version
 from .running.workers import Here, Pool
+from .sweepfile import Sweep, load_sweep, sweep_from_dict
 
 if TYPE_CHECKING:
     import pandas
-
-BOTH = ("rigid", "flexible")
-
-MAX_CASES = 100_000
-"""Cases of a sweep unless more are asked for: a product of lists soon has more than anyone wants to run."""
-
-
-@dataclass(frozen=True, slots=True)
-class Sweep:
-    """What a sweep runs: the product of its lists, made one combination after the other when it is asked for."""
-
-    keys: tuple[str, ...]
-    """The keys that vary, "hoop.k" for instance."""
-    choices: tuple[tuple[Any, ...], ...]
-    """The values of each."""
-    tables: Mapping[str, Mapping[str, Any]]
-    """The scene over which they are laid, as its TOML file would say."""
-    solvers: tuple[str, ...]
-    """Who runs each scene."""
-    histories: bool = False
-    """Whether the forces through each pulse are kept too."""
-
-    @property
-    def scenes(self) -> int:
-        """Number of combinations."""
-        return prod(map(len, self.choices))
-
-    @property
-    def cases(self) -> int:
-        """Number of combinations times solvers."""
-        return self.scenes * len(self.solvers)
-
-    @property
-    def points(self) -> Iterator[tuple[tuple[Any, ...], Scene | str]]:
-        """The values in every combination, and the scene there or the sentence that says why there is none."""
-        for values in itertools.product(*self.choices):
-            try:
-                yield values, scene_from_dict(_filled(self.tables, self.keys, values))
-            except SceneError as error:
-                yield values, str(error)
-
-    def announcement(self) -> str:
-        """How many cases there are, and of what."""
-        lists = [f"{len(values)} of {key}" for key, values in zip(self.keys, self.choices, strict=True)]
-        factors = [*lists, f"{len(self.solvers)} {'solver' if len(self.solvers) == 1 else 'solvers'}"]
-        return f"{self.cases} {'case' if self.cases == 1 else 'cases'}: {' × '.join(factors)}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,36 +77,6 @@ class Table:
         return rows_to_csv(list(records[0]), (record.values() for record in records)) if records else ""
 
 
-def load_sweep(path: str | PathLike[str], solvers: Sequence[str] = (), max_cases: int = MAX_CASES) -> Sweep:
-    """A sweep from a TOML file: a scene in which any value may be a list, and a table [sweep].
-
-    ``[sweep]`` may name ``scene`` (a shipped scene or file from which all starts), ``solvers`` ("rigid", "flexible" or
-    both) and ``histories``.
-
-    Parameters
-    ----------
-    path : path
-        The file. It is data: whatever it holds, no code of its choice is run.
-    solvers : sequence of str, optional
-        Who runs each scene in place of those that the file names; here ``module:function`` is possible too.
-    max_cases : int
-        More cases than this are refused, before any of them is made.
-
-    Raises
-    ------
-    SceneError
-        Not a file, not TOML, an unknown key, no combination that can be, or too many of them.
-    """
-    path = Path(path)
-    try:
-        data = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise SceneError(trouble(error, path)) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise SceneError(f"{path} is not TOML: {error}.") from None
-    return sweep_from_dict(data, solvers, max_cases)
-
-
 def as_sweep(source: Sweep | str | PathLike[str] | Mapping[str, Any]) -> Sweep:
     """A sweep from whatever says which.
 
@@ -171,88 +92,6 @@ def as_sweep(source: Sweep | str | PathLike[str] | Mapping[str, Any]) -> Sweep:
     if isinstance(source, (str, PathLike)):
         return load_sweep(source)
     raise SceneError(f"{source!r} is not a sweep: it must be a Sweep, the path of a file, or a dict.")
-
-
-def sweep_from_dict(data: Mapping[str, Any], solvers: Sequence[str] = (), max_cases: int = MAX_CASES) -> Sweep:
-    """The sweep that a parsed TOML file describes; see :func:`load_sweep`."""
-    settings = data.get("sweep", {})
-    if not isinstance(settings, Mapping):
-        raise SceneError(f"sweep = {settings!r} is not possible: it is a table, [sweep].")
-    for key in settings:
-        if key not in ("scene", "solvers", "histories"):
-            raise SceneError(f"sweep.{key} is not a key of [sweep]: known are scene, solvers, histories.")
-    histories = settings.get("histories", False)
-    if not isinstance(histories, bool):
-        raise SceneError(f"sweep.histories = {histories!r} is not possible: it is true or false.")
-    named = _named(settings.get("solvers", list(BOTH)))
-    base = scene_to_dict(load_scene(str(settings["scene"]))) if "scene" in settings else {}
-    keys, choices, tables = _varied({part: table for part, table in data.items() if part != "sweep"}, base)
-    sweep = Sweep(tuple(keys), tuple(map(tuple, choices)), tables, tuple(solvers) or named, histories)
-    if sweep.cases > max_cases:
-        raise SceneError(
-            f"{sweep.announcement()}. That is more than {max_cases}: shorten the lists, or allow it by --max-cases."
-        )
-    _check(sweep)
-    return sweep
-
-
-def _named(solvers: Any) -> tuple[str, ...]:
-    """The built-in solvers that a file names."""
-    names = [solvers] if isinstance(solvers, str) else solvers
-    if not isinstance(names, list) or not names or not all(isinstance(name, str) and name in BOTH for name in names):
-        code = any(isinstance(name, str) and ":" in name for name in (names if isinstance(names, list) else ()))
-        why = " A file names no code: that is said on the command line, --solver module:function." if code else ""
-        raise SceneError(f"sweep.solvers = {solvers!r} is not possible: it lists 'rigid', 'flexible' or both.{why}")
-    return tuple(dict.fromkeys(names))
-
-
-def _check(sweep: Sweep) -> None:
-    """Some combination can be, and what is wrong in all of them is said at once.
-
-    Raises
-    ------
-    SceneError
-        As the first combination says.
-    """
-    first: SceneError | None = None
-    for values in itertools.product(*sweep.choices):
-        try:
-            scene_from_dict(_filled(sweep.tables, sweep.keys, values))
-        except SceneError as error:
-            if " is not a " in str(error) or " is missing" in str(error):
-                raise
-            first = first or error
-        else:
-            return
-    if first is not None:
-        raise first
-
-
-def _varied(data: Mapping[str, Any], base: Mapping[str, Any]) -> tuple[list[str], list[list[Any]], dict[str, Any]]:
-    """Keys given as lists, their values, and the tables of the scene over which they are laid."""
-    keys, choices = [], []
-    tables: dict[str, Any] = {part: dict(table) for part, table in base.items()}
-    for part, table in data.items():
-        if not isinstance(table, Mapping):
-            raise SceneError(f"{part} = {table!r} is not possible: {part} is a table, [{part}].")
-        if part == "run":
-            tables["run"] = {}  # how far to run is said anew, not added to
-        for key, value in table.items():
-            if isinstance(value, list):
-                if not value:
-                    raise SceneError(f"{part}.{key} = [] is not possible: a list needs a value.")
-                keys.append(f"{part}.{key}")
-                choices.append(value)
-            tables.setdefault(part, {})[key] = value
-    return keys, choices, tables
-
-
-def _filled(tables: Mapping[str, Any], keys: Sequence[str], values: tuple[Any, ...]) -> dict[str, Any]:
-    filled = {part: dict(table) for part, table in tables.items()}
-    for key, value in zip(keys, values, strict=True):
-        part, _, name = key.partition(".")
-        filled[part][name] = value
-    return filled
 
 
 def run_sweep(

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from ..running.workers import Pool
     from ..stiffness.found import StiffnessStudy
 
+POSITIVE = Finite(0, min_open=True)
+
 RAISED = "the foundation eps R^2/(m g), with --along bending E I/(m g R^2)"
 
 CODE = (
@@ -41,13 +43,17 @@ def study() -> None:
     default="both",
     help="What is raised: contact foundation, ring bending, or both in the scene's ratio (default).",
 )
-@click.option("--low", type=float, metavar="S", help=f"Softest rung, {RAISED}; by default 1e-2 of the scene's.")
-@click.option("--high", type=float, metavar="S", help="Stiffest rung; by default 1e4 of the scene's.")
-@click.option("--count", type=int, default=9, metavar="N", help="Number of rungs, 9 by default.")
+@click.option(
+    "--low", type=Finite(0, min_open=True), metavar="S", help=f"Softest rung, {RAISED}; by default 1e-2 of the scene's."
+)
+@click.option(
+    "--high", type=Finite(0, min_open=True), metavar="S", help="Stiffest rung; by default 1e4 of the scene's."
+)
+@click.option("--count", type=click.IntRange(2, 1000), default=9, metavar="N", help="Number of rungs, 9 by default.")
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--rate",
-    type=Finite(0, min_open=True),
+    type=POSITIVE,
     metavar="P",
     help="Rate of the extrapolation (1/3 is 0.3333), in place of the contact law's own or a fitted one.",
 )
@@ -200,7 +206,8 @@ def sweep(
     from ..running.progress import announce, bar
     from ..running.solvers import solver
     from ..running.workers import pool
-    from ..sweep import MAX_CASES, load_sweep, run_sweep
+    from ..sweep import run_sweep
+    from ..sweepfile import MAX_CASES, load_sweep
 
     asked = load_sweep(file, solver_names, max_cases or MAX_CASES)
     for name in asked.solvers:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
@@ -102,12 +103,25 @@ def _awake() -> None:
     import flexible  # noqa: F401
 
 
+def ensure_address(address: str) -> None:
+    """Whether an address says where a scheduler is, before it is looked for.
+
+    Raises
+    ------
+    StudyError
+        It has no port, nor a scheme that needs none.
+    """
+    if not re.fullmatch(r"inproc://.+|([\w-]+://)?.+:\d{1,5}", address):
+        raise StudyError(f"There is no Dask scheduler at {address}: it takes host and port, tcp://host:8786.")
+
+
 class Cluster(Pool):
     """On a Dask cluster, which itself moves the cases of a dead worker to another one."""
 
     beside = staticmethod(at_once)
 
     def __init__(self, address: str) -> None:
+        ensure_address(address)
         try:
             from distributed import Client
         except ImportError:

@@ -36,7 +36,7 @@ class Ladder:
         if self.along not in ALONG:
             raise SceneError(f"along = {self.along!r} is not possible: it must be one of {', '.join(ALONG)}.")
         if not (isfinite(self.low) and isfinite(self.high) and 0 < self.low < self.high):
-            raise SceneError(f"The range {self.low!r} to {self.high!r} is not possible: it runs upward from above 0.")
+            raise SceneError(f"The range {self.low:g} to {self.high:g} is not possible: it runs upward from above 0.")
         if not 2 <= self.count <= 1000:
             raise SceneError(f"count = {self.count!r} is not possible: it is a whole number from 2 to 1000.")
 

@@ -29,6 +29,7 @@ from rigid import (
     simulate,
     simulate_batch,
 )
+from rigid.scenefile import scene_text
 
 FILE = {"hoop": {"k": 0.1}, "friction": {"mu_s": 0.35, "mu": 0.3}, "release": {"phi0_deg": 10}}
 
@@ -156,14 +157,63 @@ def test_a_wall_is_said_once():
     assert words.startswith("ring.thickness = 0.1 is not possible: hoop.r = 1.02 says how thick the wall is")
 
 
-@pytest.mark.parametrize("given", [{"R": 0.5}, {"g": 9.81}, {"R": 0.5, "m": 2}, {"m": 3, "g": 9.81}])
+@pytest.mark.parametrize(
+    "given", [{"R": 0.5}, {"R": 1.0}, {"g": 9.81}, {"R": 0.5, "m": 2}, {"R": 1, "m": 1}, {"m": 3, "g": 9.81}]
+)
 def test_si_units_are_all_or_none(given):
-    """R = 0.5 alone was half a metre under a gravity of 1 m/s^2: times 3 times as long as anybody's."""
+    """R = 0.5 alone was half a metre under a gravity of 1 m/s^2: times 3 times as long as anybody's. So is R = 1."""
     words = said(scene_from_dict, {**FILE, "hoop": {"k": 0.1, **given}})
     first, missing = next(iter(given)), next(key for key in ("R", "m", "g") if key not in given)
     assert words.startswith(f"hoop.{first} is in SI units: ")
     assert f"hoop.{missing}" in words
-    assert scene_from_dict({**FILE, "hoop": {"k": 0.1, "R": 1.0}}).dimensionless
+    assert scene_from_dict({**FILE, "hoop": {"k": 0.1, "R": 1.0, "m": 1, "g": 1}}).dimensionless
+
+
+def test_keys_of_files_are_said_to_be_that():
+    """A constructor and ``replace`` know no section: a ring that is made has numbers without units."""
+    scene = scene_from_dict(FILE)
+    for change in ({"ring": {"youngs_modulus": 2e9}}, {"ring": {"density": 1e3}}, {"hoop": {"point_mass": True}}):
+        ((part, keys),) = change.items()
+        words = said(lambda change=change: scene.replace(**change))
+        assert words.startswith(f"{part}.{next(iter(keys))} is a key of files and dicts alone: ")
+
+
+def test_no_table_is_guessed_from_a_word_that_is_far_from_all():
+    assert said(scene_from_dict, {**FILE, "description": {}}).endswith("solve.")
+    assert said(scene_from_dict, {**FILE, "contacts": {}}).endswith("did you mean 'contact'?")
+
+
+def test_a_file_may_begin_with_an_editors_mark(tmp_path):
+    """U+FEFF, as an editor on Windows puts it before UTF-8."""
+    (tmp_path / "own.toml").write_text(scene_text("paper-3.1"), encoding="utf-8-sig")
+    assert load_scene(tmp_path / "own.toml") == load_scene("paper-3.1")
+
+
+@pytest.mark.parametrize(
+    ("part", "key", "values"),
+    [
+        (Contact, "stiffness", (1e-309, 1e-13)),
+        (Contact, "tangential_ratio", (1e-300, 1e300)),
+        (Ring, "bending_stiffness", (1e-320, 1e-300, 1e300)),
+        (Ring, "weld_half_angle_deg", (1e-320,)),
+        (Hoop, "mass_ratio", (1e-320, 1e300)),
+    ],
+)
+def test_what_no_float_has_the_inverse_or_square_of_is_refused(part, key, values):
+    others = {"k": 0.1} if part is Hoop else {}
+    for value in values:
+        assert f".{key} = " in said(part, **others, **{key: value})
+
+
+def test_a_hoop_has_no_mass_or_one_of_which_a_batch_says_the_same():
+    assert Hoop(0.1).mass_ratio == 0
+    batch = {"k": 0.1, "mu_s": 0.35, "mu": 0.3, "phi0": 0.2, "mass_ratio": [0.0, 1e-320]}
+    assert "scene 1 of the batch: hoop.mass_ratio = " in said(simulate_batch, batch)
+
+
+@pytest.mark.parametrize("one", ["paper-3.1", load_scene("paper-3.1")])
+def test_one_scene_is_no_batch(one):
+    assert "is one scene: a batch takes a list of them" in said(simulate_batch, one)
 
 
 @pytest.mark.parametrize("stiffness", [0.0, 1e17, 1e40])

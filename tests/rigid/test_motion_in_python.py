@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 import json
 import pickle
 import subprocess
@@ -201,3 +202,17 @@ def test_the_unit_on_an_axis_is_the_one_that_the_quantity_says():
         said = label(name, dimensionless=True)
         assert said.endswith("(rad)" if unit is Unit.NUMBER else (f"/{unit.formula}$", f"/({unit.formula})$")), said
         assert "/" not in label(name, dimensionless=False)
+
+
+def test_states_are_the_same_where_all_their_numbers_are(motion):
+    """Unknown ones too: of a point mass that skims there is no angular acceleration."""
+    times = np.array([0.0, 1.0, 5.7])
+    one, other = motion.at(times), motion.at(times)
+    assert one == other
+    assert hash(one) == hash(other)
+    assert one != motion.at(times[:2])
+    assert one != motion.at(times + 1e-9)
+    unknown = dataclasses.replace(one, alpha=np.array([0.0, np.nan, 1.0]))
+    assert unknown == dataclasses.replace(other, alpha=np.array([0.0, np.nan, 1.0]))
+    assert unknown != one
+    assert motion.at(1.0) == motion.at(1.0)

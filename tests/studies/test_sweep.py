@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable
 from importlib import metadata
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -30,7 +31,7 @@ from studies.running.runs import Estimate, run_cases
 from studies.running.solvers import build
 from studies.running.store import Store
 from studies.running.workers import Here
-from studies.sweep import MAX_CASES
+from studies.sweepfile import MAX_CASES
 
 KS = "[0.1, 0.15, 0.2, 0.25, 0.3, 0.35]"
 
@@ -99,6 +100,73 @@ def test_a_base_scene_by_name():
     scenes = [scene for _, scene in sweep.points]
     assert [scene.friction.mu for scene in scenes] == [0.2, 0.3]
     assert scenes[1] == scene_from_dict(scene_to_dict(load_scene("paper-3.1")))
+
+
+def test_a_section_goes_with_the_scene_from_which_a_sweep_starts():
+    """E I/(m g R^2) and m_h/m of one section fall like 1/m, and E I/(m g R^2) rises like E."""
+    own = load_scene("steel-strip")
+    heavier = [scene for _, scene in swept({"scene": "steel-strip"}, hoop={"m": [0.2, 2.0]})]
+    assert heavier[0] == own
+    assert heavier[1].ring.bending_stiffness == pytest.approx(own.ring.bending_stiffness / 10)
+    assert heavier[1].hoop.mass_ratio == pytest.approx(own.hoop.mass_ratio / 10)
+    softer, stiffer = (scene.ring for _, scene in swept({"scene": "printed"}, ring={"youngs_modulus": [1e9, 2e9]}))
+    assert stiffer.bending_stiffness == pytest.approx(2 * softer.bending_stiffness)
+
+
+def test_numbers_without_units_are_laid_over_what_the_section_says_of_the_scenes_own():
+    own = load_scene("steel-strip")
+    stiffer = [scene for _, scene in swept({"scene": "steel-strip"}, ring={"bending_stiffness": [10.0]})]
+    assert stiffer == [own.replace(ring={"bending_stiffness": 10.0})]
+    with pytest.raises(SceneError, match=r"bending_stiffness and ring\.youngs_modulus cannot both"):
+        swept({"scene": "steel-strip"}, ring={"bending_stiffness": [10.0]}, hoop={"m": 1.0})
+
+
+def test_an_angle_in_degrees_is_laid_over_one_in_radians_beside_degrees(tmp_path):
+    exact = "phi0_deg = 10\nphi0 = 0.17453292519943298"
+    file = tmp_path / "exact.toml"
+    file.write_text(SCENE.format(k=0.1).replace("phi0_deg = 10", exact))
+    angles = [scene.release.phi0_deg for _, scene in swept({"scene": str(file)}, release={"phi0_deg": [20, 30]})]
+    assert angles == pytest.approx([20, 30])
+
+
+def swept(settings: dict[str, Any], **tables: dict[str, Any]) -> list[tuple[tuple[Any, ...], Any]]:
+    """The points of a sweep from a dict."""
+    return list(sweep_from_dict({"sweep": settings, **tables}).points)
+
+
+def test_equal_values_of_a_list_are_run_once():
+    sweep = sweep_from_dict({"sweep": {"scene": "paper-3.1", "solvers": "rigid"}, "hoop": {"k": [0.1, 0.2, 0.1]}})
+    assert (sweep.choices, sweep.repeated) == (((0.1, 0.2),), 1)
+    assert sweep.announcement() == "2 cases: 2 of hoop.k × 1 solver (of equal values one)"
+
+
+def test_a_sweep_may_begin_with_an_editors_mark(tmp_path):
+    file = sweep_file(tmp_path)
+    file.write_text(file.read_text(), encoding="utf-8-sig")
+    assert load_sweep(file).scenes == 6
+
+
+@pytest.mark.parametrize(
+    ("part", "key", "values"),
+    [
+        ("hoop", "k", [0.1, float("nan")]),
+        ("hoop", "k", [0.1, "a"]),
+        ("hoop", "k", [0.1, -0.1]),
+        ("hoop", "k", [0.1, [0.2]]),
+        ("hoop", "m", [1.0, 0.0]),
+        ("friction", "mu", [0.1, -0.1]),
+        ("friction", "mu_s", [0.4, float("inf")]),
+        ("release", "phi0_deg", [10, "ten"]),
+        ("release", "omega0", [0.0, 1e300]),
+        ("contact", "law", ["patch", "brsh"]),
+        ("ring", "youngs_modulus", [1e9, -1e9]),
+        ("hoop", "kk", [0.1]),
+    ],
+)
+def test_a_value_that_no_scene_can_have_is_refused_before_anything_runs(part, key, values):
+    """What another key does not let be (mu above mu_s) is that row's failure: see above."""
+    with pytest.raises(SceneError, match=rf"{part}\.{key} "):
+        sweep_from_dict({"sweep": {"scene": "printed"}, part: {key: values}})
 
 
 def test_a_case_that_fails_is_a_row_with_its_reason(hoop, tmp_path):
@@ -339,11 +407,12 @@ def test_a_case_that_kills_its_worker_takes_no_other_with_it(tmp_path):
 
 def test_an_unreachable_scheduler_is_one_sentence(hoop, tmp_path):
     pytest.importorskip("distributed")
-    for address in ("nonsense", "carrier-pigeon://loft"):
+    for address in ("nonsense", "carrier-pigeon://loft", "carrier-pigeon://loft:8786"):
         line = ("study", "sweep", sweep_file(tmp_path), "--out", tmp_path / "out", "--json", "--scheduler", address)
         status, _, err = hoop(*line)
         assert status == 2
         assert is_one_sentence(err)
+        assert address in err
 
 
 def test_a_cluster_that_loses_a_worker_gives_the_same_table(tmp_path, monkeypatch):
@@ -374,7 +443,7 @@ def of_lists(count: int, keys: int) -> dict[str, object]:
     """A sweep file's data with so many values of each of so many keys."""
     names = ["mass_ratio", "r", "R", "m", "g"][: keys - 1]
     lists = {name: [1.01 + 0.01 * i for i in range(count)] for name in names}
-    return {"sweep": {"scene": "paper-3.1"}, "hoop": {"k": [0.1 + 0.001 * i for i in range(count)], **lists}}
+    return {"sweep": {"scene": "paper-3.1"}, "hoop": {"k": [0.1 + 0.001 * i for i in range(count)], "g": 9.81} | lists}
 
 
 def test_a_product_too_large_is_refused_before_it_is_made():

@@ -109,8 +109,20 @@ workers = click.option(
     help="Processes side by side; by default one for each core.",
 )
 
+
+def _address(_: click.Context, __: click.Parameter, value: str | None) -> str | None:
+    if value is not None:
+        from ...running.workers import ensure_address
+
+        ensure_address(value)
+    return value
+
+
 scheduler = click.option(
-    "--scheduler", metavar="ADDRESS", help="Run on the Dask cluster of this scheduler, tcp://host:8786."
+    "--scheduler",
+    metavar="ADDRESS",
+    callback=_address,
+    help="Run on the Dask cluster of this scheduler, tcp://host:8786.",
 )
 
 

@@ -210,3 +210,13 @@ def test_finished_rungs_are_found_again(tmp_path):
     again = stiffness_study(scene, ladder, solver=THIRD, out=tmp_path)
     assert [rung.outcome.seconds for rung in again.rungs] == [rung.outcome.seconds for rung in first.rungs]
     assert json.dumps(again.to_dict()) == json.dumps(first.to_dict())
+
+
+@pytest.mark.parametrize(
+    "option", [("--count", 1), ("--count", 1001), ("--low", -1), ("--low", 0), ("--low", "nan"), ("--high", "inf")]
+)
+def test_a_ladder_that_cannot_be_is_one_sentence(hoop, option):
+    status, out, err = hoop("study", "stiffness", "paper-3.3-massless", *option)
+    assert (status, out) == (2, "")
+    assert option[0] in err
+    assert len(err.splitlines()) == 1
