@@ -103,10 +103,11 @@ class Layout:
         foot = top + int(height * ABOVE_FLOOR) - 4
         page = np.asarray(self.canvas.buffer_rgba())
         self._over = []
-        for columns in (slice(width - self.covered, width), slice(0, self.aside)):
+        # of what is enlarged something may lie under the bar, whose strip stays blank
+        for columns, blank in ((slice(width - self.covered, width), True), (slice(0, self.aside), False)):
             box = (slice(top, foot), columns)
             drawn = np.array(page[box])
-            self._over.append((box, drawn, np.any(drawn[..., :3] < 255, axis=2)))
+            self._over.append((box, drawn, blank | np.any(drawn[..., :3] < 255, axis=2)))
 
     def fill(self, view: Image, shot: Shot, factor: float, lens: tuple[float, float, str] | None = None) -> Image:
         """The page with this view of the hoop, as (height, width, 3) bytes; ``lens`` is column, row, caption."""

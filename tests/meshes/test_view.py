@@ -382,6 +382,18 @@ def test_an_enlarged_view_keeps_the_contact_in_the_middle(series):
 
 
 @needs_renderer
+def test_nothing_of_an_enlarged_view_lies_under_the_colour_bar(series):
+    """The strip of the bar is that of the page without a hoop, whatever the enlargement lays there."""
+    strips = []
+    for zoom in (1, 5):
+        with Camera(setting(series, zoom=zoom), SIZE) as camera:
+            page, layout = camera.page(0.6), camera.layout
+        _, top, width, height = layout.view_box
+        strips.append(page[top : top + int(height * ABOVE_FLOOR) - 4, width - layout.covered : width])
+    np.testing.assert_array_equal(*strips)
+
+
+@needs_renderer
 def test_the_lens_enlarges_the_wall_above_the_contact(series):
     """A wall of 0.02 R is 6 times as high in it as outside, and of the same colours."""
     with Camera(setting(series, field="hoop_stress"), SIZE) as camera:
