@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Callable
 from functools import cache
@@ -38,6 +39,8 @@ def write_whole(path: Path, write: Callable[[Path], object], synced: bool = Fals
     OSError
         It cannot be written; the error names ``path``, never the temporary file, and nothing is left behind.
     """
+    if not path.name:  # "", "." and "/"
+        raise OSError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
     part = path.with_name(f"{PART}{host()}-{os.getpid()}-{os.urandom(6).hex()}{path.suffix}")
     try:
         part.touch(exist_ok=False)

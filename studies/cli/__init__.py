@@ -20,8 +20,11 @@ def main() -> None:
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run one command line and return its exit status; what a user can mend is one sentence on stderr."""
-    from . import hoop
-
+    try:
+        from . import hoop
+    except KeyboardInterrupt:
+        print("hoop: Interrupted.", file=sys.stderr)
+        return 130
     return hoop.run(arguments)
 
 

@@ -32,7 +32,7 @@ from .shared.results import begin_results, results_folder
     default=1024,
     show_default=True,
     metavar="N",
-    help="Squares along a side of the map, a multiple of 16.",
+    help="Squares along a side of the map, rounded up to a multiple of 16.",
 )
 def atlas(scene: str, as_json: bool, out: Path | None, over: tuple[str, ...], side: int) -> None:
     """A map of a million rigid hoops: what the contact does in the first pulse, and what the pulse takes.

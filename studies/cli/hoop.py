@@ -1,7 +1,7 @@
 """The command line: parse, call, print. What is computed lives elsewhere and is imported only when asked for.
 
-Exit status: 0 done; 1 done, but a motion was given up before what was asked or some case of a study failed; 2
-something the user can mend, in one sentence; 130 interrupted.
+Exit status: 0 done; 1 done, but a motion was given up before what was asked, it has no such fields or some case of a
+study failed; 2 something the user can mend, in one sentence; 130 interrupted.
 """
 
 from __future__ import annotations
@@ -121,8 +121,9 @@ def flexible(
         raise StudyError("--fields needs --out DIR: the fields are files.")
     if not fields and (frames or times or only):
         raise StudyError("--frames, --times and --only need --fields, which writes the frames.")
-    wishes = field_wishes(frames, times, only) if fields else None
-    return one_flexible(scene, load_scene(scene), as_json, out, earlier, wishes)
+    described = load_scene(scene)
+    wishes = field_wishes(frames, times, only, described.run.t_end) if fields else None
+    return one_flexible(scene, described, as_json, out, earlier, wishes)
 
 
 @hoop.command()
@@ -212,6 +213,8 @@ hoop.add_command(completion)
 def run(arguments: Sequence[str] | None = None) -> int:
     """Run one command line and return its exit status; what a user can mend is one sentence on stderr."""
     line = list(arguments) if arguments is not None else sys.argv[1:]
+    if sys.stdout is None:
+        return _say("Output cannot be written: stdout is closed.", 2)
     try:
         status: Any = hoop.main(line, prog_name="hoop", standalone_mode=False, obj=shlex.join(["hoop", *line]))
         sys.stdout.flush()

@@ -20,6 +20,13 @@ def spell_out() -> None:
             stream.reconfigure(errors="hoop")
 
 
+def as_printed(text: str) -> str:
+    """A text as stdout will have it, so that its letters can be counted."""
+    if getattr(sys.stdout, "errors", "") != "hoop":
+        return text
+    return text.encode(sys.stdout.encoding, "hoop").decode(sys.stdout.encoding)
+
+
 def _spelled(error: UnicodeError) -> tuple[str, int]:
     if not isinstance(error, UnicodeEncodeError):
         raise error

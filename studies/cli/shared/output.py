@@ -38,8 +38,12 @@ def write_frame(table: pandas.DataFrame, path: Path) -> Path:
     return write_text(path, table.to_csv(index=False, lineterminator="\n"))
 
 
-def field_wishes(frames: int | None = None, times: str | None = None, only: str | None = None) -> dict[str, Any]:
+def field_wishes(
+    frames: int | None = None, times: str | None = None, only: str | None = None, end: float | None = None
+) -> dict[str, Any]:
     """What a user typed about fields as arguments of :func:`write_fields`, checked before anything runs.
+
+    ``end`` is the time to which the scene is to be run, where that is known.
 
     Raises
     ------
@@ -60,6 +64,8 @@ def field_wishes(frames: int | None = None, times: str | None = None, only: str 
             raise StudyError(f"--times {times} is not possible: it takes numbers with commas between them.") from None
         if not all(0 <= time < inf for time in listed):
             raise StudyError(f"--times {times} is not possible: times after the release are finite and from 0.")
+        if end is not None and max(listed) > end:
+            raise StudyError(f"--times {times} is not possible: the run goes from 0 to run.t_end = {end:g}.")
         wishes["times"] = listed
     if only is not None:
         names = [name.strip() for name in only.split(",") if name.strip()]

@@ -101,21 +101,26 @@ def _interrupts(caught: bool) -> Iterator[Callable[[], bool]]:
 
 
 def _told(motion: Motion, target: Path | None, as_json: bool, wishes: dict[str, Any] | None) -> int:
+    lost = ""
     if target is not None:
         from .output import write_fields, write_motion
 
         begin_results(target)
         write_motion(motion, target)
         if wishes is not None:
-            with bar("fields") as progress:
-                write_fields(motion, target, progress, **wishes)
+            try:
+                with bar("fields") as progress:
+                    write_fields(motion, target, progress, **wishes)
+            except StudyError as error:  # the motion is there all the same
+                lost = f"No fields were written{' at --times' if 'times' in wishes else ''}: {error}"
     if as_json:
         click.echo(to_json(motion.to_dict()))
     else:
         from .tables import motion_tables, show
 
         show(*motion_tables(motion))
-    if motion.completed:
-        return 0
-    click.echo(f"hoop: {motion.ended}.", err=True)
-    return 1
+    if lost:
+        click.echo(f"hoop: {lost}", err=True)
+    if not motion.completed:
+        click.echo(f"hoop: {motion.ended}.", err=True)
+    return 0 if motion.completed and not lost else 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import shutil
 import sys
@@ -27,6 +28,7 @@ from ...stiffness.summary import (
     verdict,
 )
 from .account import HEADING, account, remarks
+from .letters import as_printed
 
 if TYPE_CHECKING:
     from flexible import FlexibleMotion
@@ -50,8 +52,19 @@ def show(*things: Any) -> None:
     # what is in brackets is a unit, not a colour
     console = Console(width=width, highlight=False, markup=False, emoji=False)
     for thing in things:
-        for part in thing.tables(width) if isinstance(thing, Sheet) else [thing]:
+        for part in _spelt(thing).tables(width) if isinstance(thing, Sheet) else [thing]:
             console.print(part)
+
+
+def _spelt(sheet: Sheet) -> Sheet:
+    """The same in the letters that stdout has, by whose number the columns are as wide as they are."""
+
+    def spelt(column: Column) -> Column:
+        cells = [as_printed(cell) for cell in column.cells]
+        return dataclasses.replace(column, heading=as_printed(column.heading), cells=cells)
+
+    keys, columns = map(spelt, sheet.keys), map(spelt, sheet.columns)
+    return dataclasses.replace(sheet, title=as_printed(sheet.title), keys=list(keys), columns=list(columns))
 
 
 def motion_tables(motion: Motion) -> list[Any]:

@@ -33,6 +33,12 @@ def test_threads_that_write_one_file_do_not_meet(tmp_path):
     assert (tmp_path / "file.txt").read_text() in texts
 
 
+@pytest.mark.parametrize("name", ["", ".", "/"])
+def test_a_name_that_is_a_folders_is_refused_as_one(name):
+    with pytest.raises(IsADirectoryError):
+        write_whole(Path(name), Path.touch)
+
+
 @pytest.mark.parametrize("synced", [False, True])
 def test_an_older_file_stays_until_the_new_one_is_whole(tmp_path, synced):
     path = tmp_path / "file.txt"

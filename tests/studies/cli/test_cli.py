@@ -189,10 +189,48 @@ def test_any_encoding_of_stdout_will_do(encoding):
     assert (table.returncode, table.stderr) == (0, "")
     assert ("J_F/(μ J_N)" if encoding == "utf-8" else "J_F/(mu J_N)") in table.stdout
     assert "?" not in table.stdout
+    framed = [line for line in table.stdout.splitlines() if line.startswith(("|", "│", "┃"))]
+    title = next(i for i, line in enumerate(framed) if "measure" in line)
+    assert len(set(map(len, framed[title:]))) == 1  # of the pulses' table all edges stand in one column
     # click takes an ASCII stream for a mistake of the environment, and its sentences are UTF-8 there
     refused = process("rigid", "μ.toml", env=own, encoding=encoding, errors="replace")
     assert refused.returncode == 2
     assert is_one_sentence(refused.stderr)
+
+
+@pytest.mark.parametrize("more", [(), ("--json",)])
+def test_a_closed_stdout_is_one_sentence(more):
+    done = process("rigid", "paper-3.1", *more, capture_output=False, stderr=subprocess.PIPE, preexec_fn=close_stdout)
+    assert done.returncode == 2
+    assert is_one_sentence(done.stderr)
+    assert "closed" in done.stderr
+
+
+def close_stdout() -> None:
+    """As ``>&-`` does in a shell."""
+    os.close(1)
+
+
+def test_an_interruption_while_a_command_is_loaded_is_one_sentence():
+    """A hook into the first import of click stands in for the key, which would have to be pressed in time."""
+    code = """if True:
+        import sys
+        class Pressed:
+            def find_spec(self, name, path=None, target=None):
+                if name == "click":
+                    raise KeyboardInterrupt
+        from studies.cli import main
+        sys.meta_path.insert(0, Pressed())
+        main()"""
+    done = subprocess.run([sys.executable, "-c", code], env=environment(), capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "hoop: Interrupted.\n")
+
+
+@pytest.mark.parametrize("name", ["", ".", "/"])
+def test_a_mesh_by_the_name_of_a_folder_is_one_sentence(hoop, name):
+    status, out, err = hoop("mesh", "paper-3.3-light", name)
+    assert (status, out) == (2, "")
+    assert is_one_sentence(err)
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")

@@ -1,5 +1,7 @@
 """Fields and pictures from the command line."""
 
+import json
+
 import numpy as np
 import pytest
 from command_line import is_one_sentence, process
@@ -122,6 +124,27 @@ def test_bad_wishes_about_fields_are_one_sentence(hoop, tmp_path, monkeypatch, a
     assert words in err
     assert is_one_sentence(err)
     assert not (tmp_path / "o" / "motion.json").exists()  # it was seen before anything ran
+
+
+def test_times_after_the_end_are_refused_before_a_run_to_a_time(hoop, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    status, out, err = hoop("flexible", "printed", "--out", "o", "--fields", "--times", "0.1,0.95")
+    assert (status, out) == (2, "")
+    assert "--times 0.1,0.95" in err
+    assert "run.t_end = 0.9" in err
+    assert is_one_sentence(err)
+    assert not (tmp_path / "o").exists()
+
+
+def test_a_run_that_ends_before_the_times_is_told_all_the_same(hoop, run, tmp_path):
+    status, out, err = hoop(
+        "flexible", run.parent / "scene.toml", "--json", "--out", tmp_path, "--fields", "--times", 1e9
+    )
+    assert status == 1
+    assert json.loads(out)["completed"] is True
+    assert err.startswith("hoop: No fields were written at --times: times are not possible")
+    assert is_one_sentence(err)
+    assert (tmp_path / "motion.npz").exists()
 
 
 def test_folders_and_files_that_are_no_series(hoop, tmp_path):
