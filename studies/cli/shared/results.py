@@ -72,11 +72,12 @@ def results_folder(path: Path | None) -> Path | None:
     if path is None:
         return None
     ctx = click.get_current_context()
-    held = _held(path)
+    files = [*_found(path, ctx.command_path, ctx.params), *path.glob(MADE_BY)]
+    held = _held(path)  # after the files: what another run of this command leaves meanwhile comes after its mark
     if not ctx.meta.get(OVERWRITE):
         if held and not _is_of(held, ctx.command_path):
             raise StudyError(f"{path} holds the results of `{held}`: name another folder, or add --overwrite.")
-        if not held and (files := [*_found(path, ctx.command_path, ctx.params), *path.glob(MADE_BY)]):
+        if not held and files:
             what = files[0].relative_to(path)
             raise StudyError(
                 f"{path} holds {what}, which `{ctx.command_path}` would write over and did not write: "

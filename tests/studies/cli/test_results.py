@@ -178,3 +178,17 @@ def test_an_interrupted_command_says_only_what_is_true(hoop, tmp_path, monkeypat
         assert status == 130
         assert err.strip() == "hoop: Interrupted."
         assert os.listdir(tmp_path) == []
+
+
+def test_a_folder_that_another_run_of_the_command_marks_meanwhile_is_shared(hoop, tmp_path, monkeypatch):
+    """The other one makes its mark when this one has just looked whose the folder is."""
+    look = results._held
+
+    def then_marked(path: Path) -> str:
+        seen = look(path)
+        (tmp_path / "command.txt").write_text("hoop rigid paper-3.1\n")
+        return seen
+
+    monkeypatch.setattr(results, "_held", then_marked)
+    status, _, err = hoop("rigid", "paper-3.1", "--json", "--out", tmp_path)
+    assert (status, err) == (0, "")
