@@ -36,7 +36,7 @@ from .ring.possible import ensure_possible
 from .time.adaptive import MarchError
 from .time.advance import SHORTEST
 from .time.events import Ends
-from .told import Progress, Report, in_time_of, last_turn, swept, too_soft
+from .told import Progress, Report, in_time_of, last_turn, swept, with_advice
 
 BACK = 0.01  # of the way through a segment, by which a hoop that turned back is out where it came in
 WAITS = 10.0  # sqrt(R/g) that a hoop may take for it, beyond four pulse lengths: a swing takes a few
@@ -140,7 +140,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             state = hand_over(hoop, motion, start, one_of(ends_there, 1))
         except MarchError as error:
             builder.completed = False
-            return str(error) + too_soft(scene)
+            return with_advice(scene, str(error))
         state = state._replace(t=builder.t, x_C=builder.x_C)
         sign = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
         span = (float(state.pos[2]), pulse.phi_end)
@@ -161,7 +161,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get out of the pulse"
         if trouble:
             builder.completed = False
-            return trouble + too_soft(scene)
+            return with_advice(scene, trouble)
         first = segment.crossing(pulse.phi_start, segment.t_start)
         if first is not None or not back:  # else it turned back before it came to the pulse
             leaves = max(segment.crossings(pulse.phi_start), default=segment.t_end) if back else segment.t_end
@@ -221,7 +221,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Pr
         state = hand_over(hoop, reference, 0.0)
     except MarchError as error:
         builder.completed = False
-        return str(error) + too_soft(scene)
+        return with_advice(scene, str(error))
     run: Run | None = scene.run
     whirled = False
     horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
@@ -250,7 +250,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Pr
             trouble = f"stopped at t = {state.t:.6g}: the rigid hoop swings that far in a quarter of this time"
         if trouble:
             builder.completed = False
-            return trouble + too_soft(scene)
+            return with_advice(scene, trouble)
         if run.until == "pulse" and any(map(over_bottom, builder.pulses)):
             return "the first pulse is over"
         run = _rest_of(scene.run, builder)

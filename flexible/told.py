@@ -9,6 +9,8 @@ from math import inf
 from rigid import Scene
 from rigid.output.units import Unit
 
+from .time.adaptive import AS_ASKED
+
 Report = Callable[[float], object]
 Fraction = Callable[[float, float], float]  # of time and angle of a step
 
@@ -37,12 +39,12 @@ def swept(span: tuple[float, float]) -> Fraction:
     return lambda t, phi: (phi - span[0]) / (span[1] - span[0])
 
 
-def too_soft(scene: Scene) -> str:
-    """What to say of a run that failed with a ring too soft for its disk."""
+def with_advice(scene: Scene, trouble: str) -> str:
+    """What to say of a run that stopped: one that was not asked to may have a ring too soft for its disk."""
     needed = 1.3 / scene.hoop.k if scene.hoop.k > 0 else inf
-    if scene.ring.bending_stiffness >= 10 * needed:
-        return ""
-    return f"; the pulse of so small a disk wants ring.bending_stiffness well above 1.3/k = {needed:.3g}"
+    if trouble.endswith(AS_ASKED) or scene.ring.bending_stiffness >= 10 * needed:
+        return trouble
+    return f"{trouble}; the pulse of so small a disk wants ring.bending_stiffness well above 1.3/k = {needed:.3g}"
 
 
 def last_turn(number: int) -> str:

@@ -56,6 +56,7 @@ class Limits(NamedTuple):
 
 
 LIMITS = Limits()
+AS_ASKED = " as asked"  # ends what is said of a stop that the user wanted
 
 
 def machine(model: Model) -> tuple[Callable[..., Advanced], Any]:
@@ -228,7 +229,7 @@ def _sentence(why: int, now: Standing, limits: Limits) -> str:
     if why == CAPPED:
         return f"{stopped} after {limits.before + now.attempts} steps"
     if why == PAUSED:
-        return f"{stopped} as asked"
+        return f"{stopped}{AS_ASKED}"
     trouble = "no step however short could be solved"
     if why == STALLED:
         trouble = "stick and slip follow each other without end"

@@ -43,12 +43,8 @@ def study() -> None:
     default="both",
     help="What is raised: contact foundation, ring bending, or both in the scene's ratio (default).",
 )
-@click.option(
-    "--low", type=Finite(0, min_open=True), metavar="S", help=f"Softest rung, {RAISED}; by default 1e-2 of the scene's."
-)
-@click.option(
-    "--high", type=Finite(0, min_open=True), metavar="S", help="Stiffest rung; by default 1e4 of the scene's."
-)
+@click.option("--low", type=POSITIVE, metavar="S", help=f"Softest rung, {RAISED}; by default 1e-2 of the scene's.")
+@click.option("--high", type=POSITIVE, metavar="S", help="Stiffest rung; by default 1e4 of the scene's.")
 @click.option("--count", type=click.IntRange(2, 1000), default=9, metavar="N", help="Number of rungs, 9 by default.")
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from scenes import HOOP
 
 from flexible import simulate
-from flexible.told import in_time_of
+from flexible.told import in_time_of, with_advice
 from rigid import load_scene
 
 
@@ -36,3 +36,11 @@ def test_a_run_that_is_out_of_steps_tells_all_that_it_took():
     motion = simulate(scene, most_steps=first + 5)
     assert len(motion.pulses) == 1
     assert motion.ended == f"stopped at t = {motion.t_end:.6g} after {first + 5} steps"
+
+
+def test_a_stop_that_was_asked_for_gets_no_advice():
+    """Of a disk too small for its ring it is told where the run stops by itself."""
+    soft = HOOP.replace(hoop={"k": 0.01}, ring={"bending_stiffness": 200.0})
+    assert with_advice(soft, "stopped at t = 1 after 5 steps").endswith("well above 1.3/k = 130")
+    assert with_advice(soft, "stopped at t = 1 as asked") == "stopped at t = 1 as asked"
+    assert simulate(soft, stop=lambda: True).ended.endswith(" as asked")
