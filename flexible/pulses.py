@@ -21,14 +21,17 @@ def lead(motion: Motion, pulse: Pulse) -> float:
     return max(0.0, behind, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
 
 
-def turn_that_ends(motion: Motion, pulse: Pulse, start: float) -> int:
-    """The number, counted from ``start`` on, of the turn with which a pulse ends; 0 if it ends with none.
+def ends_with_turn(motion: Motion, pulse: Pulse) -> bool:
+    """Whether the hoop turns at the very end of a pulse.
 
-    Of a hoop that turns at its very bottom, where N = M g, the angle of that end is no help.
+    It does at its bottom, where N = M g, and the angle of that end is passed again only by a later pulse.
     """
-    if abs(float(motion.at(pulse.t_end).omega)) > AT_REST:
-        return 0
-    return sum(start < turn.t < pulse.t_end - AT_REST for turn in motion.turns) + 1
+    return abs(float(motion.at(pulse.t_end).omega)) < AT_REST
+
+
+def goes_through_turns(motion: Motion, pulse: Pulse) -> bool:
+    """Whether the hoop turns inside a pulse: then it may pass the angles of its ends more than once."""
+    return any(pulse.t_start < turn.t < pulse.t_end - AT_REST for turn in motion.turns)
 
 
 def over_bottom(pulse: Pulse) -> bool:

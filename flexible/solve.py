@@ -31,7 +31,7 @@ from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
 from .motion import FlexibleMotion
-from .pulses import add_pulses, lead, over_bottom, turn_that_ends, turns_of
+from .pulses import add_pulses, ends_with_turn, goes_through_turns, lead, over_bottom, turns_of
 from .ring.possible import ensure_possible
 from .time.adaptive import MarchError
 from .time.advance import SHORTEST
@@ -144,25 +144,27 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         state = state._replace(t=builder.t, x_C=builder.x_C)
         sign = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
         span = (float(state.pos[2]), pulse.phi_end)
-        # a pulse cut by the end of the run ends then, any other at the rigid one's angle or where it came in
-        cut = pulse.cut and scene.run.t_end is not None and pulse.t_end == motion.t_end
+        # a pulse that the end of the run cuts, or that goes on through a turn, ends with the rigid one; any other at
+        # its angle or where it came in
+        timed = goes_through_turns(motion, pulse) or (
+            pulse.cut and scene.run.t_end is not None and pulse.t_end == motion.t_end
+        )
         ends = Ends(t=builder.t + pulse.t_end - start)
-        if not cut:
+        if not timed:
             sides = sorted((span[0] - BACK * (span[1] - span[0]), span[1]))
-            ends = Ends(
-                ends.t + 3 * (pulse.t_end - start) + WAITS, sides[0], sides[1], turn_that_ends(motion, pulse, start)
-            )
+            late = ends.t + 3 * (pulse.t_end - start) + WAITS
+            ends = Ends(late, sides[0], sides[1], 1 if ends_with_turn(motion, pulse) else 0)
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, swept(span))
         state, segment, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
         at_turn = 0 < ends.turns <= len(segment.turns())
-        back = not (cut or at_turn) and sign * (float(state.pos[2]) - pulse.phi_end) < 0
+        back = not (timed or at_turn) and sign * (float(state.pos[2]) - pulse.phi_end) < 0
         if not trouble and back and ends.t - state.t < SHORTEST:
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get out of the pulse"
         if trouble:
             builder.completed = False
             return with_advice(scene, trouble)
-        first = segment.crossing(pulse.phi_start, segment.t_start)
+        first = segment.t_start if start == pulse.t_start else segment.crossing(pulse.phi_start, segment.t_start)
         if first is not None or not back:  # else it turned back before it came to the pulse
             leaves = max(segment.crossings(pulse.phi_start), default=segment.t_end) if back else segment.t_end
             measured = segment.pulse(segment.t_start if first is None else first, leaves)

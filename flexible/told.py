@@ -36,7 +36,8 @@ class Progress:
 
 def swept(span: tuple[float, float]) -> Fraction:
     """Fraction of an angle swept."""
-    return lambda t, phi: (phi - span[0]) / (span[1] - span[0])
+    width = span[1] - span[0] or 1.0
+    return lambda t, phi: (phi - span[0]) / width
 
 
 def with_advice(scene: Scene, trouble: str) -> str:

@@ -25,6 +25,8 @@ SCENES = {
     "the same, with a slip": near_the_bottom(0.1, 0.0, 0.716, TURNS, 2.0856, 0.5144, -1.1989),
     "released on the way up": near_the_bottom(0.1, 0.1, 0.599, TURNS, 3.0924, -0.6816, 0.2106),
     "turns inside a pulse": near_the_bottom(0.3, 0.0, 0.71, FIRST, 3.1512, -0.0995, 0.8943),
+    "turns inside one, and comes back": near_the_bottom(0.3, 0.0, 0.2269, FIRST, 3.161206, -0.133504, 0.832638),
+    "turns inside the rest of one": near_the_bottom(0.6, 0.0, 0.69908, TURNS, 2.232224, 0.189195, -0.512771),
     "on the way up, to the first": near_the_bottom(0.3, 0.1, 0.7, FIRST, 3.17367, 0.45069, -0.36776),
     "from the bottom": near_the_bottom(0.1, 0.0, 0.3, Run(t_end=1.5), pi, 0.5),
     "from the bottom, the other way": near_the_bottom(0.1, 0.0, 0.3, Run(t_end=1.5), pi, -0.5),
