@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rigid import Motion, Pulse
 
-from ..running.history import Columns, accumulated
+from ..running.history import Columns, impulses_of_the_rigid
 
 Array = NDArray[np.float64]
 
@@ -72,12 +72,11 @@ def at_the_same_angle(columns: Columns, passage: Passage) -> Columns:
 
 
 def impulses_along(motion: Motion, pulse: Pulse) -> tuple[Array, Array]:
-    """Normal and friction impulse of a motion through a pulse of it, (n,) each, from the pulse's start."""
+    """Normal and friction impulse of a rigid motion through a pulse of it, (n,) each, from the pulse's start."""
     t = motion.times(pulse.t_start, pulse.t_end)
-    # straight between its times to 2e-3 is not straight enough for trapezoids here: a thousandth of that is
+    # J_F over J_N is to be straight between them, to a thousandth of the 2e-3 to which N and F are straight
     fine = np.append((t[:-1, None] + np.diff(t)[:, None] * np.arange(_FINER) / _FINER).ravel(), t[-1])
-    states = motion.at(fine)
-    return accumulated(fine, states.normal_force), accumulated(fine, states.friction_force)
+    return impulses_of_the_rigid(motion, pulse, fine)
 
 
 def at_the_same_normal_impulse(columns: Columns, along: tuple[Array, Array]) -> Array:
