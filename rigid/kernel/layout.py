@@ -27,7 +27,8 @@ A_EVENT, A_T, A_ANGLE, A_WHOLE, A_OMEGA, A_XDOT, A_X, A_TURNS, A_PULSES, A_RECOR
 P_SEQUENCE = 51
 # A slip's start and the time since: where phidot ~ 1/k, sums in T itself would move the angle by their round-off.
 T_FROM, T_SINCE = 52, 53
-STATE = 54
+A_KIND = 54  # the phase at the event of A_EVENT
+STATE = 55
 SEQUENCE_BASE = 8
 
 # What a phase works in, rows of ORDER + 1 numbers (rigid.kernel.spectral.workspace): Taylor coefficients, for names see

@@ -14,6 +14,7 @@ from ..kernel.compile import kernel
 from ..kernel.layout import (  # fmt: skip
     A_ANGLE,
     A_EVENT,
+    A_KIND,
     A_OMEGA,
     A_PULSES,
     A_RECORDED,
@@ -23,6 +24,7 @@ from ..kernel.layout import (  # fmt: skip
     A_X,
     A_XDOT,
     ANGLE,
+    LAST_KIND,
     OMEGA,
     PHASE_T,
     PULSES_DONE,
@@ -68,11 +70,13 @@ def comes_round(par, state, event, events):
         1 + abs(state[OMEGA])
     )
     close = close and abs(state[XDOT] - state[A_XDOT]) <= SAME * (1 + abs(state[XDOT]))
+    # a phase begins at a turn, by round-off before or behind it: in its place it comes once in every period
+    close = close and state[LAST_KIND] == state[A_KIND]
     round_again = known == event and turns == (2.0 if event == AT_TURN else 0.0) and close
     if round_again:
         repeat(par, state, events)
     if state[A_EVENT] != DONE:
-        state[A_EVENT] = event
+        state[A_EVENT], state[A_KIND] = event, state[LAST_KIND]
         state[A_T], state[A_ANGLE], state[A_WHOLE], state[A_OMEGA], state[A_XDOT], state[A_X] = (
             state[T], state[ANGLE], state[WHOLE], state[OMEGA], state[XDOT], state[X_C],
         )  # fmt: skip

@@ -36,6 +36,20 @@ def test_ten_thousand_turns(name):
         assert before.phi_end == after.phi_start
 
 
+@pytest.mark.parametrize("k", [0.1, 0.3, 0.6])
+@pytest.mark.parametrize("turns", [9, 1001])
+def test_from_rest_every_swing_is_one_phase_in_the_part_that_comes_again_too(k, turns):
+    """G is at rest along the floor, so the slip changes its way with phidot: from turn to turn one phase."""
+    scene = Scene(Hoop(k), Friction(0, 0), Release(phi0_deg=10), Run(turns=turns))
+    phases = simulate(scene).phases
+    assert len(phases) == turns
+    for before, after in pairwise(phases):
+        assert before.kind != after.kind
+        assert before.t_start < before.t_end == after.t_start
+    # a batch counts the phase too that begins with the last turn, where round-off has it begin before the turn
+    assert simulate_batch([scene], turns=turns).phase_count[0] in (turns, turns + 1)
+
+
 @pytest.mark.parametrize("name", SMOOTH)
 def test_what_is_multiplied_is_what_would_have_been_run(name):
     """40 turns, of which some thirty are passed over, against 40 runs that each take the next step by themselves."""
