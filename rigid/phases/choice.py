@@ -196,10 +196,11 @@ def hit(par, state, events):
 
 @kernel
 def settles(par, state):
-    """Whether the last ``SLIPS`` slips have taken next to nothing and brought the end of the run no closer.
+    """Whether the last ``SLIPS`` slips, and what came between, have taken next to nothing and brought the end of the
+    run no closer.
 
     A motion whose slips shrink towards a rolling that just never slips does so algebraically, and would not
-    end.
+    end; nor would one that hops ever less, or slips over a floor with next to no friction.
     """
     if par[UNTIL] == FIRST_PULSE or par[T_END] < inf:
         return False
@@ -248,7 +249,8 @@ def entry_run(par, state, room, events):
                     choose_slip(par, state, events)
         elif mode in (SKID, SPIN):
             if settles(par, state):
-                return SLIDES if par[MU] == 0.0 else SETTLES
+                # on a smooth floor too, of a hoop that hops: its landings take energy
+                return SETTLES if par[MU] > 0.0 or state[HOPS] > 0.0 else SLIDES
             code = slide(par, state, work, rows, events)
             if state[MODE] == FLIGHT:
                 begin(par, state, FLIGHT, events)

@@ -12,7 +12,7 @@ _REASONS = {
     at.SLIDES: "slides for ever: a smooth floor takes no energy",
     at.HITS_FLOOR: "the point mass hits the floor",
     at.CREEPS: "creeps up to the top and never gets there",
-    at.SETTLES: "all but rolls for ever: a hundred slips took less than a ten-thousandth of its energy",
+    at.SETTLES: "goes on all but for ever: in a hundred slips it lost less than a ten-thousandth of its energy",
     at.TURNS_REACHED: "the last turn asked for is reached",
     at.ROLLS: "rolls for ever: |F| < mu_s N over the whole swing",
     at.WHIRLS: "rolls for ever, over the top in every revolution, so there is no turn to wait for",
