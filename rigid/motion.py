@@ -67,9 +67,9 @@ class Turn:
 class Pulse(Same):
     """One sweep of the disk past the floor: the phi-interval around phi = pi (mod 2 pi) with rigid N > M g.
 
-    ``friction_loss`` is the integral of |F v|. Restitution compares the velocity of the mass centre G before
-    and after: Newton's -ydot+/ydot-, Poisson's impulse of restitution over that of compression (split where
-    ydot_G = 0), and the square root of Stronge's -W_r/W_c.
+    ``friction_loss`` is the integral of |F v|; the peak of N is inf in a pulse that jams. Restitution compares the
+    velocity of the mass centre G before and after: Newton's -ydot+/ydot-, Poisson's impulse of restitution over that of
+    compression (split where ydot_G = 0), and the square root of Stronge's -W_r/W_c.
 
     ``cut`` marks a pulse in which the run begins or ends: its measures are those of the part that was run, its
     restitutions NaN. ``sample`` is that of the motion which the pulse is a part of.

@@ -43,6 +43,8 @@ from ..kernel.layout import (  # fmt: skip
     MU_S,
     OMEGA,
     ONE_MINUS_E,
+    P_OPEN,
+    P_PEAK,
     PHASE_OVER,
     PULL,
     PULSE_OVER,
@@ -183,6 +185,9 @@ def soar(par, state, events):
 def hit(par, state, events):
     """An impact, and what follows it: a hop or contact."""
     begin(par, state, IMPACT, events)
+    if state[P_OPEN] != 0.0:
+        # a jam, as a flight ends a pulse: no number bounds N, and the last D > 0 before it is round-off
+        state[P_PEAK] = inf
     omega, slip, un, xdot, ydot = state[OMEGA], state[SLIP], state[UN], state[XDOT], state[YDOT]
     reverses = strike(par, state, par[RESTITUTION])
     if state[UN] <= SLOWEST_HOP:

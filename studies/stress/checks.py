@@ -71,6 +71,8 @@ def numbers(motion: Motion) -> Iterator[float]:
         values = pulse.to_dict()
         if pulse.normal_impulse == 0:  # a flexible hoop may fly through all of it: then there is no ratio
             del values["impulse_ratio"]
+        if any(p.kind == Kind.IMPACT and pulse.t_start < p.t_start <= pulse.t_end for p in motion.phases):
+            del values["peak_normal_force"]  # a jam knows none
         if pulse.cut:  # what is split at the bottom is unknown
             values = {name: value for name, value in values.items() if "restitution" not in name}
         yield from (value for value in values.values() if isinstance(value, float))

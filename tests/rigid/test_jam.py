@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from rigid import Friction, Hoop, Kind, Release, Run, Scene, simulate
+from rigid import Friction, Hoop, Kind, Release, Run, Scene, simulate, simulate_batch
 
 
 def skid_on_compliant_floor(hoop, mu, release, kappa):
@@ -106,3 +106,25 @@ def test_where_b_decays_faster_than_d_the_hoop_lifts_off():
     assert 0 < (e * s) ** 2 * (c - mu * s) / (2 * c * hoop.K) - 0.5 < 1
     normal = motion.at(skid.t_end * np.linspace(0, 1, 50)).normal_force
     assert np.diff(normal).max() < 0, "N falls all the way to 0, where D -> 0 alone would make it grow"
+
+
+def test_a_pulse_that_jams_has_no_largest_force():
+    """N = K b/D with D -> 0: the peak is infinite in a motion and in a batch; not if it jams at release, before its
+    pulse.
+    """
+    jams = Scene(Hoop(0.0432, 1.52), Friction(0.538, 0.481), Release(phi0_deg=102.6, omega0=3.85, slip0=-2.41))
+    # a skid released where D < 0 (Painleve)
+    hoop, mu, phi = Hoop(0.1), 0.9, radians(-60)
+    e, gyr, s, c = hoop.e, hoop.K, sin(phi), cos(phi)
+    assert gyr + e * s * (e * s + mu * (1 + e * c)) < 0
+    before = Scene(hoop, Friction(mu, mu), Release(phi, 0.0, 0.5))
+    for scene, peak_is_bounded in ((jams, False), (before, True)):
+        motion = simulate(scene.replace(run=Run(turns=2)))
+        pulse = next(pulse for pulse in motion.pulses if not pulse.cut)
+        assert np.isfinite(pulse.peak_normal_force) == peak_is_bounded
+        assert np.isfinite(list(pulse.to_dict().values())).all() == peak_is_bounded
+        assert motion.phases[0 if peak_is_bounded else 1].kind == Kind.IMPACT
+        assert str(motion)
+        batch = simulate_batch([scene], turns=2, pulses=len(motion.pulses))
+        assert batch.peak_normal_force[0].tolist() == [pulse.peak_normal_force for pulse in motion.pulses]
+        assert np.isinf(batch.to_dataframe()["peak_normal_force"]).any() != peak_is_bounded
