@@ -83,9 +83,8 @@ def entry_batch(pars, release, low, high, work, state, events, rows):
 
 @dataclass(frozen=True, repr=False)
 class Batch:
-    """What became of ``n`` scenes, in the paper's units (R, m, g).
-
-    ``turns`` and ``pulses`` below are the numbers of columns asked for; what a scene does not have is NaN.
+    """What became of ``n`` scenes, in the paper's units (R, m, g); ``turns`` and ``pulses`` below are the numbers of
+    columns asked for; what a scene does not have is NaN.
     """
 
     code: NDArray[np.int64]
@@ -142,9 +141,9 @@ class Batch:
         from .output.frame import pulses_of_scenes
 
         measures = ("t_start", "t_stop", "phi_start", "phi_stop", *PULSE_MEASURES, "impulse_ratio", "cut")
-        counts = {name: getattr(self, name) for name in ("phase_count", "turn_count", "pulse_count", "t_end")}
-        ended = [reason(int(code)) for code in self.code]
-        table = pulses_of_scenes({name: getattr(self, name) for name in measures}, {**counts, "ended": ended})
+        scenes = {name: getattr(self, name) for name in ("phase_count", "turn_count", "pulse_count", "t_end")}
+        scenes["ended"] = [reason(int(code)) for code in self.code]
+        table = pulses_of_scenes({name: getattr(self, name) for name in measures}, scenes)
         table["cut"] = table["cut"] == 1
         return table
 
@@ -182,6 +181,7 @@ def simulate_batch(
     t_end: float | None = None,
     until: str | None = None,
     pulses: int = 2,
+    whole: bool = False,
     workers: int | None = None,
 ) -> Batch:
     """The motions of many scenes, by the compiled kernel, on all cores.
@@ -197,6 +197,8 @@ def simulate_batch(
         the scenes is not looked at.
     pulses : int
         How many pulses to keep of each scene.
+    whole : bool
+        That until="pulse" means a whole pulse: one that the release cuts does not end the motion.
     workers : int, optional
         Threads; as many as there are cores if not given. Results do not depend on it.
 
@@ -213,15 +215,13 @@ def simulate_batch(
     turns = Run(turns, t_end, until).turns  # refuses what no run can be
     table = _table(scenes)
     count = len(table)
-    kept = 2 if turns is None else turns
-    pars, release = _parameters(table, turns, t_end, until), np.ascontiguousarray(table[:, 5:8])
+    pars, release = _parameters(table, turns, t_end, until, whole), np.ascontiguousarray(table[:, 5:8])
     rows = Rows(
         np.zeros((count, END_VALUES)),
-        np.full((count, kept, TURN_VALUES), np.nan),
+        np.full((count, 2 if turns is None else turns, TURN_VALUES), np.nan),
         np.full((count, pulses, PULSE_VALUES), np.nan),
     )
     run = compiled()["entry_batch"]
-
     workers = workers or os.cpu_count() or 1
     chunk = min(MOST, -(-count // (CHUNKS * workers)) or 1)
 
@@ -284,7 +284,7 @@ def _check(table: Array) -> None:
             raise SceneError(f"scene {index} of the batch: {error}") from None
 
 
-def _parameters(table: Array, turns: int | None, t_end: float | None, until: str | None) -> Array:
+def _parameters(table: Array, turns: int | None, t_end: float | None, until: str | None, whole: bool) -> Array:
     """Parameters of all scenes, as :func:`rigid.solve.parameters` makes them for one."""
     k, r, mass_ratio, mu_s, mu, *_, bounce = table.T
     hoop = hoop_constants(k, r, mass_ratio)
@@ -296,5 +296,5 @@ def _parameters(table: Array, turns: int | None, t_end: float | None, until: str
     pars[:, at.MU_S], pars[:, at.MU], pars[:, at.RESTITUTION] = mu_s, mu, bounce
     pars[:, at.TURNS] = inf if turns is None else turns
     pars[:, at.T_END] = inf if t_end is None else t_end
-    pars[:, at.UNTIL] = UNTIL_CODES[until]
+    pars[:, at.UNTIL], pars[:, at.WHOLE_ONLY] = UNTIL_CODES[until], whole
     return pars

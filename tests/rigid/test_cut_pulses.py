@@ -151,3 +151,19 @@ def test_energy_gained_in_a_pulse_would_show():
     scene = load_scene("paper-3.2-k0.75").replace(run={"turns": 40})
     losses = np.array([pulse.friction_loss for pulse in simulate(scene).pulses])
     assert np.abs(losses).max() < 1e-14
+
+
+def test_a_batch_goes_on_to_a_whole_pulse_where_it_is_asked_to():
+    """Released in a pulse and past the bottom: what is left of it ends a run to the first pulse, or does not."""
+    scene = Scene(Hoop(0.3), Friction(0.35, 0.3), Release(phi0_deg=178, omega0=2.0))
+    batch = simulate_batch([scene], until="pulse")
+    assert batch.pulse_count[0] == 1
+    assert batch.cut[0, 0] == 1
+    batch = simulate_batch([scene], until="pulse", whole=True)
+    assert batch.cut[0].tolist() == [1, 0]
+    pulse = simulate(scene.replace(run={"turns": 2})).pulses[1]
+    assert not pulse.cut
+    assert batch.t_end[0] == batch.t_stop[0, 1] == pytest.approx(pulse.t_end, rel=1e-13)
+    assert batch.impulse_ratio[0, 1] == pytest.approx(pulse.impulse_ratio, rel=1e-12)
+    rest = Scene(Hoop(0.3), Friction(0.35, 0.3), Release(phi0_deg=10))
+    assert simulate_batch([rest], until="pulse", whole=True) == simulate_batch([rest], until="pulse")
