@@ -55,7 +55,7 @@ def picture(atlas: Drawn) -> Figure:
         panels: list[tuple[Any, str, dict[str, Any]]] = [
             (share, r"impulse ratio $J_F/(\mu J_N)$", {"cmap": "PuOr_r", "vmin": -most, "vmax": most}),
             (loss, r"friction loss over $MgR$", {"cmap": "cividis"}),
-            (10**peak, r"peak of $N$ over $Mg$", {"cmap": "magma", "norm": "log"}),
+            (10**peak, r"peak of $N$ over $Mg$", {"cmap": "magma", "norm": "log" if np.isfinite(peak).any() else None}),
         ]
         for row, (values, title, how) in enumerate(panels):
             axes = figure.add_subplot(grid[row, 1])

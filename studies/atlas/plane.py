@@ -71,7 +71,7 @@ class Seen(NamedTuple):
     loss: Array
     """Work done against friction over the weight of the whole hoop times R."""
     peak: Array
-    """Decimal logarithm of the largest N over the weight."""
+    """Decimal logarithm of the largest N over the weight; NaN where a jam knows no largest."""
     hops: NDArray[np.bool_]
     """Whether the hoop has left the floor before the pulse was over."""
     jams: NDArray[np.bool_]
@@ -129,19 +129,24 @@ class Plane:
         return {name: np.broadcast_to(np.asarray(column, dtype=float), x.shape) for name, column in told.items()}
 
     def run(self, x: Array, y: Array) -> Seen:
-        """The first pulses of the hoops with these values, each (m,)."""
+        """The first pulses of the hoops with these values, each (m,).
+
+        What is left of a pulse in which a hoop is released is none: that would measure the release.
+        """
         hoops = self.hoops(x, y)
         there = hoops["mu_s"] >= hoops["mu"]
-        batch = simulate_batch({name: column[there] for name, column in hoops.items()}, until="pulse", pulses=1)
+        batch = simulate_batch({name: column[there] for name, column in hoops.items()}, until="pulse", whole=True)
+        first = np.arange(len(batch)), (batch.cut[:, 0] == 1).astype(int)  # at most one is cut by the release
+        seen = batch.cut[first] == 0
         sequence = np.full(x.shape, NO_HOOP, dtype=np.int64)
-        digits = batch.sequence[:, 0]
-        sequence[there] = np.where(np.isnan(digits), NO_PULSE, np.nan_to_num(digits)).astype(np.int64)
+        sequence[there] = np.where(seen, np.nan_to_num(batch.sequence[first]), NO_PULSE).astype(np.int64)
         columns = np.full((3, *x.shape), np.nan)
         mu, weight = hoops["mu"][there], 1 + hoops["mass_ratio"][there]
         with np.errstate(divide="ignore", invalid="ignore"):
-            columns[0, there] = np.where(mu > 0, batch.impulse_ratio[:, 0] / mu, 0.0)
-            columns[1, there] = batch.friction_loss[:, 0] / weight
-            columns[2, there] = np.log10(batch.peak_normal_force[:, 0] / weight)
+            columns[0, there] = np.where(mu > 0, batch.impulse_ratio[first] / mu, 0.0)
+            columns[1, there] = batch.friction_loss[first] / weight
+            columns[2, there] = np.log10(batch.peak_normal_force[first] / weight)
+        columns[np.isinf(columns)] = np.nan
         columns[:, sequence <= 0] = np.nan
         hops, jams = np.zeros((2, *x.shape), dtype=bool)
         hops[there], jams[there] = batch.hop_count > 0, batch.jam_count > 0

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from command_line import is_one_sentence
 
-from rigid import Release, SceneError, load_scene, rolling_k, simulate
+from rigid import Friction, Hoop, Release, Scene, SceneError, load_scene, rolling_k, simulate
 from rigid.lists import phases_of
 from studies import Atlas, atlas_of
 from studies.atlas.plane import NO_HOOP, SYMBOLS, plane
@@ -111,6 +111,29 @@ def test_hoops_that_hop_are_told():
             release={"omega0": float(found.x[column])}, friction={"mu": 0.1, "mu_s": 0.35 / 3}, run={"until": "pulse"}
         )
         assert any(phase.kind == "flight" for phase in simulate(scene).phases) is expected
+
+
+def test_what_is_left_of_a_pulse_at_release_is_not_measured():
+    """Released around the bottom, before or behind it: mapped is the first whole pulse, as one hoop tells it."""
+    scene = Scene(Hoop(0.3), Friction(0.35, 0.3), Release(phi0_deg=175, omega0=2.0))
+    found = atlas_of(scene, {"release.phi0_deg": (170.0, 186.0), "release.omega0": (1.0, 3.0)}, side=16)
+    for column, row in ((8, 8), (0, 0), (16, 4)):
+        release = {"phi0_deg": float(found.x[column]), "omega0": float(found.y[row])}
+        motion = simulate(scene.replace(release=release, run={"turns": 2}))
+        assert motion.pulses[0].cut
+        pulse = next(pulse for pulse in motion.pulses if not pulse.cut)
+        told = found.found.values[:, row, column]
+        wanted = [pulse.impulse_ratio / 0.3, pulse.friction_loss, np.log10(pulse.peak_normal_force)]
+        assert told == pytest.approx(wanted, abs=2 * SHADE)  # of ranges of the order of one
+
+
+def test_a_map_of_jams_alone_has_no_peaks_and_is_drawn():
+    scene = Scene(Hoop(0.0432, 1.52), Friction(0.538, 0.481), Release(phi0_deg=102.6, omega0=3.85, slip0=-2.41))
+    found = atlas_of(scene, {"release.phi0_deg": (102.5, 102.7), "release.omega0": (3.8, 3.9)}, side=16)
+    assert all("impact" in region.phases for region in found.regions)
+    assert np.isnan(found.found.values[2]).all()
+    assert np.isfinite(found.found.values[:2]).all()
+    assert found.plot().axes
 
 
 def test_hoops_that_jam_are_told():
