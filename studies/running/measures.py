@@ -90,7 +90,7 @@ def numerical_loss(motion: Motion, pulse: Pulse) -> float:
 
 @measure("peak N", Unit.FORCE)
 def peak_normal_force(motion: Motion, pulse: Pulse) -> float:
-    """Largest normal force in the pulse."""
+    """Largest normal force in the pulse; infinite if it jams."""
     return pulse.peak_normal_force
 
 
@@ -144,14 +144,14 @@ def measures(motion: Motion, pulse: Pulse) -> dict[str, float]:
 
 
 def inside(motion: Motion, pulse: Pulse) -> list[Phase]:
-    """The phases within a pulse, those at its ends cut to it."""
+    """The phases within a pulse, those at its ends cut to it; a landing with which it begins comes before it."""
     own = getattr(pulse, "phases", None)
     if own is not None:
         return list(own)
     cut = []
     for phase in motion.phases:
         start, end = max(phase.t_start, pulse.t_start), min(phase.t_end, pulse.t_end)
-        if end > start or (phase.kind is Kind.IMPACT and pulse.t_start <= phase.t_start <= pulse.t_end):
+        if end > start or (phase.kind is Kind.IMPACT and pulse.t_start < phase.t_start <= pulse.t_end):
             phi_start = phase.phi_start if phase.t_start >= pulse.t_start else pulse.phi_start
             phi_end = phase.phi_end if phase.t_end <= pulse.t_end else pulse.phi_end
             cut.append(Phase(phase.kind, start, end, phi_start, phi_end))

@@ -1,0 +1,41 @@
+"""What is measured on a pulse."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+
+from rigid import Friction, Hoop, Kind, Landing, Release, Run, Scene, simulate, simulate_batch
+from studies import measures
+from studies.running.files import to_json
+from studies.running.measures import phase_sequence
+
+
+def test_the_phases_of_a_pulse_are_those_that_a_batch_has():
+    """A landing with which a pulse begins is not part of it, whoever tells."""
+    rng = np.random.default_rng(5)
+    scenes = []
+    for _ in range(150):
+        mu = rng.uniform(0, 1.2)
+        hoop = Hoop(rng.uniform(0.02, 0.95), float(rng.choice([1, 1.1, 1.5])), float(rng.choice([0, 0.1, 1])))
+        release = Release(*rng.uniform((-6, -5, -5), (6, 5, 5)))
+        landing = Landing(float(rng.choice([0, 0.5])))
+        scenes.append(Scene(hoop, Friction(mu * rng.uniform(1, 1.3), mu), release, landing=landing))
+    batch = simulate_batch(scenes, turns=2, pulses=3)
+    landings = 0
+    for i, scene in enumerate(scenes):
+        motion = simulate(scene.replace(run=Run(turns=2)))
+        for j, pulse in enumerate(motion.pulses[:3]):
+            assert phase_sequence(motion, pulse) == [str(kind.value) for kind in batch.phases(i, j)]
+            landings += any(p.kind == Kind.IMPACT and p.t_start == pulse.t_start for p in motion.phases)
+    assert landings > 5  # enough of them to tell
+
+
+def test_the_peak_of_a_jam_is_null_in_json():
+    scene = Scene(Hoop(0.0432, 1.52), Friction(0.538, 0.481), Release(phi0_deg=102.6, omega0=3.85, slip0=-2.41))
+    motion = simulate(scene.replace(run=Run(until="pulse")))
+    told = json.loads(to_json([motion.to_dict(), measures(motion, motion.pulses[0])]))
+    assert told[0]["pulses"][0]["peak_normal_force"] is None
+    assert told[1]["peak_normal_force"] is None
+    assert phase_sequence(motion, motion.pulses[0]) == ["spin", "impact", "roll"]
