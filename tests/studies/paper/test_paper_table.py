@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import csv
 
+import numpy as np
 import pytest
 from rich.console import Console
+from scipy.optimize import brentq
 
+from rigid import load_scene, simulate
 from studies.paper import closing, reproduce, screen
 from studies.paper.figures import FIGURES
-from studies.paper.numbers import numbers
+from studies.paper.numbers import numbers, spike_width
 
 
 @pytest.fixture(scope="module")
@@ -31,6 +34,25 @@ def test_our_own_values_where_the_paper_fails():
     assert abs(ours[1.38862] - 1.3892) < 5e-5
     assert abs(ours[1.80266] - 1.8025) < 5e-5
     assert abs(ours[0.045] - 0.0742) < 5e-5
+
+
+def test_the_width_of_a_spike_is_where_its_flanks_are_at_half_its_height():
+    """By bisection on both sides; a thousandth of the part that is sampled is left open at each."""
+    motion = simulate(load_scene("paper-3.2-k0.75").replace(hoop={"k": 0.05}, friction={"mu_s": 50.0, "mu": 50.0}))
+    pulse = motion.pulses[0]
+    ends = brentq_half(motion, pulse)
+    assert spike_width(motion) == pytest.approx(ends[1] - ends[0], rel=2e-3)
+
+
+def brentq_half(motion, pulse):
+    """Where N is half its peak on either side, by bisection."""
+    t = np.linspace(pulse.t_start, pulse.t_end, 100_001)
+    top = t[np.argmax(motion.at(t).normal_force)]
+
+    def above(time):
+        return float(motion.at(time).normal_force) - 0.5 * pulse.peak_normal_force
+
+    return brentq(above, pulse.t_start, top), brentq(above, top, pulse.t_end)
 
 
 def test_every_figure_is_in_the_table(verdicts):
