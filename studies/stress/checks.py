@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+from bisect import bisect_right
 from collections.abc import Iterator
 from itertools import pairwise
 from math import inf, isfinite, isnan
@@ -67,11 +68,12 @@ def numbers(motion: Motion) -> Iterator[float]:
         yield from (phase.t_start, phase.t_end, phase.phi_start, phase.phi_end)
     for turn in motion.turns:
         yield from (turn.t, turn.phi, turn.slip_velocity, turn.energy)
+    impacts = [phase.t_start for phase in motion.phases if phase.kind == Kind.IMPACT]
     for pulse in motion.pulses:
         values = pulse.to_dict()
         if pulse.normal_impulse == 0:  # a flexible hoop may fly through all of it: then there is no ratio
             del values["impulse_ratio"]
-        if any(p.kind == Kind.IMPACT and pulse.t_start < p.t_start <= pulse.t_end for p in motion.phases):
+        if bisect_right(impacts, pulse.t_start) < bisect_right(impacts, pulse.t_end):
             del values["peak_normal_force"]  # a jam knows none
         if pulse.cut:  # what is split at the bottom is unknown
             values = {name: value for name, value in values.items() if "restitution" not in name}
