@@ -11,13 +11,13 @@ from .segment import Segment
 
 LEAD = 0.5  # a flexible segment begins this many pulse lengths before the pulse, to let its start settle
 AT_REST = 1e-6  # sqrt(g/R), phidot at a turn, and sqrt(R/g) within which times of it are one
-MANY = 1000  # turns
+BEHIND = 0.1  # of the time from a turn to the pulse, if that is less
 
 
 def lead(motion: Motion, pulse: Pulse) -> float:
     """When to go over to the flexible hoop: a little before a pulse, and behind the turn from which the hoop comes."""
     turned = max((turn.t for turn in motion.turns if turn.t < pulse.t_start), default=0.0)
-    behind = turned + 0.1 * (pulse.t_start - turned) if turned > 0 else 0.0
+    behind = turned + BEHIND * (pulse.t_start - turned) if turned > 0 else 0.0
     return max(0.0, behind, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
 
 
@@ -44,7 +44,8 @@ def turns_of(swing: Motion, pulses: list[Pulse], most: int | None) -> int:
     """After how many turns a swing is over: at the first, or at the first behind the pulse that goes on through it."""
     first = swing.turns[0].t if swing.turns else inf
     through = max((pulse.t_end for pulse in pulses if pulse.t_start < first), default=0.0)
-    return min(sum(turn.t < through - AT_REST for turn in swing.turns) + 1, most or MANY)
+    passed = sum(turn.t < through - AT_REST for turn in swing.turns) + 1
+    return passed if most is None else min(passed, most)
 
 
 def add_pulses(builder: Builder, segment: Segment, swing: Motion, pulses: list[Pulse], over: bool) -> None:

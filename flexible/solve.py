@@ -112,7 +112,7 @@ def _resumable(earlier: FlexibleMotion, scene: Scene, states: bool) -> FlexibleM
 def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Progress) -> str:
     """Rigid between pulses, flexible inside."""
     current = scene
-    done, whole = 0, True  # segments, and whether a pulse that begins at once is one of its own
+    done, fresh = 0, True  # segments, and whether a pulse that begins at once is one of its own
     whirled = False
     while True:
         motion = rigid.simulate(rigid_limit(current))
@@ -123,7 +123,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             builder.completed = False
             return str(error)
         # what a motion that takes over begins in is the rest of the pulse that is just over
-        pulse = next((p for p in motion.pulses if p.t_start > 0 or whole), None)
+        pulse = next((p for p in motion.pulses if p.t_start > 0 or fresh), None)
         at_rest = scene.run.until == "rest" and _slips_no_more(motion)  # what it rolls through is no pulse with a loss
         whirls = _whirls(motion)
         if whirls and whirled:  # for a revolution at least, as the rigid hoop does
@@ -170,7 +170,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             measured = segment.pulse(segment.t_start if first is None else first, leaves)
             # a pulse that begins at once is cut by the release alone, not where the one before it ended with a turn
             builder.list_pulse(measured, pulse.cut and (pulse.t_start > 0 or len(builder.marches) == 1))
-        done, whole = done + 1, at_turn
+        done, fresh = done + 1, at_turn
         if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse):
             return "the first pulse is over" + (": the hoop turned back in it" if back else "")
         rest = _rest_of(scene.run, builder)

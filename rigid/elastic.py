@@ -15,7 +15,6 @@ UNITS = ("R", "m", "g")
 #: keys of [ring] in a scene file that say in SI units what section the ring has
 SECTION = ("youngs_modulus", "width", "height", "tube_diameter", "tube_wall", "density")
 
-
 #: stiffness, over any unit that a scene has, with whose inverse a float can still be reckoned
 LEAST = 1e-12
 

@@ -71,8 +71,6 @@ def numbers(motion: Motion) -> Iterator[float]:
     impacts = [phase.t_start for phase in motion.phases if phase.kind == Kind.IMPACT]
     for pulse in motion.pulses:
         values = pulse.to_dict()
-        if pulse.normal_impulse == 0:  # a flexible hoop may fly through all of it: then there is no ratio
-            del values["impulse_ratio"]
         if bisect_right(impacts, pulse.t_start) < bisect_right(impacts, pulse.t_end):
             del values["peak_normal_force"]  # a jam knows none
         if pulse.cut:  # what is split at the bottom is unknown

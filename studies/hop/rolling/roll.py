@@ -217,18 +217,8 @@ def steps_of(motion: FlexibleMotion) -> Roll:
     """The steps of a flexible motion as one run, in the solver's units."""
     history = motion.history
     assert history is not None
-    told = without_units(history, motion.scene)
-    totals = {}
-    lengths = [len(kept.states) for kept in motion.kept]
-    for name in _TOTALS:  # of each swing: from the beginning on
-        swings = np.split(getattr(told, name), np.cumsum(lengths)[:-1])
-        carried = np.concatenate([[0.0], np.cumsum([swing[-1] for swing in swings])])
-        totals[name] = np.concatenate([swing + before for swing, before in zip(swings, carried, strict=False)])
     states = [state for kept in motion.kept for state in kept.states]
-    return Roll(motion.kept[0].hoop, states, dataclasses.replace(told, **totals))
-
-
-_TOTALS = ("friction_loss", "damping_loss", "numerical_loss")
+    return Roll(motion.kept[0].hoop, states, without_units(history, motion.scene))
 
 
 def _with_flights(values: dict[str, Any], steps: Roll) -> RollingMotion:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
+import flexible
 from flexible.output.body import lowest, outline, whole
 from rigid import Friction, Hoop, Kind, Release, Run, Scene, scene_to_dict, simulate
 from studies.hop.rolling.energies import Roll
@@ -271,3 +272,16 @@ def test_a_study_of_two_rolls_from_end_to_end(hoop, tmp_path):
     page = (tmp_path / "study" / "report.html").read_text(encoding="utf-8")
     assert page.index("Yes: released at rest") < page.index("<figure"), "the answer first"
     assert 'src="http' not in page
+
+
+def test_the_losses_of_a_roll_are_counted_once():
+    """Over two swings: the last of the running totals is what the ledger has."""
+    scene = Scene(Hoop(k=0.3), Friction(0.35, 0.3), Release(2.2), Run(turns=2)).replace(
+        ring={"bending_stiffness": 1e4}, solve={"resolve": "all", "rtol": 3e-3}
+    )
+    motion = flexible.simulate(scene, history=True)
+    assert len(motion.kept) == 2
+    history, ledger = steps_of(motion).history, motion.ledger
+    assert ledger.friction_loss > 0
+    assert history.friction_loss[-1] == pytest.approx(ledger.friction_loss, rel=1e-12)
+    assert history.damping_loss[-1] == pytest.approx(ledger.damping_loss, rel=1e-12)
