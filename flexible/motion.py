@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from dataclasses import dataclass
 from math import nan
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -91,9 +91,11 @@ class FlexiblePulse(Pulse):
 class History:
     """Every accepted step of the flexible segments, as arrays over time; stored only when asked for.
 
-    Losses and impulses are running totals over these segments: what the rigid hoop between them loses, and the floor
-    gives it, is not among them.
+    Losses and impulses are running ``TOTALS`` over these segments: what the rigid hoop between them loses, and the
+    floor gives it, is not among them.
     """
+
+    TOTALS: ClassVar = ("normal_impulse", "friction_impulse", "friction_loss", "damping_loss", "numerical_loss")
 
     t: Time[Array]
     phi: Number[Array]
@@ -102,7 +104,7 @@ class History:
     x_C: Length[Array]
     y_C: Length[Array]
     slip_velocity: Velocity[Array]  # of the patch's centre against the floor, tangential
-    approach_velocity: Velocity[Array]  # of the hoop's centre C, upward
+    vertical_velocity: Velocity[Array]  # of the hoop's centre C, upward
     normal_force: Force[Array]
     friction_force: Force[Array]
     patch_length: Length[Array]

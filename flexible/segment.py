@@ -23,9 +23,8 @@ Array = NDArray[np.float64]
 
 #: columns whose rate is another one
 RATES = {
-    "phi": "omega", "y_C": "approach_velocity", "normal_impulse": "normal_force", "friction_impulse": "friction_force",
+    "phi": "omega", "y_C": "vertical_velocity", "normal_impulse": "normal_force", "friction_impulse": "friction_force",
 }  # fmt: skip
-TOTALS = ("friction_loss", "damping_loss", "numerical_loss", "normal_impulse", "friction_impulse")
 
 T = TypeVar("T", float, Array)
 
@@ -251,6 +250,6 @@ def history_of(segments: Iterable[Segment | None]) -> History:
         each, before = [np.empty(0)], 0.0
         for segment in found:
             each.append(segment[field.name] + before)
-            before = float(each[-1][-1]) if field.name in TOTALS else 0.0
+            before = float(each[-1][-1]) if field.name in History.TOTALS else 0.0
         columns[field.name] = np.concatenate(each)
     return History(**columns)

@@ -12,7 +12,8 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
                ``allowed`` what is refused, in a sentence
 ``scenefile``  TOML to scene and back, the paper's scenes by name
 ``motion``     the vocabulary that both solvers speak
-``solve``      one scene to its motion; ``batch`` many at once; ``thresholds`` where rolling ends
+``solve``      one scene to its motion; ``sampler`` any instant of it; ``thresholds`` where rolling ends
+``batch``      many scenes at once
 ``lists``      the records of a run as phases, turns and pulses
 ``phases``     the mechanics of each kind of phase, which one is next, and any instant of them
 ``output``     a motion as curves, as a table, in a few lines, in a file

@@ -3,52 +3,29 @@
 from __future__ import annotations
 
 import threading
-from dataclasses import dataclass, replace
-from functools import cached_property
-from math import ceil, inf, pi
+from math import ceil, inf
 from os import PathLike
-from typing import Any, NamedTuple
-from weakref import ref
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .kernel import layout as at
 from .kernel.compile import compiled, patience
 from .kernel.spectral import compiled_workspace, workspace
-from .lists import Deferred, Listing
-from .motion import Array, Motion, Side, States
+from .lists import Deferred
+from .motion import Array, Motion
 from .output.file import Stored, read
-from .output.units import in_units, without_units
-from .phases import instant
+from .output.units import without_units
 from .phases.choice import MOST_STALLS, entry_run, release_from
 from .phases.reasons import reason
 from .record.pulse import cut_pulse
-from .scene import Scene, is_point_mass
+from .sampler import Log, Sampler, parameters
+from .scene import Scene
 from .scenefile import SceneLike, as_scene, scene_from_dict
 
 LOG_RECORDS = 128
 STEPS = 200_000  # the work bound of one motion: Taylor steps and phases
 MOST_RECORDS = 200_000  # and its phases, turns and pulses together
-
-UNTIL_CODES = {None: at.NOTHING, "pulse": at.FIRST_PULSE, "rest": at.REST}
-
-
-def parameters(scene: Scene) -> list[float]:
-    """The constants of a motion, R = g = M = 1 (see :mod:`rigid.kernel.layout`)."""
-    hoop, run = scene.hoop, scene.run
-    constants = hoop.constants
-    e, one_minus_e, gyr, zeta = constants.e, constants.one_minus_e, constants.K, constants.zeta
-    if is_point_mass(constants):
-        e, one_minus_e, gyr, zeta = 1.0, 0.0, 0.0, 0.0
-    turns = inf if run.turns is None else float(run.turns)
-    t_end = without_units(run, scene).t_end
-    friction = scene.friction
-    bounce = scene.landing.restitution
-    return [
-        e, one_minus_e, gyr, zeta, friction.mu_s, friction.mu, bounce, turns,
-        inf if t_end is None else t_end, float(UNTIL_CODES[run.until]), 0.0,
-    ]  # fmt: skip
 
 
 def release_of(scene: Scene) -> tuple[float, float, float]:
@@ -75,14 +52,6 @@ class _Workspace(threading.local):
 
 
 _workspace = _Workspace()
-
-
-class Log(NamedTuple):
-    """What a run leaves: all of its motion follows."""
-
-    code: int  # why it ended
-    records: Array  # (n, WIDTH)
-    final: list[float]  # the state at its end
 
 
 def _run(scene: Scene) -> Log:
@@ -215,78 +184,3 @@ def load_motion(path: str | PathLike[str]) -> Motion:
         Not a saved motion, a damaged one, or one of the flexible hoop, which :func:`flexible.load_motion` reads.
     """
     return read(path, {"rigid": unstored}, scene_from_dict)
-
-
-@dataclass(frozen=True, eq=False)
-class Sampler:
-    """Lists a motion and evaluates it at given times, from what its run left; a plain value."""
-
-    scene: Scene
-    log: Log
-
-    @cached_property
-    def listing(self) -> Listing:
-        """Phases, turns and pulses."""
-        _, records, final = self.log
-        # a reference that does not count: in a circle of them every motion would wait for the garbage collector
-        return Listing(records.tolist(), [float(at.END), *final[: at.MOVING]], self.scene, ref(self))
-
-    @cached_property
-    def _flat(self) -> list[float]:
-        """The starts of all phases and the end, one after the other, ``WIDTH`` numbers each."""
-        return [number for row in self.listing.starts for number in (*row, *[0.0] * (at.WIDTH - len(row)))]
-
-    def __getstate__(self) -> dict[str, Any]:
-        return {"scene": self.scene, "log": self.log}
-
-    def stored(self, motion: Motion) -> Stored:
-        """What a file keeps of the motion."""
-        code, records, final = self.log
-        return Stored("rigid", {"code": code}, {"records": records, "final": np.array(final)})
-
-    def __call__(self, t: Array, side: Side) -> States:
-        """States at times of any shape, in the units of the scene."""
-        scene = self.scene
-        order = np.argsort(t, axis=None, kind="stable")
-        told = t.ravel()[order]
-        starts = np.array(self._flat[1 + at.T :: at.WIDTH])[:-1]
-        # compared as the phases state their times: a division could put an instant on the wrong side of a boundary
-        owner = np.searchsorted(starts * scene.time_unit, told, side) - 1
-        once, again = told / scene.time_unit, np.zeros(len(told))
-        fold = self.listing.fold
-        if fold is not None:
-            once, again = fold.back(once)
-            owner = np.where(again > 0, np.searchsorted(starts, once, side) - 1, owner)
-        owner = np.maximum(owner, 0)
-        once = np.maximum(once, starts[owner])
-        within = np.argsort(once, kind="stable")
-        rows = np.empty((len(told), instant.COLUMNS))
-        rows[within] = self._rows(once[within], owner[within])
-        if fold is not None:
-            rows[:, 0] += again * 2 * pi * fold.whole
-            rows[:, 2] += again * fold.way
-        table = np.empty_like(rows)
-        table[order] = rows
-        columns = [column.reshape(t.shape) for column in table.T]
-        phi, omega, x, gap, slip, normal, friction, energy, alpha = columns
-        mass = 1 + scene.hoop.mass_ratio
-        found = States(t, phi, omega, alpha, x, 1 + gap, slip, normal * mass, friction * mass, energy * mass)
-        return replace(in_units(found, scene), t=t)  # to the last bit as asked for
-
-    def _rows(self, times: Array, owner: NDArray[np.int64]) -> Array:
-        """A row of the kernel's columns for each time, in the phase of the number ``owner``."""
-        width = instant.COLUMNS
-        constants, flat = parameters(self.scene), self._flat
-        if patience.left(len(times)) > 0:
-            patience.spend(instants=len(times))
-            out: Any = [0.0] * (len(times) * width)
-            work: Any = workspace()[0]
-            events = [0.0] * (16 * at.WIDTH)
-            state = [0.0] * at.STATE
-            instant.entry_sample(constants, flat, owner.tolist(), times.tolist(), out, work, state, events)
-            return np.array(out, dtype=float).reshape(len(times), width)
-        out = np.zeros(len(times) * width)
-        work = np.zeros((at.SERIES, at.ORDER + 1))
-        room = np.zeros(at.STATE), np.zeros(16 * at.WIDTH)
-        compiled()["entry_sample"](np.array(constants), np.array(flat), owner, times, out, work, *room)
-        return out.reshape(len(times), width)

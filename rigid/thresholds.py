@@ -13,8 +13,9 @@ from scipy.optimize import brentq
 from .kernel.angle import trig
 from .kernel.layout import MU_S, ZETA
 from .phases.rolling.closed_form import ceiling, margin_polynomials, rolling_forces, turning_point
+from .sampler import parameters
 from .scene import Friction, Hoop, Release, Scene
-from .solve import parameters, release_state
+from .solve import release_state
 
 
 def inception_mu_s(hoop: Hoop, phi0: float) -> float:

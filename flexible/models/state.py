@@ -149,7 +149,7 @@ class Record(NamedTuple):
     x_C: float
     y_C: float
     slip_velocity: float
-    approach_velocity: float
+    vertical_velocity: float
     normal_force: float
     friction_force: float
     patch_length: float

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Motion, Pulse
 
-from ..running.history import Columns, impulses_of_the_rigid
+from ..running.history import Columns
 
 Array = NDArray[np.float64]
 
@@ -76,7 +76,9 @@ def impulses_along(motion: Motion, pulse: Pulse) -> tuple[Array, Array]:
     t = motion.times(pulse.t_start, pulse.t_end)
     # J_F over J_N is to be straight between them, to a thousandth of the 2e-3 to which N and F are straight
     fine = np.append((t[:-1, None] + np.diff(t)[:, None] * np.arange(_FINER) / _FINER).ravel(), t[-1])
-    return impulses_of_the_rigid(motion, pulse, fine)
+    sample: Any = motion.sample
+    found: tuple[Array, Array] = sample.impulses(pulse, fine)
+    return found
 
 
 def at_the_same_normal_impulse(columns: Columns, along: tuple[Array, Array]) -> Array:

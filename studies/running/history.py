@@ -11,14 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Motion, Pulse, Scene, States
-from rigid.output.units import units_of, without_units
-from rigid.solve import Sampler
+from rigid.output.units import units_of
 
 Array = NDArray[np.float64]
 Columns = dict[str, Array]
-
-TOTALS = ("normal_impulse", "friction_impulse", "friction_loss", "damping_loss", "numerical_loss")
-"""Columns that a solver gathers from its start; through a pulse they count from the pulse's start."""
 
 
 def through(motion: Motion, pulse: Pulse) -> Columns:
@@ -34,14 +30,13 @@ def through(motion: Motion, pulse: Pulse) -> Columns:
     own = own_steps(motion)
     if own is None:
         columns = at(motion, motion.times(pulse.t_start, pulse.t_end))
-        if isinstance(motion.sample, Sampler):
-            normal, friction = impulses_of_the_rigid(motion, pulse, columns["t"])
+        if (impulses := getattr(motion.sample, "impulses", None)) is not None:  # exact, of a solver that has them
+            normal, friction = impulses(pulse, columns["t"])
             return {**columns, "normal_impulse": normal, "friction_impulse": friction}
     else:
         columns = {name: _between(own["t"], values, pulse.t_start, pulse.t_end) for name, values in own.items()}
-    for name in TOTALS:
-        if name in columns and columns[name].size:
-            columns[name] = columns[name] - columns[name][0]
+        for name in getattr(getattr(motion, "history", None), "TOTALS", ()):
+            columns[name] = columns[name] - columns[name][:1]
     for force, impulse in (("normal_force", "normal_impulse"), ("friction_force", "friction_impulse")):
         if not columns["t"].size:
             columns[impulse] = columns["t"].copy()
@@ -50,35 +45,6 @@ def through(motion: Motion, pulse: Pulse) -> Columns:
         else:  # what is off is the first point alone, which lies within a step
             columns[impulse][1:] += getattr(pulse, impulse) - columns[impulse][-1]
     return columns
-
-
-def impulses_of_the_rigid(motion: Motion, pulse: Pulse, t: Array) -> tuple[Array, Array]:
-    """Normal and friction impulse of a rigid hoop since a pulse of it began, from the momentum of its mass centre.
-
-    No quadrature: dJ_N = M (dydot_G + g dt) and dJ_F = M dxdot_G, over an impact inside the pulse (a jam) as anywhere.
-    The hoop is on the floor throughout, for a flight ends a pulse; so ydot_G is that of the rotation.
-
-    Parameters
-    ----------
-    motion : Motion
-        Of the rigid solver.
-    pulse : Pulse
-    t : (n,) array
-        Times from the pulse's start to its end, both among them.
-
-    Returns
-    -------
-    two (n,) arrays
-        The last of each is the pulse's own: an impact at the very end lies behind the last instant that can be sampled.
-    """
-    scene, states = motion.scene, without_units(motion.at(t), motion.scene)
-    e, unit = scene.hoop.e, (1 + scene.hoop.mass_ratio) * scene.impulse_unit
-    along = states.slip_velocity + states.omega * (1 + e * np.cos(states.phi))
-    up = states.t - e * np.sin(states.phi) * states.omega
-    normal = np.maximum.accumulate(unit * (up - up[0]))  # it never falls, but in its last digits
-    friction = unit * (along - along[0])
-    normal[-1], friction[-1] = pulse.normal_impulse, pulse.friction_impulse
-    return normal, friction
 
 
 def _between(t: Array, values: Array, start: float, end: float) -> Array:

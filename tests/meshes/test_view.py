@@ -355,7 +355,8 @@ def test_importing_the_view_loads_no_graphics():
 @needs_renderer
 @pytest.mark.parametrize("name", ["paper-3.1", "paper-point-mass"])
 def test_the_papers_scenes_can_be_drawn(name, tmp_path, monkeypatch):
-    monkeypatch.setattr("rigid.solve.patience", Patience(10**9))  # a renderer is heavy enough without compiled code
+    for module in ("solve", "sampler"):
+        monkeypatch.setattr(f"rigid.{module}.patience", Patience(10**9))  # a renderer is heavy without compiled code
     animate(simulate(load_scene(name)), tmp_path / "a.gif", timing=Timing(frames=3), size=(320, 240))
     assert (tmp_path / "a.gif").stat().st_size > 5000  # three pages that are not blank
 

@@ -14,7 +14,7 @@ from rigid.kernel.layout import ANGLE, OMEGA, SLIP, STATE, TOP, UN
 from rigid.phases.flight import height, touch_down
 from rigid.phases.impact import strike
 from rigid.record.pulse import energy, released
-from rigid.solve import parameters
+from rigid.sampler import parameters
 
 
 @pytest.mark.parametrize("phi0", [0.3, 1.0, 2.0, 3.0])

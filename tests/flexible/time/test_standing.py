@@ -97,7 +97,7 @@ def test_damping_loss_of_a_bounce_against_an_integration():
     assert records[-1].damping_loss == pytest.approx(exact[2], rel=3e-3)
     assert records[-1].friction_loss == pytest.approx(0, abs=1e-12)
     leaving = next(r for r in records if r.contact_spring == 0 and r.t > 0.002)
-    assert leaving.approach_velocity == pytest.approx(-exact[1], rel=5e-3)
+    assert leaving.vertical_velocity == pytest.approx(-exact[1], rel=5e-3)
 
 
 def test_a_patch_that_its_damper_lets_go_of_is_off_the_floor():

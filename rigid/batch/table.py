@@ -1,0 +1,77 @@
+"""Many scenes as a table, a row for each, and their parameters for the kernel."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from math import inf
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..allowed import SceneError, shown
+from ..kernel import layout as at
+from ..motion import Array
+from ..output.units import without_units
+from ..sampler import UNTIL_CODES
+from ..scene import LIGHTEST, Friction, Hoop, Landing, Release, Scene, hoop_constants, is_point_mass
+from ..scenefile import SceneLike, as_scene
+
+QUANTITIES = ("k", "r", "mass_ratio", "mu_s", "mu", "phi0", "omega0", "slip0", "restitution")
+DEFAULTS = {"r": 1.0, "mass_ratio": 0.0, "omega0": 0.0, "slip0": 0.0, "restitution": 0.0}
+
+
+def table_of(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
+    """One row of ``QUANTITIES`` per scene."""
+    if isinstance(scenes, Mapping):
+        unknown = set(scenes) - set(QUANTITIES)
+        missing = set(QUANTITIES) - set(scenes) - set(DEFAULTS)
+        if unknown or missing:
+            what = "is not a quantity of" if unknown else "is missing in"
+            raise SceneError(f"{', '.join(sorted(unknown or missing))} {what} a batch: {', '.join(QUANTITIES)}.")
+        columns = [np.asarray(scenes.get(name, DEFAULTS.get(name)), dtype=float) for name in QUANTITIES]
+        table = np.stack(np.broadcast_arrays(*np.atleast_1d(*columns)), axis=1)
+        _check(table)
+        return np.ascontiguousarray(table)
+    if isinstance(scenes, (str, os.PathLike, Scene)):
+        raise SceneError(f"{shown(scenes)} is one scene: a batch takes a list of them, or a dict of arrays.")
+    rows = []
+    for scene in map(as_scene, scenes):
+        hoop, friction, release = scene.hoop, scene.friction, without_units(scene.release, scene)
+        hoop_and_friction = (hoop.k, hoop.r, hoop.mass_ratio, friction.mu_s, friction.mu)
+        rows.append((*hoop_and_friction, release.phi0, release.omega0, release.slip0, scene.landing.restitution))
+    return np.array(rows, dtype=float).reshape(len(rows), len(QUANTITIES))
+
+
+def _check(table: Array) -> None:
+    """Raise what the first impossible row would raise as a scene."""
+    k, r, mass, mu_s, mu, *_, bounce = table.T
+    fine = np.isfinite(table).all(axis=1) & (k >= 0) & (k < 1) & (r >= 1) & (mu >= 0) & (mu_s >= mu)
+    fine &= (bounce >= 0) & (bounce <= 1) & ((k > 0) | (mass > 0) | (r == 1)) & ((mass == 0) | (mass >= LIGHTEST))
+    fine &= (np.abs(np.delete(table, 2, axis=1)) <= 1e9).all(axis=1) & (mass <= 1e12)
+    if not fine.all():
+        index = int(np.argmin(fine))
+        row = [float(number) for number in table[index]]
+        try:
+            Hoop(*row[:3])
+            Friction(*row[3:5])
+            Release(*row[5:8])
+            Landing(row[8])
+        except SceneError as error:
+            raise SceneError(f"scene {index} of the batch: {error}") from None
+
+
+def parameters_of(table: Array, turns: int | None, t_end: float | None, until: str | None, whole: bool) -> Array:
+    """Parameters of all scenes, as :func:`rigid.sampler.parameters` makes them for one."""
+    k, r, mass_ratio, mu_s, mu, *_, bounce = table.T
+    hoop = hoop_constants(k, r, mass_ratio)
+    point = is_point_mass(hoop)
+    pars = np.empty((len(table), at.PARAMETERS))
+    pars[:, at.ECC], pars[:, at.ONE_MINUS_E] = np.where(point, 1, hoop.e), np.where(point, 0, hoop.one_minus_e)
+    pars[:, at.GYR] = np.where(point, 0, hoop.K)
+    pars[:, at.ZETA] = np.where(point, 0, hoop.zeta)
+    pars[:, at.MU_S], pars[:, at.MU], pars[:, at.RESTITUTION] = mu_s, mu, bounce
+    pars[:, at.TURNS] = inf if turns is None else turns
+    pars[:, at.T_END] = inf if t_end is None else t_end
+    pars[:, at.UNTIL], pars[:, at.WHOLE_ONLY] = UNTIL_CODES[until], whole
+    return pars
