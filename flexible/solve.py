@@ -33,6 +33,7 @@ from .models.state import State
 from .motion import FlexibleMotion
 from .pulses import add_pulses, ends_with_turn, goes_through_turns, lead, over_bottom, turns_of
 from .ring.possible import ensure_possible
+from .segment import Segment
 from .time.adaptive import MarchError
 from .time.advance import SHORTEST
 from .time.events import Ends
@@ -142,34 +143,19 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
             builder.completed = False
             return with_advice(scene, str(error))
         state = state._replace(t=builder.t, x_C=builder.x_C)
-        sign = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
-        span = (float(state.pos[2]), pulse.phi_end)
-        # a pulse that the end of the run cuts, or that goes on through a turn, ends with the rigid one; any other at
-        # its angle or where it came in
-        timed = goes_through_turns(motion, pulse) or (
-            pulse.cut and scene.run.t_end is not None and pulse.t_end == motion.t_end
-        )
-        ends = Ends(t=builder.t + pulse.t_end - start)
-        if not timed:
-            sides = sorted((span[0] - BACK * (span[1] - span[0]), span[1]))
-            late = ends.t + 3 * (pulse.t_end - start) + WAITS
-            ends = Ends(late, sides[0], sides[1], 1 if ends_with_turn(motion, pulse) else 0)
+        ends, timed = _ends_of(motion, pulse, start, state)
         low, high = done / (done + 2), (done + 1) / (done + 3)
-        watch = progress.watch(low, high, swept(span))
+        watch = progress.watch(low, high, swept((float(state.pos[2]), pulse.phi_end)))
         state, segment, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
         at_turn = 0 < ends.turns <= len(segment.turns())
-        back = not (timed or at_turn) and sign * (float(state.pos[2]) - pulse.phi_end) < 0
+        onward = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
+        back = not (timed or at_turn) and onward * (float(state.pos[2]) - pulse.phi_end) < 0
         if not trouble and back and ends.t - state.t < SHORTEST:
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get out of the pulse"
         if trouble:
             builder.completed = False
             return with_advice(scene, trouble)
-        first = segment.t_start if start == pulse.t_start else segment.crossing(pulse.phi_start, segment.t_start)
-        if first is not None or not back:  # else it turned back before it came to the pulse
-            leaves = max(segment.crossings(pulse.phi_start), default=segment.t_end) if back else segment.t_end
-            measured = segment.pulse(segment.t_start if first is None else first, leaves)
-            # a pulse that begins at once is cut by the release alone, not where the one before it ended with a turn
-            builder.list_pulse(measured, pulse.cut and (pulse.t_start > 0 or len(builder.marches) == 1))
+        _list(builder, segment, pulse, start, back)
         done, fresh = done + 1, at_turn
         if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse):
             return "the first pulse is over" + (": the hoop turned back in it" if back else "")
@@ -177,6 +163,34 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         if rest is None:
             return "the time to run is over" if scene.run.turns is None else last_turn(scene.run.turns)
         current = _from_here(scene, hoop, state, rest)
+
+
+def _ends_of(motion: Motion, pulse: Pulse, start: float, state: State) -> tuple[Ends, bool]:
+    """Where a segment through a pulse of the rigid hoop ends, which begins in a state, ``start`` after the rigid hoop;
+    and whether that is an instant.
+
+    A pulse that the end of the run cuts, or that goes on through a turn, ends with the rigid one; any other at its
+    angle or where it came in.
+    """
+    run_ends = pulse.cut and motion.scene.run.t_end is not None and pulse.t_end == motion.t_end
+    t_end = state.t + pulse.t_end - start
+    if run_ends or goes_through_turns(motion, pulse):
+        return Ends(t=t_end), True
+    phi = float(state.pos[2])
+    low, high = sorted((phi - BACK * (pulse.phi_end - phi), pulse.phi_end))
+    late = t_end + 3 * (pulse.t_end - start) + WAITS
+    return Ends(late, low, high, 1 if ends_with_turn(motion, pulse) else 0), False
+
+
+def _list(builder: Builder, segment: Segment, pulse: Pulse, start: float, back: bool) -> None:
+    """List the pulse that a segment went through, from where it came to it, to where it left it."""
+    first = segment.t_start if start == pulse.t_start else segment.crossing(pulse.phi_start, segment.t_start)
+    if first is None and back:  # it turned back before it came to the pulse
+        return
+    leaves = max(segment.crossings(pulse.phi_start), default=segment.t_end) if back else segment.t_end
+    measured = segment.pulse(segment.t_start if first is None else first, leaves)
+    # a pulse that begins at once is cut by the release alone, not where the one before it ended with a turn
+    builder.list_pulse(measured, pulse.cut and (pulse.t_start > 0 or len(builder.marches) == 1))
 
 
 def _rest_of(run: Run, builder: Builder) -> Run | None:
