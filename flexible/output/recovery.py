@@ -4,11 +4,11 @@ The reduced hoop knows its ring by modes and the rim. Here the same displacement
 
     u = sum q_i Phi_i + (K^-1 - sum Phi_i Phi_i^T / lambda_i) f,
 
-with f the contact's forces on the rim: on the rim it is what the contact saw, to round-off. The other levels of the
-hoop march with all nodes. Many instants are done at once.
+with f the contact's forces on the rim: on the rim it is what the contact saw, to round-off. The levels ``full`` and
+``exact`` march with all nodes; for a chain see :mod:`flexible.output.chain_interior`. Many instants are done at once.
 
 Everything is in the disk's frame and in the solver's units, R = m = g = 1; stresses and energy densities are those of
-a ring of width R, for the width is no part of a scene.
+a ring of width R: the scene's ``section_width`` comes in with its units (:mod:`flexible.output.fields`).
 """
 
 from __future__ import annotations
