@@ -9,7 +9,6 @@
 ``vtu``      a block to a VTU file and back
 ``series``   frames in time to PVD + VTU and back
 ``exchange`` the mesh to other programs, by meshio
-``whole``    files that are there whole or not at all
 ``view``     pictures, animations and a window: ``picture``, ``animate``, ``window`` (not loaded here)
 ``draw``     what these are made of
 """

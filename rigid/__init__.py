@@ -20,9 +20,10 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
 ``record``     what a phase leaves behind; the measures of a pulse
 ``kernel``     what phases are computed with, and why all of this runs both interpreted and compiled
 
-What is imported from here is for everyone; the other packages take it from here too, and beyond it only the ``kernel``
-that flexible is compiled with. The theory, with the choices that Coulomb's law leaves open, is README.md
-beside this file.
+What is imported from here is for everyone, and the other packages take it from here too. What is no user's business
+they take from its own module: the ``kernel`` that flexible is compiled with, units, files and texts from ``output``,
+single names from ``elastic``, ``scenefile``, ``solve``, ``lists`` and ``phases``. The theory, with the choices that
+Coulomb's law leaves open, is README.md beside this file.
 """
 
 from typing import TYPE_CHECKING

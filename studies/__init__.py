@@ -9,14 +9,15 @@
 ``limit``      that limit solved, from the inner problems (``inner``) of the rigid hoop's events
 ``atlas``      a map of a million rigid hoops over two quantities
 ``hop``        the paper's footnote: which hoops, released at rest, leave the floor, and where
-``sweep``      the product of scene keys over processes or a Dask cluster
+``sweep``      the product of scene keys over processes or a Dask cluster, ``sweepfile`` as a TOML file says it
 ``paper``      every number and figure of the paper again
 ``validate``   everything published or provable beside what the solvers find
 ``bench``      run time against error;  ``stress``  thousands of scenes and what must hold of them
 ``machine``    processes side by side, and what is compiled for them
 ``running``    scenes through solvers, in processes, kept in a folder, whatever the study
 ``plots``      what all figures share
-``examples``   programs of twenty lines
+``examples``   programs of twenty lines;  ``notebooks``  three with their output
+``readme``     the README's pictures and numbers made again;  ``site``  docstrings and theory as a static site
 ``cli``        ``hoop ...``
 
 Everything here is loaded when it is asked for. Of another package a module takes what its face has from the face; a
