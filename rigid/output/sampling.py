@@ -39,7 +39,7 @@ def times(
     tolerance: float = 2e-3,
     limit: int = 20_000,
 ) -> Array:
-    """Times over a span between which forces are straight to ``tolerance`` of their range.
+    """Times over a span between which forces are straight to ``tolerance`` of their range, as far as ``limit`` allows.
 
     The first grid crowds geometrically on ``bottoms``: the spike of a small disk there is k^2 wide, and bisection alone
     would step over it. Both sides of every one of ``edges``, where forces jump, are among the times.
