@@ -52,7 +52,7 @@ def sampled(source: Source, count: int = 30) -> list[Shot]:
 
 
 def tidy_factor(shots: list[Shot], share: float = 0.06) -> float:
-    """A factor 1, 2 or 5 times a power of ten that shows the largest displacement as that share of R."""
+    """1, 2 or 5 times a power of ten that shows the largest displacement as that share of R or less; at least 1."""
     largest = max(float(np.linalg.norm(shot.displacement, axis=1).max()) / shot.radius for shot in shots)
     return tidy(share / largest) if largest > 0 else 1.0
 

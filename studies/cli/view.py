@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 FILE = click.Path(path_type=Path, dir_okay=False)
 
 TIME = "in sqrt(R/g), or in seconds where the scene is in SI units"
-SHOWN = "by default so much that the largest displacement is about 6 % of R"
+SHOWN = "by default so much that the largest displacement is 2 to 6 % of R, not at all where it is more"
 
 
 @click.command()
