@@ -1,9 +1,9 @@
 """How fast the cases come to a limit, beside what is predicted of that.
 
-A distance over its leading power has the powers behind it in it too: 20 % of it where a patch's next coefficient is a
-thousand times the first. What is asked is what the predicted powers alone come to. So the prediction is taken off the
-cases, and the whole series is inferred of what is left (:func:`studies.stiffness.series.leading_part`): its part in the
-predicted powers is by how much they miss.
+A distance over its leading power has the powers behind it in it too: 5 % of it at a foundation of 1e13 where a patch's
+next coefficient is a thousand times the first, 20 % at 1e11. What is asked is what the predicted powers alone come to.
+So the prediction is taken off the cases, and the whole series is inferred of what is left
+(:func:`studies.stiffness.series.leading_part`): its part in the predicted powers is by how much they miss.
 """
 
 from __future__ import annotations
