@@ -20,7 +20,12 @@ if TYPE_CHECKING:
 @click.argument("what", type=click.Choice(["rigid", "flexible", "mesh", "knobs", "soft", "scaling"]))
 @as_json
 @out_folder("Write table and figures into this folder.")
-@click.option("--peers", "peers_too", is_flag=True, help="Also the other solvers that are installed (Exudyn).")
+@click.option(
+    "--peers",
+    "peers_too",
+    is_flag=True,
+    help="Of rigid and flexible: also the other solvers that are installed (Exudyn; of rigid Siconos, solve_nivp).",
+)
 @click.option("--check", is_flag=True, help="Exit with status 1 if a stated ratio does not hold.")
 @click.option("--quick", is_flag=True, help="Fewer settings, fewer repeats.")
 @click.pass_context
