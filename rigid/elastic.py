@@ -80,7 +80,7 @@ class Ring:
         )
 
 
-#: foundation whose patch of the weight is 5e-6 R wide: of a stiffer one what gaps are known to is some of its depth
+#: foundation whose patch of the weight is 5e-6 R to either side: of a stiffer one gaps are known to some of its depth
 STIFFEST = 1e16
 
 #: names of the friction laws, which are defined in the flexible solver

@@ -1,7 +1,8 @@
 """The command line: parse, call, print. What is computed lives elsewhere and is imported only when asked for.
 
-Exit status: 0 done; 1 done, but a motion was given up before what was asked, it has no such fields or some case of a
-study failed; 2 something the user can mend, in one sentence; 130 interrupted.
+Exit status: 0 done; 1 done, but a motion was given up before what was asked, it has no such fields, some case of a
+study failed or a check of `bench --check`, `stress` or `validate` does not hold; 2 something the user can mend, in one
+sentence; 130 interrupted; 141 nobody reads the output any more.
 """
 
 from __future__ import annotations
