@@ -16,7 +16,7 @@
 ``machine``    processes side by side, and what is compiled for them
 ``running``    scenes through solvers, in processes, kept in a folder, whatever the study
 ``plots``      what all figures share
-``examples``   programs of twenty lines;  ``notebooks``  three with their output
+``examples``   a short program for each use;  ``notebooks``  three with their output
 ``readme``     the README's pictures and numbers made again;  ``site``  docstrings and theory as a static site
 ``cli``        ``hoop ...``
 

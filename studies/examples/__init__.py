@@ -1,4 +1,4 @@
-"""Programs of about twenty lines, one per use. Each writes one picture: ``python -m studies.examples.rigid_motion``.
+"""Programs of twenty to fifty lines, one per use. Each writes a picture: ``python -m studies.examples.rigid_motion``.
 
 ``rigid_motion``      the paper's first cycle in closed form
 ``batch_map``         a plane of hoops at once: friction over normal impulse of the first pulse
