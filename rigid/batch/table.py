@@ -29,8 +29,7 @@ def table_of(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
         if unknown or missing:
             what = "is not a quantity of" if unknown else "is missing in"
             raise SceneError(f"{', '.join(sorted(unknown or missing))} {what} a batch: {', '.join(QUANTITIES)}.")
-        columns = [np.asarray(scenes.get(name, DEFAULTS.get(name)), dtype=float) for name in QUANTITIES]
-        table = np.stack(np.broadcast_arrays(*np.atleast_1d(*columns)), axis=1)
+        table = _broadcast([np.asarray(scenes.get(name, DEFAULTS.get(name)), dtype=float) for name in QUANTITIES])
         _check(table)
         return np.ascontiguousarray(table)
     if isinstance(scenes, (str, os.PathLike, Scene)):
@@ -41,6 +40,17 @@ def table_of(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
         hoop_and_friction = (hoop.k, hoop.r, hoop.mass_ratio, friction.mu_s, friction.mu)
         rows.append((*hoop_and_friction, release.phi0, release.omega0, release.slip0, scene.landing.restitution))
     return np.array(rows, dtype=float).reshape(len(rows), len(QUANTITIES))
+
+
+def _broadcast(columns: list[Array]) -> Array:
+    """One row for each scene of columns that broadcast to (n,)."""
+    try:
+        columns = list(np.broadcast_arrays(*np.atleast_1d(*columns)))
+    except ValueError:
+        columns = []
+    if not columns or columns[0].ndim > 1:
+        raise SceneError("The arrays of a batch are numbers, or of one length: they do not broadcast to (n,).")
+    return np.stack(columns, axis=1)
 
 
 def _check(table: Array) -> None:

@@ -216,6 +216,16 @@ def test_one_scene_is_no_batch(one):
     assert "is one scene: a batch takes a list of them" in said(simulate_batch, one)
 
 
+@pytest.mark.parametrize("k", [np.full((7, 3), 0.1), np.full(7, 0.1)])
+def test_arrays_that_are_no_list_of_scenes_are_refused(k):
+    one = {"k": k, "mu_s": [0.35, 0.35], "mu": 0.3, "phi0": 0.2}
+    assert "do not broadcast to (n,)" in said(simulate_batch, one)
+
+
+def test_numbers_are_one_scene():
+    assert len(simulate_batch({"k": 0.1, "mu_s": 0.35, "mu": 0.3, "phi0": 0.2})) == 1
+
+
 @pytest.mark.parametrize("stiffness", [0.0, 1e17, 1e40])
 def test_a_foundation_stiffer_than_gaps_are_known_is_refused(stiffness):
     assert said(Contact, stiffness=stiffness).startswith(f"contact.stiffness = {stiffness!r} is not possible")
