@@ -10,6 +10,9 @@ from rigid.output.whole import write_whole
 
 from .ring import MeshError, RingMesh
 
+HOLD = (".msh", ".vtu", ".vtk", ".inp", ".mdpa", ".xdmf", ".xmf", ".hmf", ".e", ".ex2", ".exo", ".med")
+"""Formats in which meshio writes nine-node quads; others it writes without them, or breaks off."""
+
 
 def save_mesh(ring: RingMesh, path: str | Path) -> None:
     """Write the mesh: nine-node quads, and the three-node lines of its boundaries with their numbers.
@@ -18,18 +21,22 @@ def save_mesh(ring: RingMesh, path: str | Path) -> None:
     ----------
     ring : RingMesh
     path : path
-        Its suffix says which format; points have a third coordinate 0.
+        Its suffix says which format, one of ``HOLD``; points have a third coordinate 0.
 
     Raises
     ------
     MeshError
-        A suffix that meshio does not know, or a format that has no nine-node quads.
+        A suffix that is no format for nine-node quads, or needs a package that is not installed.
     OSError
         The file cannot be written.
     """
     import meshio
 
     path = Path(path)
+    suffix = path.suffix or "no suffix"
+    if path.suffix not in HOLD:
+        known = ", ".join(HOLD)
+        raise MeshError(f"{path} cannot be written: {suffix} is no format for nine-node quads; these are: {known}.")
     points = np.column_stack([ring.points, np.zeros(len(ring.points))])
     lines, numbers = [], []
     for number, nodes in enumerate((ring.outer_nodes, ring.inner_nodes, ring.weld_nodes), 1):
@@ -44,7 +51,6 @@ def save_mesh(ring: RingMesh, path: str | Path) -> None:
         mesh = meshio.Mesh(points, cells, cell_data=data)
         write_whole(path, lambda part: mesh.write(part, **({"file_format": "gmsh22"} if gmsh else {})))
     except (meshio.WriteError, meshio.ReadError, KeyError, NotImplementedError):
-        suffix = path.suffix or "no suffix"
         raise MeshError(f"{path} cannot be written: {suffix} is no format for nine-node quads.") from None
     except ModuleNotFoundError as error:
         needed = f"{path.suffix} needs {error.name}, which is not installed"

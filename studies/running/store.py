@@ -78,6 +78,7 @@ class Store:
         """
         try:
             connection = sqlite3.connect(self.file, timeout=60.0, isolation_level=None)
+            connection.text_factory = _text
             try:
                 connection.execute("PRAGMA synchronous = FULL")
                 connection.execute("BEGIN IMMEDIATE")
@@ -190,6 +191,11 @@ def finished(out: Path) -> int:
 def _checksum(*texts: Any) -> str:
     """Of texts, told apart; of whatever else has come to stand in their place, too."""
     return hashlib.sha256(repr(texts).encode("utf-8", "surrogatepass")).hexdigest()
+
+
+def _text(stored: bytes) -> str:
+    """Text of a row, whatever has become of its bytes: its checksum says whether it is what was written."""
+    return stored.decode("utf-8", "surrogateescape")
 
 
 def _number(value: float | None) -> float:
