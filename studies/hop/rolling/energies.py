@@ -27,7 +27,7 @@ class HopEnergies:
     """Energies of one hop, in the unit of the scene."""
 
     stored_in_ring: Energy[float]
-    """Strain of the ring at the instant at which ring and floor store most within the last slow period on the floor."""
+    """Strain of the ring at the instant at which ring and floor store most within a slow period before lift-off."""
     stored_in_floor: Energy[float]
     """Springs of the contact then."""
     mass_centre: Energy[float]
@@ -85,12 +85,12 @@ def hop_energies(roll: Roll, first: int, last: int, period: float) -> HopEnergie
     first, last : int
         Of the steps; the one before ``first`` is the last on the floor.
     period : float
-        How long before the lift-off, and after the landing, is looked; as far as the hoop is on the floor.
+        How long before the lift-off is looked; and after the landing, as far as the hoop is on the floor.
     """
     history, t = roll.history, roll.history.t
     standing = history.normal_force > 0
     lift = first - 1
-    before = _stretch(standing, t, lift, -1, period)
+    before = int(np.searchsorted(t, t[lift] - period))  # whatever it touched and left in between
     peak = before + int(np.argmax(roll.stored[before : lift + 1]))
     mass = 1 + roll.hoop.scene.hoop.mass_ratio
     early, late = (whole(roll.hoop, roll.states[i]) for i in (peak, lift))
@@ -102,7 +102,7 @@ def hop_energies(roll: Roll, first: int, last: int, period: float) -> HopEnergie
     rise = mass * (late.velocity[1] ** 2 - early.velocity[1] ** 2) / 2 + mass * (late.height - early.height)
     on = mass * (late.velocity[0] ** 2 - early.velocity[0] ** 2) / 2 + late.rotation - early.rotation
     down = min(last + 1, len(t) - 1)
-    after = _stretch(standing, t, down, 1, period) if standing[down] else down
+    after = _stretch(standing, t, down, period) if standing[down] else down
     return HopEnergies(
         stored_in_ring=float(history.ring_strain[peak]),
         stored_in_floor=float(history.contact_spring[peak]),
@@ -118,9 +118,9 @@ def hop_energies(roll: Roll, first: int, last: int, period: float) -> HopEnergie
     )
 
 
-def _stretch(standing: NDArray[np.bool_], t: Array, start: int, way: int, period: float) -> int:
-    """The furthest step from ``start`` on the floor, one way, within ``period``."""
+def _stretch(standing: NDArray[np.bool_], t: Array, start: int, period: float) -> int:
+    """The last step on the floor from ``start`` on, within ``period``."""
     i = start
-    while 0 <= i + way < len(t) and standing[i + way] and abs(t[i + way] - t[start]) <= period:
-        i += way
+    while i + 1 < len(t) and standing[i + 1] and t[i + 1] - t[start] <= period:
+        i += 1
     return i
