@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import stdtrit
 
-from .series import extrapolated, fewest, inferred_series
+from .series import extrapolated, fewest, inferred_series, settled
 
 Array = NDArray[np.float64]
 
@@ -251,7 +251,7 @@ def limit_of(
     ``exponents``, slowest first, are the leading rates where theory knows them, ``holds`` the stiffness from which on
     it does. With fewer than :func:`.series.fewest` cases there a rate is fitted, to all.
     """
-    values, stiff = np.asarray(y, float), np.asarray(s, float) >= holds
+    (values, alike), stiff = settled(y), np.asarray(s, float) >= holds
     known = exponents is not None and (holds == 0 or int(np.isfinite(values[stiff]).sum()) >= fewest(exponents))
     if exponents is not None and known:
         off = np.zeros_like(values) if error is None else np.asarray(error, float)
@@ -265,7 +265,7 @@ def limit_of(
     rate = observed_rate(s, values - rigid, error)
     return Limit(
         value,
-        uncertainty,
+        max(uncertainty, alike),
         rates,
         known,
         rigid,
@@ -273,7 +273,7 @@ def limit_of(
         rate.interval,
         rate.cases,
         float(abs(values[-1] - rigid)) if values.size else nan,
-        _span(values, error),
+        max(_span(values, error), alike),
     )
 
 

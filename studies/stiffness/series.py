@@ -28,6 +28,7 @@ _SIZES = np.geomspace(0.03, 30, 16)  # of a coefficient, over the span of the va
 _LARGE = np.geomspace(1, 30, 8)  # the same where single powers are asked for: large ones of both signs look small
 _UNDERSTATED = (1, 2, 4, 8)  # by what the cases may understate their errors, each half as likely as the one before
 _ROUND_OFF = 3e-11  # of the largest size
+_ALIKE = 1e-12  # of the largest value: what lies no further apart is one, as J_F/J_N where all pulses slide throughout
 
 
 class Extrapolated(NamedTuple):
@@ -64,6 +65,16 @@ def terms(x: ArrayLike, exponents: Sequence[float]) -> Array:
     if np.all(np.isinf(x)):
         return np.zeros((*x.shape[:-1], rates.size))
     return x**-rates * np.where(again, np.log(x), 1.0)
+
+
+def settled(y: ArrayLike) -> tuple[Array, float]:
+    """The values, all of them the last one where no more than round-off is between them, and that round-off."""
+    values = np.asarray(y, float)
+    known = values[np.isfinite(values)]
+    alike = _ALIKE * float(np.max(np.abs(known), initial=0.0))
+    if known.size and np.ptp(known) <= alike:
+        values = np.where(np.isfinite(values), known[-1], nan)
+    return values, alike
 
 
 def extrapolated(

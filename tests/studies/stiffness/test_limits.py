@@ -145,8 +145,18 @@ def test_an_interval_wider_than_all_that_was_measured_holds_nothing():
 
 def test_a_measure_that_does_not_change_is_its_own_limit():
     found = limit_of(S, np.full(S.size, 2.942), 2.942)
-    assert (found.value, found.uncertainty) == (2.942, 0.0)
+    assert found.value == 2.942
+    assert found.uncertainty <= 1e-11
     assert found.rigid_inside
+
+
+@pytest.mark.parametrize("exponents", [None, (1 / 3, 2 / 3)])
+def test_a_measure_that_changes_by_round_off_is_its_own_limit(exponents):
+    y = -0.3 + 5.6e-17 * np.array([0, 1, -1, 2, 0, -1, 1, 0, -2])
+    found = limit_of(S, y, -0.3, np.full(9, 5.6e-17), exponents)
+    assert found.rigid_inside
+    assert found.value == pytest.approx(-0.3, rel=1e-12)
+    assert not limit_of(S, y, -0.3 + 1e-9, np.full(9, 5.6e-17), exponents).rigid_inside
 
 
 def test_a_fitted_rate_is_no_better_known_than_the_slowest_that_may_be_behind_it():
