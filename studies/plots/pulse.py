@@ -33,12 +33,14 @@ _WORDS = {
 }
 
 
-def pulse(curves: Sequence[Curve], title: str = "", apart: Sequence[Columns] = ()) -> Figure:
+def pulse(
+    curves: Sequence[Curve], title: str = "", apart: Sequence[Columns] = (), raised: str = "foundation"
+) -> Figure:
     """N, F and slip velocity over time through a pulse; beside it the same around the largest jump of F.
 
     Time counts from the instant at which the disk is lowest, which all curves share. The last curve is the
     reference, from which the jump is taken; ``apart`` is how far each of the others is from it, and has panels of its
-    own, as the curves themselves lie upon one another.
+    own, as the curves themselves lie upon one another. ``raised`` is what the labels are values of.
     """
     labels = ("normal force $N/(mg)$", "friction force $F/(mg)$", r"slip velocity $v/\sqrt{gR}$")
     with matplotlib.rc_context(STYLE):
@@ -77,7 +79,7 @@ def pulse(curves: Sequence[Curve], title: str = "", apart: Sequence[Columns] = (
         figure.suptitle(title)
         if len(curves) > 1:
             handles = grid[0, 0].get_legend_handles_labels()
-            figure.legend(*handles, loc="outside lower center", ncols=len(curves), title="foundation")
+            figure.legend(*handles, loc="outside lower center", ncols=len(curves), title=raised)
         return figure
 
 
@@ -127,10 +129,13 @@ def _robust_limits(axes: Axes, values: list[np.ndarray], floor: bool = False) ->
         axes.set_ylim(0.0 if floor and low >= -pad else low - pad, high + pad)
 
 
-def impulses(curves: Sequence[Curve], mu: float, apart: Sequence[np.ndarray] = ()) -> Figure:
+def impulses(
+    curves: Sequence[Curve], mu: float, apart: Sequence[np.ndarray] = (), raised: str = "foundation"
+) -> Figure:
     """The pulse in impulse space: accumulated friction impulse against accumulated normal impulse.
 
-    ``apart`` is how far the friction impulse of each but the last curve is from that at the same normal impulse.
+    ``apart`` is how far the friction impulse of each but the last curve is from that at the same normal impulse;
+    ``raised`` is what the labels are values of.
 
     A slope of mu is skidding's opposite, spinning; -mu is skidding; anything flatter is rolling.
     """
@@ -175,9 +180,7 @@ def impulses(curves: Sequence[Curve], mu: float, apart: Sequence[np.ndarray] = (
         axes.set_xlim(0, 1.02 * reach)
         axes.set_xlabel(r"normal impulse $J_N/(m\sqrt{gR})$")
         axes.set_ylabel(r"friction impulse $J_F/(m\sqrt{gR})$")
-        figure.legend(
-            *axes.get_legend_handles_labels(), loc="outside lower center", ncols=len(curves), title="foundation"
-        )
+        figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=len(curves), title=raised)
         return figure
 
 

@@ -518,6 +518,7 @@ def overwritten(content: bytes | None) -> Callable[[Path], None]:
 DAMAGE = {
     "no JSON": rewritten("outcome = '{'"),
     "no text": rewritten("outcome = x'00ff'"),
+    "no UTF-8": rewritten("outcome = cast(x'7bff' as text)"),
     "a digit": rewritten("""outcome = replace(outcome, '"impulse_ratio": 0.1', '"impulse_ratio": 0.2')"""),
     "no histories": rewritten("histories = '[]'"),
     "no checksum": rewritten("checksum = ''"),
