@@ -113,7 +113,7 @@ def write_fields(
     units = SI_UNITS if si else UNITS
     if si and scene.ring.section_width is None:
         units = units | {kind: f"{units[kind]} (b = R)" for kind in ("stress", "energy_density")}
-    units = units | {name: unit(name, units) for name in FIELDS}
+    units = units | {name: unit(name, units) for name in FIELDS} | {"strain_energy": "J" if si else "m g R"}
     with SeriesWriter(directory, units, _title(scene)) as writer:
         writer.history(**curves(motion, float(when[0]), float(when[-1])))
         for start in range(0, len(instants), _TOGETHER):
