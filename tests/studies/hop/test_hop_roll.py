@@ -104,14 +104,19 @@ def test_the_impulse_is_the_momentum_of_the_mass_centre(soft):
 def test_the_energies_of_a_hop_close(soft):
     """Each term is found by itself. What is left unexplained is the ledger's own, the work of the patch's points.
 
-    That is summed by trapezoids: of the hop behind the pulse 0.6, 1.7, 1.3 and 1.6 % of rtol at 1e-3 to 3e-5.
+    That is summed by trapezoids: of the hop behind the pulse 0.6, 1.7, 1.3 and 1.6 % of rtol at 1e-3 to 3e-5. Where the
+    rim struck the floor on the way it is up to the tenth of rtol that a whole motion may have.
     """
-    left = 0.1 * RTOL
+    history, stored_at = soft.steps.history, soft.steps.stored
+    left = 0.05 * RTOL
     told = [flight for flight in soft.motion.flights if flight.energies is not None]
     assert told
     for flight in told:
         energies = flight.energies
-        assert abs(energies.residual) < left
+        lift = int(np.searchsorted(history.t, flight.t, side="right")) - 1
+        peak = int(np.flatnonzero(stored_at[: lift + 1] == stored_at_peak(stored_at, flight))[-1])
+        struck = bool((history.normal_force[peak : lift + 1] == 0).any())
+        assert abs(energies.residual) < (2 * left if struck else left)
         assert min(energies.stored_in_ring, energies.stored_in_floor, energies.vibration) >= 0, "squares"
         assert min(energies.friction, energies.landing) >= -left / 5, "works, found by a quadrature"
     stored = max(flight.energies.stored for flight in told)
