@@ -13,6 +13,7 @@ from .layers import layer, outer_forces, period_of
 from .march import PATCH, ScaledContact
 
 _THETAS = np.geomspace(8.0, 1e-3, 40)  # of the patch's period over 2 pi: far over critical to next to none
+_STRONGER = np.geomspace(1024.0, 8.0, 8)
 _ACCURACY = 1e-5
 
 
@@ -34,7 +35,7 @@ def critical_theta(body: Body, contact: ScaledContact, event: Event) -> float | 
         return 0.0
     scale = period / (2 * np.pi)
     low, high = 0.0, inf
-    for theta in _THETAS * scale:
+    for theta in scale * (_THETAS if follows(_THETAS[0] * scale) else _STRONGER):
         if not follows(theta):
             low = theta
             break

@@ -7,7 +7,7 @@ from math import pi
 
 from flexible import rigid_limit
 from flexible.contact.laws.listing import LAWS
-from flexible.pulses import LEAD
+from flexible.pulses import lead
 from rigid import Kind, Motion, Pulse, Run, Scene, simulate
 from rigid.output.units import without_units
 
@@ -87,14 +87,19 @@ def passage(scene: Scene) -> Passage:
     Raises
     ------
     StudyError
-        There is no pulse, or it has more than rolling and sliding in it, or begins where the hoop is at rest.
+        There is no whole pulse, it has more than rolling and sliding in it, or the hoop is at rest where it begins or
+        turns round in it.
     """
     tended = rigid_limit(scene)
     motion = simulate(tended.replace(run=Run(until="pulse")))
     if not motion.pulses:
         raise StudyError(f"The rigid hoop has no pulse to study here: {motion.ended}.")
-    pulse = motion.pulses[0]
-    first = max(0.0, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
+    pulse = next((p for p in motion.pulses if not p.cut), None)
+    if pulse is None:
+        raise StudyError("The rigid hoop is released inside its first pulse, and what is left of that is not studied.")
+    first = lead(motion, pulse)
+    if any(first < turn.t < pulse.t_end for turn in motion.turns):
+        raise StudyError("The hoop turns round in its pulse: there is no limit to predict for that yet.")
     turn = pi + 2 * pi * round(((pulse.phi_start + pulse.phi_end) / 2 - pi) / (2 * pi))
     stretches: list[Stretch] = []
     events: list[Event] = []

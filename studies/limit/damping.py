@@ -17,7 +17,7 @@ from rigid import Scene
 from ..inner.events import STOP, passage
 from ..inner.layers import period_of
 from ..inner.scales import epsilon, theta_of
-from .compliant import go_through
+from .compliant import at_foundation, go_through
 from .prediction import predict
 
 DAMPINGS = (0.0, 0.003, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
@@ -49,11 +49,13 @@ def damping_map(
     spots = []
     for damping in dampings:
         damped = scene.replace(contact={"damping": damping})
-        term = predict(damped).terms["impulse_ratio"]
+        foreseen = predict(damped)
+        term = foreseen.terms["impulse_ratio"]
         for foundation in foundations:
-            here = damped.replace(contact={"stiffness": foundation})
+            here = at_foundation(damped, foundation)
             seen = go_through(here).impulse_ratio
-            predicted = float(term.at(foundation ** (-1 / 3)))
+            small = foundation ** (-1 / 3) if foreseen.parameter == "eps" else here.contact.slip_velocity_scale
+            predicted = float(term.at(small))
             spots.append(Spot(damping, foundation, decay_in_stick(here), seen, term.limit, predicted))
     return spots
 

@@ -10,6 +10,7 @@ come to rest in them. Laws without a jump at the start of a slip add a term of t
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import copysign
 from typing import Any
 
 import numpy as np
@@ -139,8 +140,7 @@ def _walk(way: Passage, number: int, shift: Shift, creeps: bool) -> NDArray[np.f
     before = np.zeros(4)
     for i in range(number, len(way.stretches)):
         stretch = way.stretches[i]
-        low, high = sorted((stretch.psi_start, stretch.psi_end))
-        if low <= way.edges[0] < high or (i == 0 and way.edges[0] == way.start):
+        if _reaches(stretch, way.edges[0]) or (i == 0 and way.edges[0] == way.start):
             here, omega = _along(way, replace(stretch, psi_end=way.edges[0]), shift, creeps)
             before = np.append(grown(body, way.edges[0], omega, way.slips[0], here), here.damping_loss)
         shift, omega = _along(way, stretch, shift, creeps)
@@ -148,6 +148,12 @@ def _walk(way: Passage, number: int, shift: Shift, creeps: bool) -> NDArray[np.f
             shift = _through(way, way.events[i], shift, creeps)
     after = np.append(grown(body, way.edges[1], omega, way.slips[1], shift), shift.damping_loss)
     return after - before
+
+
+def _reaches(stretch: Stretch, psi: float) -> bool:
+    """Whether a stretch comes to an angle behind its start; what begins with an event is what was before it."""
+    way = copysign(1.0, stretch.omega)
+    return way * stretch.psi_start < way * psi <= way * stretch.psi_end
 
 
 def _handed_over(way: Passage) -> Shift:

@@ -260,12 +260,14 @@ def _others(scene: Scene) -> tuple[Other, ...]:
     found = []
     for name, law in LAWS.items():
         pulses = simulate(scene.replace(friction={"mu_s": law.static_coefficient(scene.friction)})).pulses
-        if pulses:
-            found.append(Other(f"{name}, any damping", (pulses[0].impulse_ratio,) * 2, _foreseen(scene, name)))
+        for pulse in [p for p in pulses if not p.cut][:1]:
+            found.append(Other(f"{name}, any damping", (pulse.impulse_ratio,) * 2, _foreseen(scene, name)))
     ideal = next(name for name, law in LAWS.items() if law.code == PATCH)
     undamped = scene.replace(contact={"law": ideal, "damping": 0.0})
+    limit = predict(undamped).terms["impulse_ratio"].limit
     seen = [go_through(at_foundation(undamped, foundation)).impulse_ratio for foundation in FOUNDATIONS]
-    return (*found, Other(f"{ideal}, no damping", (min(seen), max(seen))))
+    comes = abs(seen[-1] - limit) <= abs(seen[0] - limit) / 2  # to a fifth, where it has a limit
+    return (*found, Other(f"{ideal}, no damping", (limit, limit) if comes else (min(seen), max(seen))))
 
 
 def _foreseen(scene: Scene, law: str) -> Prediction | None:

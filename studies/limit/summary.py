@@ -160,9 +160,13 @@ def damping_sentences(study: LimitStudy) -> list[str]:
         pass
     elif isfinite(study.separate):
         said.append(f"The layers are over before the next event from a foundation of {number(study.separate, 2)} on.")
-    else:
+    elif study.scene.contact.damping == 0:
         said.append(
             "A layer does not settle: no limit is predicted without damping, and the numbers hold for the least of it."
+        )
+    else:
+        said.append(
+            "A layer rings for more than a thousand periods: the numbers hold for far stiffer floors than these."
         )
     return said
 

@@ -1,0 +1,67 @@
+"""Pulses that begin in other ways than between two events: with one of them, behind a turn, inside the release."""
+
+from __future__ import annotations
+
+from math import isfinite, pi, radians
+
+import pytest
+
+from rigid import Contact, Friction, Hoop, Release, Run, Scene, load_scene
+from studies import StudyError, limit_study
+from studies.inner.events import passage
+from studies.inner.separate import separate_from
+from studies.limit.compliant import at_foundation, go_through
+from studies.limit.damping import damping_map
+from studies.limit.prediction import predict
+from studies.limit.summary import damping_sentences, other_sentences
+
+
+def mirrored(scene: Scene) -> Scene:
+    release = scene.release
+    return scene.replace(release={"phi0": 2 * pi - release.phi0, "omega0": -release.omega0, "slip0": -release.slip0})
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize(
+    ("k", "friction", "phi0"),
+    [(0.1288514653360209, (1.1575017687454352, 0.826786977675311), 10),
+     (0.12605168725554625, (0.8581989965296009, 0.6129992832354292), 30)],
+)  # fmt: skip
+def test_a_pulse_that_begins_with_an_event(k, friction, phi0, way):
+    """N jumps over the weight as the spin ends or turns round: what is gained counts from before that."""
+    scene = Scene(Hoop(k, 1.02), Friction(*friction), Release(radians(phi0)), run=Run(until="pulse"))
+    scene = scene if way > 0 else mirrored(scene)
+    course = passage(scene)
+    assert course.events[0].psi == course.edges[0]
+    for name in ("normal_impulse", "friction_impulse"):
+        term = predict(scene).terms[name]
+        seen = getattr(go_through(at_foundation(scene, 1e12), fineness=0.02), name)
+        assert (seen - term.limit) * 1e4 == pytest.approx(term.coefficient, rel=0.02)
+
+
+def test_a_pulse_behind_a_turn_begins_behind_it():
+    hoop, release = Hoop(0.327, 1.02, 1.0), Release(radians(154.826), -0.344, 1.686)
+    scene = Scene(hoop, Friction(0.515, 0.368), release, run=Run(until="pulse"))
+    term = predict(scene).terms["friction_impulse"]
+    seen = go_through(at_foundation(scene, 1e10)).friction_impulse
+    assert (seen - term.limit) * 1e10 ** (1 / 3) == pytest.approx(term.coefficient, rel=0.02)
+
+
+def test_what_is_left_of_a_pulse_is_not_studied():
+    scene = Scene(Hoop(0.1, 1.02), Friction(0.35, 0.3), Release(radians(175), 5.0), run=Run(until="pulse"))
+    with pytest.raises(StudyError, match="inside its first pulse"):
+        passage(scene)
+
+
+def test_the_map_of_a_regularised_law_smooths_less_on_a_stiffer_floor():
+    scene = load_scene("paper-3.3-massless").replace(contact={"law": "regularised"}, run={"until": "pulse"})
+    (spot,) = damping_map(scene, dampings=(1.0,), foundations=(1e12,))
+    assert spot.impulse_ratio - spot.limit == pytest.approx(spot.predicted - spot.limit, rel=0.2)
+
+
+def test_little_damping_settles_late_and_a_hoop_that_rolls_has_a_limit_without():
+    scene = load_scene("paper-3.3-massless").replace(contact=Contact(damping=0.003), run={"until": "pulse"})
+    assert isfinite(separate_from(passage(scene)))
+    study = limit_study("paper-3.3-same-density", foundations=())
+    assert "no limit seen" not in "".join(other_sentences(study))
+    assert not any("without damping" in said for said in damping_sentences(study))
