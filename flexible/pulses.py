@@ -35,9 +35,9 @@ def goes_through_turns(motion: Motion, pulse: Pulse) -> bool:
 
 
 def over_bottom(pulse: Pulse) -> bool:
-    """Whether the disk passes its lowest point, phi = pi (mod 2 pi), in a pulse."""
-    low, high = sorted((pulse.phi_start - pi, pulse.phi_end - pi))
-    return ceil(low / (2 * pi)) <= floor(high / (2 * pi))
+    """Whether the disk passes its lowest point, phi = pi (mod 2 pi), in a pulse; one that begins there does not."""
+    start, end = (pulse.phi_start - pi) / (2 * pi), (pulse.phi_end - pi) / (2 * pi)
+    return floor(start) < floor(end) or ceil(end) < ceil(start)
 
 
 def turns_of(swing: Motion, pulses: list[Pulse], most: int | None) -> int:
