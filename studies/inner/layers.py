@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import deepcopy
 from dataclasses import dataclass
 from math import pi, sqrt
 from typing import Any
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from rigid.kernel.compile import Patience
 from rigid.kernel.store import is_cold
 
+from ..running.files import StudyError
 from .body import Body, accelerations, contact_mobility, rolling_forces, sliding_force
 from .bristles import SIZE, Bristles, bristles, set_stretch
 from .creep import creep, half_width, sticking_part
@@ -40,6 +42,8 @@ Array = NDArray[np.float64]
 FINENESS = 0.1  # of the fastest time to a step: forces to 1e-4, times of switches to 1e-5
 #: some 3 s of interpreted steps where the march is not compiled yet
 _patience = Patience(is_ready=lambda: not is_cold(march.__module__), load=0, compiling=60_000)
+MOST = 1_000_000  # steps of a layer: some 1 s
+TOO_FAST = "its damper, or the smoothing of its friction, is far faster than its patch"
 _POINTS = 300  # of a brush to its patch
 _RELEASED = 0.95  # of the part that sticks at the most a brush carries, where its running away begins
 
@@ -152,8 +156,10 @@ def layer(
         kept.sliding[:] = np.sign(friction)
     if contact.law == BRUSH and event.kind == START and contact.mu_s > contact.mu:
         _break_away(contact, event, half, normal, friction, kept)
-    ends = np.array([duration, np.inf * np.sign(event.omega), fineness, 1.0])
-    records, switches, end = _marched(System(body, contact, eps), state, mode, kept, ends)
+    ends = np.array([duration, np.inf * np.sign(event.omega), fineness, 1.0, MOST])
+    records, switches, end, done = _marched(System(body, contact, eps), state, mode, kept, ends)
+    if not done:
+        raise StudyError(f"The layer at phi = {event.psi + pi:.4g} takes more than {MOST:g} steps: {TOO_FAST}.")
     columns = dict(zip(COLUMNS, records.T, strict=True))
     return Layer(
         event=event,
@@ -168,13 +174,14 @@ def layer(
 
 def _marched(system: System, state: Array, mode: int, kept: Bristles, ends: Array) -> Any:
     """:func:`studies.inner.march.march`; by the interpreter, to the same numbers, as long as compiling takes longer."""
-    if system.contact.law == BRUSH or _patience.left() <= 0:
+    if system.contact.law == BRUSH or (left := _patience.left()) <= 0:
         return march(system, state, mode, kept, ends)
     by_python: Any = march
+    room, short = deepcopy(kept), np.append(ends[:-1], left)
     with np.errstate(all="ignore"):
-        found = by_python.py_func(system, state, mode, kept, ends)
+        found = by_python.py_func(system, state, mode, room, short)
     _patience.spend(steps=len(found[0]))
-    return found
+    return found if found[-1] else march(system, state, mode, kept, ends)
 
 
 def _break_away(

@@ -214,8 +214,8 @@ def march(system: Any, start: Any, mode: int, kept: Any, ends: Any) -> Any:
         STICK, SLIDE_RIGHT or SLIDE_LEFT (``patch``).
     kept : Bristles
         Is changed.
-    ends : (4,) array
-        Duration in tau, angle psi, fraction of the fastest time to a step, steps to a record.
+    ends : (5,) array
+        Duration in tau, angle psi, fraction of the fastest time to a step, steps to a record, most steps.
 
     Returns
     -------
@@ -225,6 +225,8 @@ def march(system: Any, start: Any, mode: int, kept: Any, ends: Any) -> Any:
         tau and the new mode.
     state : (STATE,) array
         At the end.
+    done : bool
+        Whether that is one of the ends, and not that of the steps.
     """
     contact, state = system.contact, start.copy()
     tau, steps, rows, marks = 0.0, 0, 0, 0
@@ -233,7 +235,7 @@ def march(system: Any, start: Any, mode: int, kept: Any, ends: Any) -> Any:
     running, fresh = True, True
     _note(records[rows], tau, state, contact, mode, kept)
     rows += 1
-    while running:
+    while running and steps < ends[4]:
         h = ends[2] * _step_length(state, system.body, contact, widest)
         if fresh:
             h /= 8
@@ -266,4 +268,4 @@ def march(system: Any, start: Any, mode: int, kept: Any, ends: Any) -> Any:
                 switches = _twice_as_long(switches)
             switches[marks, 0], switches[marks, 1] = tau, mode
             marks += 1
-    return records[:rows].copy(), switches[:marks].copy(), state
+    return records[:rows].copy(), switches[:marks].copy(), state, not running

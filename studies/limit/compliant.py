@@ -17,6 +17,7 @@ from ..inner.body import rolling_forces, sliding_force
 from ..inner.bristles import SIZE, bristles, set_stretch
 from ..inner.creep import creep, half_width
 from ..inner.events import Passage, passage
+from ..inner.layers import TOO_FAST
 from ..inner.march import (
     BRUSH,
     FRICTION_IMPULSE,
@@ -40,6 +41,7 @@ from ..running.files import StudyError
 
 _POINTS = 64  # of a brush to its patch where the pulse begins; at its peak there are several times as many
 _SPARSE = 1e9  # steps to a record: none but those at events
+_MOST = 3e7  # steps, some 25 s
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,8 +79,10 @@ def march_through(way: Passage, eps: float, fineness: float = 0.1) -> tuple[np.n
     switches, before = 0, np.zeros(STATE)
     for psi in way.edges:
         if psi != way.start:
-            ends = np.array([np.inf, psi, fineness, _SPARSE])
-            records, turned, state = march(System(way.body, way.contact, eps), state, mode, kept, ends)
+            ends = np.array([np.inf, psi, fineness, _SPARSE, _MOST])
+            records, turned, state, done = march(System(way.body, way.contact, eps), state, mode, kept, ends)
+            if not done:
+                raise StudyError(f"This pulse takes a rigid ring more than {_MOST:g} steps: {TOO_FAST}.")
             mode = int(records[-1, 5])
             switches = len(turned)
         if psi == way.edges[0]:

@@ -1,8 +1,7 @@
 """Where a compliant hoop's pulse tends to as stiffness grows, how fast, and what its damping must be for that.
 
 The answer comes from the inner problems of the rigid hoop's own events and from its own sensitivities; no stiffness is
-run for it. Beside it stand what is observed: a rigid ring on a compliant floor, and the flexible solver, at a few great
-stiffnesses.
+run for it. Beside it stands what a rigid ring on a compliant floor, and the flexible solver, do at a few great ones.
 """
 
 from __future__ import annotations
@@ -85,9 +84,11 @@ class Other:
     name: str
     """Law and damping."""
     impulse_ratio: tuple[float, float]
-    """J_F/J_N in the limit; without damping, where there is none, the least and the largest of those observed."""
+    """J_F/J_N in the limit, twice; where there is none, the least and the largest of those observed."""
     prediction: Prediction | None = None
     """How it comes there, at this scene's damping; None where that is not predicted."""
+    tends: bool = True
+    """Whether there is a limit."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -267,7 +268,7 @@ def _others(scene: Scene) -> tuple[Other, ...]:
     limit = predict(undamped).terms["impulse_ratio"].limit
     seen = [go_through(at_foundation(undamped, foundation)).impulse_ratio for foundation in FOUNDATIONS]
     comes = abs(seen[-1] - limit) <= abs(seen[0] - limit) / 2  # to a fifth, where it has a limit
-    return (*found, Other(f"{ideal}, no damping", (limit, limit) if comes else (min(seen), max(seen))))
+    return (*found, Other(f"{ideal}, no damping", (limit, limit) if comes else (min(seen), max(seen)), tends=comes))
 
 
 def _foreseen(scene: Scene, law: str) -> Prediction | None:

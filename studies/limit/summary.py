@@ -176,7 +176,7 @@ def other_sentences(study: LimitStudy) -> list[str]:
     said = []
     for other in study.others:
         low, high = other.impulse_ratio
-        if low != high:
+        if not other.tends:
             said.append(f"{other.name}: {low:.4f} to {high:.4f}, no limit seen")
             continue
         words = f"{other.name}: {low:.5f}"

@@ -92,7 +92,7 @@ def test_a_sliding_patch_vibrates_at_its_linearised_frequency(end_of_spin):
     period = 2 * pi / sqrt(2 * half_width(normal) * (by_normal + 0.3 * across))
     undamped = contact._replace(theta=0.0)
     records = march(
-        System(body, undamped, 0.0), state, SLIDE_RIGHT, bristles(), np.array([10.5 * period, inf, 0.05, 1.0])
+        System(body, undamped, 0.0), state, SLIDE_RIGHT, bristles(), np.array([10.5 * period, inf, 0.05, 1.0, inf])
     )[0]
     tau, off = records[:, 0], records[:, 1] - normal
     i = np.flatnonzero((off[:-1] < 0) & (off[1:] >= 0))
@@ -114,8 +114,8 @@ def test_a_frictionless_bounce_keeps_its_energy(end_of_spin):
 
     errors = []
     for fineness in (0.2, 0.1):
-        ends = np.array([8.0, inf, fineness, 1.0])
-        records, _, end = march(System(body, smooth, 0.0), state, SLIDE_RIGHT, bristles(), ends)
+        ends = np.array([8.0, inf, fineness, 1.0, inf])
+        records, _, end, _ = march(System(body, smooth, 0.0), state, SLIDE_RIGHT, bristles(), ends)
         assert records[:, 1].min() == 0.0
         errors.append(abs(energy(end[HEIGHT], end[RATE]) / energy(state[HEIGHT], 0.0) - 1))
     # order four but for the touch, where N has no third derivative: at least second order

@@ -65,3 +65,18 @@ def test_little_damping_settles_late_and_a_hoop_that_rolls_has_a_limit_without()
     study = limit_study("paper-3.3-same-density", foundations=())
     assert "no limit seen" not in "".join(other_sentences(study))
     assert not any("without damping" in said for said in damping_sentences(study))
+
+
+def test_a_patch_that_comes_nowhere_near_its_limit_has_none_seen():
+    """k = 1e-5: at any possible foundation its patch slips throughout, and the smoothed law is too fast to follow."""
+    study = limit_study("paper-3.4-tiny", foundations=())
+    told = {other.name: other for other in study.others}
+    assert told["patch, any damping"].tends
+    assert not told["patch, no damping"].tends
+    assert told["regularised, any damping"].prediction is None
+    assert "no damping: -0.3000 to -0.3000, no limit seen" in "".join(other_sentences(study))
+
+
+def test_what_is_far_faster_than_the_patch_is_a_sentence():
+    with pytest.raises(StudyError, match=r"takes more than .* steps: its damper"):
+        limit_study("paper-3.3-massless", damping=1000)
