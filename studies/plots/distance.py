@@ -20,6 +20,8 @@ WORDS = {
     "friction_loss": "friction loss$/(mgR)$",
     "normal_impulse": r"normal impulse $J_N/(m\sqrt{gR})$",
 }
+ROUND_OFF = 1e-13
+"""A distance of so little, over m g R and the like, is none."""
 COLOURS = ("#0072B2", "#D55E00", "#009E73")
 
 
@@ -48,8 +50,15 @@ def draw(distances: Mapping[str, Distance], axes: Any = None) -> NDArray[np.obje
 
 
 def panel(axes: Axes, distance: Distance, words: str, colour: str) -> None:
-    """Filled above the value, open below it; numerical errors, fitted rate, and what is predicted without a fit."""
+    """Filled above the value, open below it; numerical errors, fitted rate, and what is predicted without a fit.
+
+    A sequence that is its limit throughout has none of these.
+    """
     s, off, error = distance.stiffness, distance.off, distance.error
+    if not np.any(abs(off) > ROUND_OFF):
+        axes.text(0.5, 0.5, "the rigid value, to round-off", transform=axes.transAxes, ha="center", color="0.4")
+        axes.set(xscale="log", xlim=(s.min(), s.max()), yticks=[], xlabel=distance.label, title=words)
+        return
     for side, fill, said in ((off > 0, colour, "above the rigid value"), (off < 0, "white", "below it")):
         if side.any():
             axes.plot(s[side], abs(off[side]), "o", color=colour, markerfacecolor=fill, zorder=4, label=said)

@@ -25,8 +25,10 @@ def forces(study: StiffnessStudy) -> Figure:
     return pulse(_curves(study), "Through the first pulse", left, _raised(study))
 
 
-def impulse_space(study: StiffnessStudy) -> Figure:
-    """The same in impulse space."""
+def impulse_space(study: StiffnessStudy) -> Figure | None:
+    """The same in impulse space; None without friction."""
+    if study.scene.friction.mu_s == 0:
+        return None
     along = impulses_along(*_rigid_pulse(study))
     own = [rung.outcome.histories[0] for rung in chosen(study.rungs)]
     left = [at_the_same_normal_impulse(columns, along) / study.scene.impulse_unit for columns in own]

@@ -229,10 +229,10 @@ def prediction_sentence(study: StiffnessStudy) -> str:
     told = []
     for name in ("impulse_ratio", "friction_loss"):
         term = study.prediction.terms[name]
-        powers = " ".join(f"{c:+.4g} {power_of('ε', p)}" for p, c in term.powers) or "+ 0"
+        powers = " ".join(f"{c:+.4g} {power_of('ε', p)}" for p, c in term.powers if c) or "at any stiffness"
         seen = study.coefficient(name)
         words = f"{MEASURES[name].symbol} = {number(term.limit)} {powers}"
-        if seen is not None:
+        if seen is not None and term.coefficient:
             beside = f"{seen.observed:.4g} ± {seen.uncertainty:.2g} observed, {seen.predicted:.4g} predicted"
             words += f" (at the stiffest case, over {power_of('ε', term.exponent)}: {beside})"
         told.append(words)

@@ -25,8 +25,10 @@ from studies.plots.difference import (
     passage_of,
 )
 from studies.running import history
+from studies.stiffness.figures import distances, impulse_space
+from studies.stiffness.ladder import Ladder
 from studies.stiffness.limits import CONFIDENCE, fitted_series
-from studies.stiffness.summary import case_cells, verdict
+from studies.stiffness.summary import case_cells, prediction_sentence, verdict
 
 THIRD = "third_solver:softened"
 LINE = ("study", "stiffness", "paper-3.3-massless", "--solver", THIRD, "--workers", 1, "--count", 5)
@@ -176,3 +178,14 @@ def test_the_line_of_a_fitted_series_goes_through_its_cases():
     assert CONFIDENCE == 0.95
     assert np.all(np.abs(fitted - y) <= 8 * error)
     assert fitted_series(limit_of(s, y, 0.17, error), s, y, error) is None
+
+
+def test_without_friction_there_is_no_impulse_space_and_no_distance_to_draw():
+    """J_F/J_N and the loss are 0 at any stiffness: a sentence in the panel, and no axis of round-off."""
+    scene = load_scene("paper-3.4-frictionless").replace(solve={"rtol": 1e-3})
+    found = stiffness_study(scene, Ladder("both", 1e7, 1e9, 4))
+    assert impulse_space(found) is None
+    for axes in distances(found).axes:
+        assert [text.get_text() for text in axes.texts] == ["the rigid value, to round-off"]
+        assert not axes.lines
+    assert "at any stiffness" in prediction_sentence(found)
