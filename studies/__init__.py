@@ -11,7 +11,7 @@
 ``hop``        the paper's footnote: which hoops, released at rest, leave the floor, and where
 ``sweep``      the product of scene keys over processes or a Dask cluster, ``sweepfile`` as a TOML file says it
 ``paper``      every number and figure of the paper again
-``validate``   everything published or provable beside what the solvers find
+``validate``   published and provable results beside what the solvers find
 ``bench``      run time against error;  ``stress``  thousands of scenes and what must hold of them
 ``machine``    processes side by side, and what is compiled for them
 ``running``    scenes through solvers, in processes, kept in a folder, whatever the study

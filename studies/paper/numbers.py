@@ -83,7 +83,7 @@ def _section_2() -> Iterator[Number]:
         if mass is not None:
             unit = 0.01 if mass == 0.04 else 1e-4
             yield Number("2.4", f"m_h/m, {case}", mass, ours, unit)
-        unit = {8.24: 0.01, 0.1: 0.1}.get(inertia, 1e-4)
+        unit = {8.24: 0.01, 0.1: 0.05}.get(inertia, 1e-4)
         yield Number(
             "2.4",
             f"inertia, hoop over disk, {case}",

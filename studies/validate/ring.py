@@ -1,21 +1,28 @@
-"""The elastic ring: thin-ring theory, and exact plane stress of an annulus.
+"""The elastic ring: thin-ring theory, exact plane stress of an annulus, and the elastica of a soft one.
 
 Inner radius 1, E b = 1, unit density. Exact values of the annulus come from its Airy functions (Timoshenko and Goodier,
-Theory of Elasticity); the pinched and the clamped ring are Castigliano's.
+Theory of Elasticity); the pinched and the clamped ring are Castigliano's. The elastica is a hoop without mass that
+stands on the floor under its disk: two opposite forces m g pinch it.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import pi, radians
+from math import pi, radians, sin, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.integrate import quad
+from scipy.optimize import brentq
 from scipy.sparse.linalg import eigsh, splu
 from skfem import ElementQuad2, ElementVector, FacetBasis, LinearForm
 
+from flexible.handover import Pose, equilibrium
+from flexible.models.select import hoop_of
 from flexible.ring.fem import Ring
 from meshes import ring_mesh
+from rigid import Contact, Friction, Hoop, Kind, Release, Scene
+from rigid import Ring as Elastic
 
 from .row import Row
 
@@ -26,6 +33,9 @@ FREQUENCIES = {1.02: (0.01518385365, 0.04293285531, 0.08228274316), 1.2: (0.1260
 COMPLIANCES = {1.02: (175202.447, 24647.4525, 7014.65993), 1.2: (272.574696, 39.5676100, 11.7771249)}
 CLAMPED = {30: 3.68e-2, 90: 0.35032, 180: 0.148778}
 ORDERS = (2, 3, 4)
+STIFFNESSES = (2.0, 0.4)
+"""E I/(m g R^2) of a hoop that its disk pinches by a thirteenth and by half of its radius; below 0.36 the rim under it
+leaves the floor in the middle, and the load is no longer one."""
 
 
 def rows() -> Iterator[Row]:
@@ -47,6 +57,7 @@ def rows() -> Iterator[Row]:
             found = float(load @ _held(free, load)) / (pi * free.mesh.outer)
             yield Row(PLANE_STRESS, f"u_r E/p under p cos({order} theta), r = {ratio}", exact, found, 1e-5 * exact, why)
     yield from _thin()
+    yield from _elastica()
 
 
 def _frequencies(free: Ring) -> list[float]:
@@ -104,3 +115,32 @@ def _thin() -> Iterator[Row]:
     exact = pi / 4 - 2 / pi
     what = f"closing of a pinched ring, E I/(P a^3), h/a = {wall}"
     yield Row("Timoshenko, Strength of Materials II", what, exact, closing, 10 * wall**2 * exact, "(h/a)^2")
+
+
+def _elastica() -> Iterator[Row]:
+    """The chain in equilibrium, pinched far beyond what a linear ring follows."""
+    wall, weld = 0.02, radians(0.3)
+    a = 1 - wall / 2
+    for stiffness in STIFFNESSES:
+        ring = Elastic(bending_stiffness=stiffness, weld_half_angle=weld)
+        floor = Contact(stiffness=1e9, damping=0.0)
+        scene = Scene(Hoop(0.1, 1 / (1 - wall)), Friction(0.35, 0.3), Release(0.0), ring=ring, contact=floor)
+        stands = equilibrium(hoop_of(scene.to_dimensionless()), Pose(0.0, 0.0, 0.0, 1.0, 0.0, Kind.ROLL))
+        exact = closing(a * a / stiffness)
+        what = f"closing of a hoop under its disk over its radius, E I/(m g R^2) = {stiffness:g}, h/a = {wall}"
+        within = (wall / 2 + weld) * exact
+        yield Row("Euler's elastica, by quadrature", what, exact, -float(stands.pos[1]) / a, within,
+                  "half of h/a, and a weld of 0.3 degrees")  # fmt: skip
+
+
+def closing(force: float) -> float:
+    """Closing over a of an inextensible ring of radius a that two opposite forces P a^2/(E I) = ``force`` pinch.
+
+    On a quarter, from the load to the side, the tangent turns by theta from 0 to pi/2 and a theta'' = (P/2) cos theta,
+    so that theta'^2 = P sin theta + c, and its length is pi/2 (c > 0: no inflection, force below 2.787).
+    """
+
+    def along(c: float, power: int) -> float:
+        return float(quad(lambda theta: sin(theta) ** power / sqrt(force * sin(theta) + c), 0, pi / 2)[0])
+
+    return 2 - 2 * along(brentq(lambda c: along(c, 0) - pi / 2, 1e-9, 1.0), 1)
