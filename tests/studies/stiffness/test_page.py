@@ -15,7 +15,7 @@ import pandas
 import pytest
 
 from rigid import load_scene, scene_from_dict, simulate
-from studies import StudyError, limit_of, stiffness_study
+from studies import Ladder, StudyError, limit_of, stiffness_study
 from studies.cli import hoop as cli
 from studies.plots.difference import (
     FORCES,
@@ -26,7 +26,6 @@ from studies.plots.difference import (
 )
 from studies.running import history
 from studies.stiffness.figures import distances, impulse_space
-from studies.stiffness.ladder import Ladder
 from studies.stiffness.limits import CONFIDENCE, fitted_series
 from studies.stiffness.summary import case_cells, prediction_sentence, verdict
 
