@@ -156,20 +156,21 @@ class RestingChain:
         self._known: dict[Window, tuple[Array, Array, Array, Array]] = {}
 
     def _window(self, window: Window) -> tuple[Array, Array, Array, Array]:
-        """Of the nodes: displacement, derivatives by the sections, these' answer to forces, what the chain lacks."""
+        """Of the nodes: displacement, derivatives by the sections, these' answer to forces, and their own."""
         if window not in self._known:
             ring, q = self.ring, self._padded()
             number, nodes = ring.window(*window)
             moved, rows = rim_matrix(ring.chain.rod, q, nodes)
             turn = follow(ring.chain.rod, q, nodes)[2]
             yields = turned(ring.missing(number, number), turn, turn)
-            self._known[window] = moved.ravel(), rows, self._solve(rows.T.copy()), yields
+            answer = self._solve(rows.T.copy())
+            self._known[window] = moved.ravel(), rows, answer, yields + rows @ answer
         return self._known[window]
 
     def response(self, window: Window) -> tuple[Array, Array]:
         """See :class:`flexible.models.equilibrium.RestingRing`."""
-        moved, rows, answer, yields = self._window(window)
-        return moved + rows @ (self.base - self.coordinates), yields + rows @ answer
+        moved, rows, _, compliance = self._window(window)
+        return moved + rows @ (self.base - self.coordinates), compliance
 
     def move(self, window: Window, force: Array) -> float:
         """See :class:`flexible.models.equilibrium.RestingRing`."""

@@ -46,27 +46,6 @@ class RestingRing(Protocol):
         """Take the shape under rim forces; the largest change of a coordinate, relative to the largest."""
 
 
-class RestingModes(RestingRing):
-    """Modes and residual static compliance; ``arrays(window)`` gives modes and compliance on a window."""
-
-    def __init__(self, dynamic: Array, load: Array, arrays: Any) -> None:
-        self.arrays = arrays
-        self.inverse = np.linalg.inv(dynamic)
-        self.load = load
-        self.base = self.coordinates = np.zeros(len(load))
-
-    def linearise(self, share: float) -> None:
-        self.base = -share * (self.inverse @ self.load)
-
-    def response(self, window: Window) -> tuple[Array, Array]:
-        shapes, compliance = self.arrays(window)
-        return shapes @ self.base, compliance + shapes @ self.inverse @ shapes.T
-
-    def move(self, window: Window, force: Array) -> float:
-        self.coordinates = self.base + self.inverse @ (self.arrays(window)[0].T @ force)
-        return 0.0
-
-
 class RestingNodes(RestingRing):
     """All free nodes of a :class:`flexible.ring.nodal.NodalRing`.
 
@@ -183,17 +162,27 @@ class Patch:
                 self.u = offset.reshape(-1, 2).copy()
                 self.height = -self._rise(self.u, s, c) - self.half**2 / 2
                 continue
-            n = len(flat)
-            matrix = np.empty((1 + n, 1 + n))
-            matrix[0, 0], matrix[0, 1:] = tangent[1, 1], tangent[1, 3:]
-            matrix[1:, 0] = -scale * (compliance @ tangent[3:, 1])
-            matrix[1:, 1:] = scale * (np.eye(n) - compliance @ tangent[3:, 3:])
-            step = np.linalg.solve(matrix, np.concatenate([[force[1] - wanted], scale * misfit]))
+            height, moved = self._step(contact.tangent, compliance, force[1] - wanted, misfit, scale)
             damping = 0.5 if iteration > 5 and error > last else 1.0
             last = error
-            self.height -= damping * step[0]
-            self.u = self.u - damping * step[1:].reshape(-1, 2)
+            self.height -= damping * height
+            self.u = self.u - damping * moved.reshape(-1, 2)
         return False
+
+    @staticmethod
+    def _step(tangent: Array, compliance: Array, excess: float, misfit: Array, scale: float) -> tuple[float, Array]:
+        """Newton's for height and rim: what touches is solved for, and the rest of the window follows."""
+        by_height, by_rim = tangent[3:, 1], tangent[3:, 3:]
+        touching = np.flatnonzero(by_rim.any(axis=0) | by_rim.any(axis=1) | (by_height != 0))
+        answer = compliance[:, touching] @ by_rim[np.ix_(touching, touching)]
+        rise = compliance[:, touching] @ by_height[touching]
+        n = len(touching)
+        matrix = np.empty((1 + n, 1 + n))
+        matrix[0, 0], matrix[0, 1:] = tangent[1, 1], tangent[1, 3:][touching]
+        matrix[1:, 0] = -scale * rise[touching]
+        matrix[1:, 1:] = scale * (np.eye(n) - answer[touching])
+        step = np.linalg.solve(matrix, np.concatenate([[excess], scale * misfit[touching]]))
+        return float(step[0]), misfit + rise * step[0] + answer @ step[1:]
 
     def _foresee(self, window: Window, ring: RestingRing, wanted: float) -> None:
         """Where Newton starts in a window: the forces found so far, scaled to the wanted N, as deep as before."""

@@ -21,7 +21,7 @@ from ..contact.stage import Near, Predictor, Stage
 from ..contact.vectors import largest, plus
 from ..ring.frame import Frame, energies, inertia
 from ..ring.reduction import ReducedRing, Rim, is_known, reduce, residual, window_dofs
-from .equilibrium import RestingModes
+from .equilibrium import RestingRing
 from .rim_contact import RimContact
 from .stage import FORESEEN, LET_GO, RAISED, From, Window, filtered_error, solve_stage
 from .state import Energies, State
@@ -182,6 +182,27 @@ def energies_of(arrays: Arrays, state: State, held: Energies) -> Energies:
                 static -= shapes[dof, k] * state.pos[3 + k]
             strain += state.nodal[i // 2, i % 2] * static / 2
     return held[0], held[1], strain
+
+
+class RestingModes(RestingRing):
+    """Modes and residual static compliance; ``arrays(window)`` gives modes and compliance on a window."""
+
+    def __init__(self, dynamic: Array, load: Array, arrays: Any) -> None:
+        self.arrays = arrays
+        self.inverse = np.linalg.inv(dynamic)
+        self.load = load
+        self.base = self.coordinates = np.zeros(len(load))
+
+    def linearise(self, share: float) -> None:
+        self.base = -share * (self.inverse @ self.load)
+
+    def response(self, window: tuple[int, int]) -> tuple[Array, Array]:
+        shapes, compliance = self.arrays(window)
+        return shapes @ self.base, compliance + shapes @ self.inverse @ shapes.T
+
+    def move(self, window: tuple[int, int], force: Array) -> float:
+        self.coordinates = self.base + self.inverse @ (self.arrays(window)[0].T @ force)
+        return 0.0
 
 
 class ReducedHoop(RimContact):
