@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import ceil, floor, inf, pi
 
-from rigid import Motion, Pulse
+from rigid import Motion, Pulse, Run, Scene
 
 from .builder import Builder
+from .models.select import Hoop
+from .models.state import State
 from .segment import Segment
+from .time.advance import SHORTEST
+from .time.events import Ends
 
 LEAD = 0.5  # a flexible segment begins this many pulse lengths before the pulse, to let its start settle
 AT_REST = 1e-6  # sqrt(g/R), phidot at a turn, and sqrt(R/g) within which times of it are one
 BEHIND = 0.1  # of the time from a turn to the pulse, if that is less
+LONGEST = 4.0  # pulse lengths that a hoop may take for a pulse in which it turns
+FORWARD, BACKWARD = 1, -1
 
 
 def lead(motion: Motion, pulse: Pulse) -> float:
@@ -36,7 +43,11 @@ def goes_through_turns(motion: Motion, pulse: Pulse) -> bool:
 
 def over_bottom(pulse: Pulse) -> bool:
     """Whether the disk passes its lowest point, phi = pi (mod 2 pi), in a pulse; one that begins there does not."""
-    start, end = (pulse.phi_start - pi) / (2 * pi), (pulse.phi_end - pi) / (2 * pi)
+    return _is_over_bottom(pulse.phi_start, pulse.phi_end)
+
+
+def _is_over_bottom(first: float, last: float) -> bool:
+    start, end = (first - pi) / (2 * pi), (last - pi) / (2 * pi)
     return floor(start) < floor(end) or ceil(end) < ceil(start)
 
 
@@ -48,18 +59,117 @@ def turns_of(swing: Motion, pulses: list[Pulse], most: int | None) -> int:
     return passed if most is None else min(passed, most)
 
 
-def add_pulses(builder: Builder, segment: Segment, swing: Motion, pulses: list[Pulse], over: bool) -> None:
-    """The pulses of a swing, each over its rigid one's angles; where the run is over inside one, the part before."""
+def _ways(segment: Segment, swing: Motion, pulse: Pulse) -> tuple[float | None, float | None]:
+    """When the hoop comes to a pulse, and when it leaves it at its end."""
+    enters = segment.t_start if pulse.cut else segment.crossing(pulse.phi_start, segment.t_start)
+    if enters is None:
+        return None, None
     turned = [turn.t for turn in segment.turns()]
+    behind = sum(turn.t < pulse.t_end - AT_REST for turn in swing.turns)  # so many turns the hoop leaves the pulse
+    after = max([enters, *turned[:behind]])
+    return enters, segment.crossing(pulse.phi_end, after) if len(turned) >= behind else None
+
+
+def to_the_end_of(pulse: Pulse, ends: Ends, phi: float) -> Ends:
+    """``ends``, and the end of a rigid pulse if it lies ahead in this swing: hops may lead to a later one."""
+    if phi < pulse.phi_end < ends.high and pulse.phi_end > pulse.phi_start:
+        return ends._replace(high=pulse.phi_end)
+    if ends.low < pulse.phi_end < phi and pulse.phi_end < pulse.phi_start:
+        return ends._replace(low=pulse.phi_end)
+    return ends
+
+
+def _is_next(swing: Motion, pulse: Pulse) -> bool:
+    """Whether the rigid hoop comes to a pulse without a turn on the way."""
+    return not any(AT_REST < turn.t < pulse.t_start for turn in swing.turns)
+
+
+def _thrown_back(segment: Segment, swing: Motion, pulse: Pulse) -> float | None:
+    """When a hoop that was over the bottom in a pulse and turned back there is out where it came in, if it is."""
+    phi = segment["phi"]
+    onward = pulse.phi_end > pulse.phi_start
+    out = phi[-1] <= pulse.phi_start if onward else phi[-1] >= pulse.phi_start
+    farthest = float(phi.max() if onward else phi.min())
+    if not (out and _is_next(swing, pulse) and _is_over_bottom(pulse.phi_start, farthest)):
+        return None
+    return max(segment.crossings(pulse.phi_start), default=None)
+
+
+def unfinished(segment: Segment, swing: Motion, pulses: list[Pulse]) -> Pulse | None:
+    """The pulse in whose angles the hoop is at the end of a segment, having come to it and not left it at its end.
+
+    Where the disk rocks on a soft wall it turns there, and goes on. One that stays for too long does not pass it.
+    """
+    phi = float(segment["phi"][-1])
     for pulse in pulses:
-        enters = segment.t_start if pulse.cut else segment.crossing(pulse.phi_start, segment.t_start)
+        enters, leaves = _ways(segment, swing, pulse)
+        if enters is None or leaves is not None or segment.t_end - enters > LONGEST * (pulse.t_end - pulse.t_start):
+            continue
+        if _is_next(swing, pulse) and (phi - pulse.phi_start) * (phi - pulse.phi_end) < 0:
+            return pulse
+    return None
+
+
+def add_pulses(builder: Builder, segment: Segment, swing: Motion, pulses: list[Pulse], over: bool) -> int:
+    """The pulses of a swing, each over its rigid one's angles; where the run is over inside one, the part before, and
+    where the hoop turned back in one, until it was out where it came in.
+
+    Returns
+    -------
+    int
+        What the last pulse over the bottom was: FORWARD, BACKWARD where the hoop turned back in it; 0 without one.
+    """
+    found = 0
+    for pulse in pulses:
+        enters, leaves = _ways(segment, swing, pulse)
         if enters is None:
             continue
-        behind = sum(turn.t < pulse.t_end - AT_REST for turn in swing.turns)  # so many turns the hoop leaves the pulse
-        after = max([enters, *turned[:behind]])
-        leaves = segment.crossing(pulse.phi_end, after) if len(turned) >= behind else None
+        out = _thrown_back(segment, swing, pulse) if leaves is None else None
+        back, leaves = out is not None, out if leaves is None else leaves
         cut = pulse.cut or leaves is None
         if leaves is None and over:
             leaves = segment.t_end
         if leaves is not None and leaves > enters:
+            known = len(builder.pulses)
             builder.list_pulse(segment.pulse(enters, leaves), cut)
+            if len(builder.pulses) > known and over_bottom(pulse if back else builder.pulses[-1]):
+                found = BACKWARD if back else FORWARD
+    return found
+
+
+def rest_of(run: Run, builder: Builder) -> Run | None:
+    """How far there is still to run; None if that is reached."""
+    if run.turns is not None:
+        left = run.turns - len(builder.turns)
+        return Run(turns=left) if left > 0 else None
+    if run.t_end is not None:
+        return Run(t_end=run.t_end - builder.t) if run.t_end - builder.t >= SHORTEST else None
+    return run
+
+
+def swung(
+    scene: Scene, hoop: Hoop, builder: Builder, begins: tuple[State, Motion, list[Pulse], Run, float],
+    watch: Callable[[float, float], None] | None,
+) -> tuple[State, Segment, str]:  # fmt: skip
+    """March through a swing; on through a turn where the disk rocks on a soft wall, in a pulse that is not over.
+
+    ``begins``: the state, the rigid hoop's swing and its pulses, how far to run, and the time to stop at.
+    """
+    state, swing, pulses, run, until = begins
+    turns, inside = turns_of(swing, pulses, run.turns), None
+    segment: Segment | None = None
+    while True:
+        phi = float(state.pos[2])
+        low, high = 2 * pi * (ceil(phi / (2 * pi)) - 1), 2 * pi * (floor(phi / (2 * pi)) + 1)
+        ends = Ends(until, low, high, turns)
+        if run.until == "pulse" and inside is not None:
+            ends = Ends(until, min(inside.phi_start, inside.phi_end), max(inside.phi_start, inside.phi_end), turns)
+        elif run.until == "pulse" and pulses:  # before the first whole pulse there may be the rest of one
+            ends = to_the_end_of(pulses[-1], ends, phi)
+        began = state.t
+        state, part, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
+        segment = part if segment is None else segment.then(part)
+        over = trouble or state.t == began or state.t >= until or rest_of(scene.run, builder) is None
+        inside, turns = None if over else unfinished(segment, swing, pulses), 1
+        if inside is None:
+            return state, segment, trouble

@@ -76,6 +76,15 @@ class Segment:
         segment.columns = {name: columns[name] for name in segment.columns}
         return segment
 
+    def then(self, later: Segment) -> Segment:
+        """This and a segment that goes on from its end, as one: totals go on."""
+        totals = (*History.TOTALS, "off_floor")
+        joined = Segment([], self.hoop, self.rise)
+        for name, column in self.columns.items():
+            before = column[-1] if name in totals else 0.0
+            joined.columns[name] = np.concatenate([column, later[name] + before])
+        return joined
+
     def records(self) -> list[Record]:
         """The records again."""
         rows = zip(*(column.tolist() for column in self.columns.values()), strict=True)

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import ceil, floor, inf, pi
+from math import inf
 
 import numpy as np
 
@@ -31,7 +31,7 @@ from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
 from .motion import FlexibleMotion
-from .pulses import add_pulses, ends_with_turn, goes_through_turns, lead, over_bottom, turns_of
+from .pulses import BACKWARD, add_pulses, ends_with_turn, goes_through_turns, lead, over_bottom, rest_of, swung
 from .ring.possible import ensure_possible
 from .segment import Segment
 from .time.adaptive import MarchError
@@ -159,7 +159,7 @@ def _through_pulses(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress
         done, fresh = done + 1, at_turn
         if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse):
             return "the first pulse is over" + (": the hoop turned back in it" if back else "")
-        rest = _rest_of(scene.run, builder)
+        rest = rest_of(scene.run, builder)
         if rest is None:
             return "the time to run is over" if scene.run.turns is None else last_turn(scene.run.turns)
         current = _from_here(scene, hoop, state, rest)
@@ -193,16 +193,6 @@ def _list(builder: Builder, segment: Segment, pulse: Pulse, start: float, back: 
     builder.list_pulse(measured, pulse.cut and (pulse.t_start > 0 or len(builder.marches) == 1))
 
 
-def _rest_of(run: Run, builder: Builder) -> Run | None:
-    """How far there is still to run; None if that is reached."""
-    if run.turns is not None:
-        left = run.turns - len(builder.turns)
-        return Run(turns=left) if left > 0 else None
-    if run.t_end is not None:
-        return Run(t_end=run.t_end - builder.t) if run.t_end - builder.t >= SHORTEST else None
-    return run
-
-
 def _from_here(scene: Scene, hoop: FlexibleHoop, state: State, run: Run) -> Scene:
     """The scene whose rigid hoop takes over from a flexible one."""
     release = Release(float(state.pos[2]), float(state.vel[2]), float(hoop.law.handed_back(state)))
@@ -229,8 +219,8 @@ def _whirls(motion: Motion) -> bool:
 def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Progress) -> str:
     """Flexible from the release on, swing by swing; each pulse is measured over the rigid hoop's interval.
 
-    A swing ends where phidot = 0 or the disk passes the top. The rigid hoop that says where its pulse lies, and whether
-    the run is at rest, is released from the flexible one's state at its beginning.
+    A swing ends where phidot = 0 and no pulse goes on, or the disk passes the top. The rigid hoop that says where its
+    pulse lies, and whether the run is at rest, is released from the flexible one's state at its beginning.
     """
     reference = rigid.simulate(rigid_limit(scene))
     try:
@@ -249,27 +239,20 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Pr
             return swing.ended
         # a swing that begins at a turn has no rest of a pulse to list, and a pulse that goes on through one is one
         pulses = [p for p in swing.pulses if not p.cut or (p.t_start == 0 and not builder.pieces)]
-        phi = float(state.pos[2]) / (2 * pi)
-        limit = builder.t + 4 * swing.t_end + 10
-        ends = Ends(
-            t=limit if scene.run.t_end is None else scene.run.t_end,
-            low=2 * pi * (ceil(phi) - 1), high=2 * pi * (floor(phi) + 1), turns=turns_of(swing, pulses, run.turns),
-        )  # fmt: skip
-        if run.until == "pulse" and pulses:  # before the first whole pulse there may be the rest of one
-            ends = _to_the_end_of(pulses[-1], ends, float(state.pos[2]))
-        began = state.t
-        state, segment, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
-        add_pulses(builder, segment, swing, pulses, over=not trouble and _rest_of(scene.run, builder) is None)
-        if not trouble and state.t == began and _rest_of(scene.run, builder) is not None:
+        began, limit = state.t, builder.t + 4 * swing.t_end + 10
+        until = limit if scene.run.t_end is None else scene.run.t_end
+        state, segment, trouble = swung(scene, hoop, builder, (state, swing, pulses, run, until), watch)
+        over = add_pulses(builder, segment, swing, pulses, over=not trouble and rest_of(scene.run, builder) is None)
+        if not trouble and state.t == began and rest_of(scene.run, builder) is not None:
             trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: a swing of no length"
         elif not trouble and scene.run.t_end is None and state.t >= limit:
             trouble = f"stopped at t = {state.t:.6g}: the rigid hoop swings that far in a quarter of this time"
         if trouble:
             builder.completed = False
             return with_advice(scene, trouble)
-        if run.until == "pulse" and any(map(over_bottom, builder.pulses)):
-            return "the first pulse is over"
-        run = _rest_of(scene.run, builder)
+        if run.until == "pulse" and over:
+            return "the first pulse is over" + (": the hoop turned back in it" if over == BACKWARD else "")
+        run = rest_of(scene.run, builder)
         onward = None
         if run is not None and run.turns is not None and not segment.turns():
             onward = rigid.simulate(rigid_limit(_from_here(scene, hoop, state, Run(turns=1))))
@@ -278,12 +261,3 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Pr
             return onward.ended
         whirled = whirls
     return "the time to run is over" if scene.run.turns is None else last_turn(scene.run.turns)
-
-
-def _to_the_end_of(pulse: Pulse, ends: Ends, phi: float) -> Ends:
-    """``ends``, and the end of a rigid pulse if it lies ahead in this swing: hops may lead to a later one."""
-    if phi < pulse.phi_end < ends.high and pulse.phi_end > pulse.phi_start:
-        return ends._replace(high=pulse.phi_end)
-    if ends.low < pulse.phi_end < phi and pulse.phi_end < pulse.phi_start:
-        return ends._replace(low=pulse.phi_end)
-    return ends

@@ -9,6 +9,7 @@ from scenes import HOOP
 
 import flexible
 import rigid
+from flexible.contact.laws.listing import rigid_limit
 from rigid import Kind
 
 #: stiff enough that the flexible hoop's turns are the rigid one's to the patch's half-width, (1.5/eps)^(1/3) = 2e-3;
@@ -129,3 +130,56 @@ def test_the_error_of_the_impulses_follows_rtol():
         assert (errors < rtols * abs(found[-1].normal_impulse)).all()
         slope = np.polyfit(np.log(rtols), np.log(errors), 1)[0]
         assert slope > 0.6  # 1 by the step control, less the luck of single steps
+
+
+ROCKS = HOOP.replace(
+    ring={"bending_stiffness": 3.0}, contact={"law": "brush", "stiffness": 1e7, "damping": 1.0},
+    solve={"rtol": 1e-3, "level": "chain", "resolve": "all"}, run={"until": "pulse"},
+)  # fmt: skip
+
+
+def test_a_disk_that_rocks_in_a_pulse_does_not_end_it():
+    """The disk turns back and forth on the wall at phi = 3.149 and 3.137, and goes on over the rest of the pulse.
+
+    Its swing was over at the first of these turns, and no pulse was listed before the hoop came back 3.4 later: J_F/J_N
+    was -0.299, 0.258 and -0.299 at rtol 1e-3, 3e-4 and 1e-4, where that of the pulse is -0.0131, -0.0131 and -0.0128.
+    """
+    motion = flexible.simulate(ROCKS, history=True, states=False)
+    assert motion.completed, motion.ended
+    assert motion.ended.startswith("the first pulse is over")
+    (pulse,), history = motion.pulses, motion.history
+    rigid_pulse = rigid.simulate(rigid_limit(ROCKS)).pulses[0]
+    assert (pulse.phi_start, pulse.phi_end) == pytest.approx((rigid_pulse.phi_start, rigid_pulse.phi_end), abs=1e-6)
+    assert [turn.t for turn in motion.turns if pulse.t_start < turn.t < pulse.t_end]
+    within = history.t >= pulse.t_start
+    for name in ("normal_impulse", "friction_impulse", "friction_loss"):
+        gained = np.ptp(np.interp([pulse.t_start, pulse.t_end], history.t, getattr(history, name)))
+        assert abs(getattr(pulse, name)) == pytest.approx(gained, rel=1e-3), name
+    assert pulse.peak_normal_force == pytest.approx(history.normal_force[within].max(), rel=1e-2)
+    assert pulse.friction_impulse / pulse.normal_impulse == pytest.approx(-0.0129, abs=1e-3)
+
+
+def test_a_hoop_that_turns_back_in_a_pulse_leaves_it_where_it_came_in():
+    """It flies over its first pulse, comes back into another one at 3.27, turns at 3.09 and is thrown out again.
+
+    What was listed was a third of that, from a swing that began at the turn: 3.11 to 3.15, a restitution of -3.8.
+    """
+    scene = ROCKS.replace(
+        hoop={"k": 0.0508, "r": 1.0513, "mass_ratio": 0.0}, friction={"mu_s": 0.134, "mu": 0.134},
+        release={"phi0": 0.206}, ring={"bending_stiffness": 4.935}, contact={"stiffness": 1.85e11},
+    )  # fmt: skip
+    motion = flexible.simulate(scene)
+    assert motion.completed, motion.ended
+    assert "turned back in it" in motion.ended
+    (pulse,) = motion.pulses
+    assert pulse.phi_end == pytest.approx(pulse.phi_start, abs=1e-6)
+    assert pulse.phi_start > motion.turns[-1].phi < pi
+    assert 0 < pulse.newton_restitution < 1
+
+
+def test_a_motion_goes_on_from_within_a_pulse_in_which_the_disk_rocks():
+    """To the last bit as without a stop, which was between two of the turns in the pulse."""
+    whole = flexible.simulate(ROCKS)
+    part = flexible.simulate(ROCKS.replace(run={"t_end": 6.32, "until": None}))
+    assert len(part.turns) == 1
+    assert flexible.simulate(ROCKS, resume=part) == whole
