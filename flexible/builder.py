@@ -260,14 +260,16 @@ class Builder:
         return marched.state, self._add_flexible(marched, rise), marched.ended
 
     def _earlier(self, number: int, state: State) -> tuple[March | None, bool]:
-        """The march of that number in the motion to go on from, and whether it is its last one.
+        """The march of that number in the motion to go on from, and whether it is to be taken up, as its last one, or
+        one so near the end of its run that this may have cut the step in which it ends.
 
-        A last one that the end of its run had begin elsewhere (the rigid pulse, cut, was shorter) is none.
+        One to be taken up that the end of its run had begin elsewhere (the rigid pulse, cut, was shorter) is none.
         """
         known = self.earlier.marches if self.earlier is not None else ()
-        if number >= len(known):
+        if self.earlier is None or number >= len(known):
             return None, False
-        last, first = number == len(known) - 1, known[number].marched.records[0]
+        first, t_end = known[number].marched.records[0], self.earlier.scene.to_dimensionless().run.t_end
+        last = number == len(known) - 1 or known[number].marched.state.t > (t_end or np.inf) - LIMITS.longest
         began, now = (first.t, first.phi, first.omega), (state.t, state.pos[2], state.vel[2])
         if np.allclose(began, now, rtol=0 if last else 1e-6, atol=0 if last else 1e-6):  # machines differ in round-off
             return known[number], last

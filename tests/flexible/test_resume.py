@@ -72,6 +72,22 @@ def test_a_run_that_came_to_its_time(name: str, share: float) -> None:
     assert_same(simulate(SCENES[name], history=True, resume=part), whole(name))
 
 
+@pytest.mark.parametrize("behind", [1e-9, 1e-3])
+def test_a_run_that_came_to_its_time_just_behind_a_turn(behind: float) -> None:
+    """The end of the run cuts the step in which the turn is found, and with it the length at which it is found first.
+
+    The swing up to the turn was taken as it was, other by its last bits.
+    """
+    scene = HOOP.replace(
+        hoop={"k": 0.3, "mass_ratio": 0.0}, release={"phi0": 2.2}, ring={"bending_stiffness": 1e5},
+        contact={"damping": 1.0}, solve={"resolve": "all"}, run={"turns": 1},
+    )  # fmt: skip
+    turn = simulate(scene).turns[0].t
+    beyond = scene.replace(run={"turns": None, "t_end": turn + 0.5})
+    part = simulate(scene.replace(run={"turns": None, "t_end": turn + behind}), history=True)
+    assert_same(simulate(beyond, history=True, resume=part), simulate(beyond, history=True))
+
+
 def test_a_run_that_came_to_its_end_is_itself() -> None:
     assert_same(simulate(SCENES["pulses"], history=True, resume=whole("pulses")), whole("pulses"))
 
