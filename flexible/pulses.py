@@ -51,11 +51,17 @@ def _is_over_bottom(first: float, last: float) -> bool:
     return floor(start) < floor(end) or ceil(end) < ceil(start)
 
 
+def _turned(swing: Motion) -> list[float]:
+    """When the rigid hoop of a swing turns; where it begins it is turning already, and may go the other way."""
+    return [turn.t for turn in swing.turns if abs(turn.phi - swing.scene.release.phi0) > AT_REST]
+
+
 def turns_of(swing: Motion, pulses: list[Pulse], most: int | None) -> int:
     """After how many turns a swing is over: at the first, or at the first behind the pulse that goes on through it."""
-    first = swing.turns[0].t if swing.turns else inf
+    turned = _turned(swing)
+    first = turned[0] if turned else inf
     through = max((pulse.t_end for pulse in pulses if pulse.t_start < first), default=0.0)
-    passed = sum(turn.t < through - AT_REST for turn in swing.turns) + 1
+    passed = sum(t < through - AT_REST for t in turned) + 1
     return passed if most is None else min(passed, most)
 
 
@@ -65,7 +71,7 @@ def _ways(segment: Segment, swing: Motion, pulse: Pulse) -> tuple[float | None, 
     if enters is None:
         return None, None
     turned = [turn.t for turn in segment.turns()]
-    behind = sum(turn.t < pulse.t_end - AT_REST for turn in swing.turns)  # so many turns the hoop leaves the pulse
+    behind = sum(t < pulse.t_end - AT_REST for t in _turned(swing))  # so many turns the hoop leaves the pulse
     after = max([enters, *turned[:behind]])
     return enters, segment.crossing(pulse.phi_end, after) if len(turned) >= behind else None
 
@@ -81,7 +87,7 @@ def to_the_end_of(pulse: Pulse, ends: Ends, phi: float) -> Ends:
 
 def _is_next(swing: Motion, pulse: Pulse) -> bool:
     """Whether the rigid hoop comes to a pulse without a turn on the way."""
-    return not any(AT_REST < turn.t < pulse.t_start for turn in swing.turns)
+    return not any(t < pulse.t_start for t in _turned(swing))
 
 
 def _thrown_back(segment: Segment, swing: Motion, pulse: Pulse) -> float | None:
