@@ -51,6 +51,12 @@ def _is_over_bottom(first: float, last: float) -> bool:
     return floor(start) < floor(end) or ceil(end) < ceil(start)
 
 
+def swings(segment: Segment) -> bool:
+    """Whether a segment goes over the bottom, and does not merely rock on a soft wall somewhere else."""
+    phi = segment["phi"]
+    return _is_over_bottom(float(phi.min()), float(phi.max()))
+
+
 def _turned(swing: Motion) -> list[float]:
     """When the rigid hoop of a swing turns; where it begins it is turning already, and may go the other way."""
     return [turn.t for turn in swing.turns if abs(turn.phi - swing.scene.release.phi0) > AT_REST]

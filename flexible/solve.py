@@ -31,7 +31,7 @@ from .models.select import Hoop as FlexibleHoop
 from .models.select import Range, hoop_of
 from .models.state import State
 from .motion import FlexibleMotion
-from .pulses import BACKWARD, add_pulses, ends_with_turn, goes_through_turns, lead, over_bottom, rest_of, swung
+from .pulses import BACKWARD, add_pulses, ends_with_turn, goes_through_turns, lead, over_bottom, rest_of, swings, swung
 from .ring.possible import ensure_possible
 from .segment import Segment
 from .time.adaptive import MarchError
@@ -220,7 +220,8 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Pr
     """Flexible from the release on, swing by swing; each pulse is measured over the rigid hoop's interval.
 
     A swing ends where phidot = 0 and no pulse goes on, or the disk passes the top. The rigid hoop that says where its
-    pulse lies, and whether the run is at rest, is released from the flexible one's state at its beginning.
+    pulse lies, and whether the run is at rest, is released from the flexible one's state at its beginning. A run is at
+    rest behind a swing over the bottom alone, not where a soft hoop rocks beside its release.
     """
     reference = rigid.simulate(rigid_limit(scene))
     try:
@@ -229,13 +230,13 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Pr
         builder.completed = False
         return with_advice(scene, str(error))
     run: Run | None = scene.run
-    whirled = False
+    whirled = swung_through = False
     horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
     watch = progress.watch(0.0, 1.0, lambda t, phi: t / horizon)
     while run is not None:
         here = _from_here(scene, hoop, state, Run(until="rest" if run.until == "rest" else "pulse"))
         swing = rigid.simulate(rigid_limit(here))
-        if run.until == "rest" and builder.pieces and _slips_no_more(swing):
+        if run.until == "rest" and swung_through and _slips_no_more(swing):
             return swing.ended
         # a swing that begins at a turn has no rest of a pulse to list, and a pulse that goes on through one is one
         pulses = [p for p in swing.pulses if not p.cut or (p.t_start == 0 and not builder.pieces)]
@@ -253,6 +254,7 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Pr
         if run.until == "pulse" and over:
             return "the first pulse is over" + (": the hoop turned back in it" if over == BACKWARD else "")
         run = rest_of(scene.run, builder)
+        swung_through = swings(segment)
         onward = None
         if run is not None and run.turns is not None and not segment.turns():
             onward = rigid.simulate(rigid_limit(_from_here(scene, hoop, state, Run(turns=1))))

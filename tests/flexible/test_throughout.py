@@ -51,6 +51,21 @@ def test_a_run_to_rest_ends_where_the_rigid_hoop_would_slip_no_more(friction):
     assert motion.phases[-1].t_end == pytest.approx(turn, rel=5 * REACH)
 
 
+def test_a_soft_hoop_that_rocks_beside_its_release_is_not_at_rest():
+    """At t = 0.24 the disk turns for an instant, 5e-3 away, and the rigid hoop would roll from there for ever.
+
+    The run was over then, "rolls for ever", of a hoop that hops in its pulse and has lost 8 % of its energy at 6.6.
+    """
+    scene = ROCKS.replace(
+        ring={"bending_stiffness": 1.0}, contact={"law": "patch"}, friction={"mu_s": 3.0, "mu": 3.0},
+        run={"until": "rest"},
+    )  # fmt: skip
+    motion = flexible.simulate(scene, most_steps=1000)
+    assert motion.turns[0].t < 0.3
+    assert motion.t_end > 6
+    assert "for ever" not in motion.ended
+
+
 def test_a_swing_that_hops_lead_out_of_ends_at_its_own_turn():
     """The rigid hoop flies for several turns, comes back, and has its first pulse where this swing has never been: an
     end that lay behind was reached without a step, again and again."""
