@@ -229,6 +229,9 @@ def _throughout(scene: Scene, hoop: FlexibleHoop, builder: Builder, progress: Pr
     except MarchError as error:
         builder.completed = False
         return with_advice(scene, str(error))
+    if reference.t_end == 0 and scene.run.t_end is None and scene.solve.start == "equilibrium":
+        builder.add_rigid(reference, 0.0)
+        return reference.ended
     run: Run | None = scene.run
     whirled = swung_through = False
     horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
