@@ -69,6 +69,15 @@ def test_bending_of_a_linear_stress_through_the_wall(halved):
     np.testing.assert_allclose(bending_stress(ring, hoop_stress(ring, stress)), expected, atol=1e-14)
 
 
+@pytest.mark.parametrize("halved", [0, 3])
+def test_the_mean_through_the_wall_is_an_integral(halved):
+    """sigma_theta = (rho - mid)^2 + 4 (rho - mid)^3 has the mean h^2/12 over a wall h; Simpson's rule is exact for it."""
+    ring = ring_mesh(0.7, 1.0, 24, 2, halved=halved)
+    off = ring.radius - 0.85
+    hoop = off**2 + 4 * off**3
+    np.testing.assert_allclose(bending_stress(ring, hoop), hoop - 0.3**2 / 12, atol=1e-15)
+
+
 def test_the_grid_orders_every_node():
     ring = ring_mesh(0.9, 1.0, 24, 2)
     np.testing.assert_array_equal(np.sort(ring.grid.ravel()), np.arange(len(ring.points)))

@@ -119,6 +119,21 @@ def test_quality_of_the_default_ring():
     assert quality.aspect < 1.4  # 1.5 degrees of rim against a wall of 0.0196
 
 
+@pytest.mark.parametrize(("inner", "around"), [(0.5, 240), (0.98, 24)])
+def test_aspect_is_that_of_the_mid_lines_whichever_is_the_longer(inner, around):
+    """A chord 2 r_m sin(pi/n) against the wall, all elements alike: radially long ones, and long ones around."""
+    along, wall = (inner + OUTER) * np.sin(pi / around), OUTER - inner
+    quality = ring_mesh(inner, OUTER, around, 1, 6 * pi / around).quality()
+    assert quality.aspect == pytest.approx(max(along, wall) / min(along, wall), rel=1e-12)
+    assert quality.aspect > 4
+
+
+def test_the_jacobian_is_told_of_the_worst_element():
+    """det J goes with rho: over the thick layer, 0.8 to 0.9, it falls to 8/9, over the next to 18/19 only."""
+    quality = ring_mesh(0.8, 1.0, 240, 1, halved=3).quality()
+    assert 8 / 9 < quality.jacobian_ratio < 18 / 19
+
+
 def test_grading_makes_the_elements_at_the_weld_smaller():
     size = {g: ring_mesh(INNER, OUTER, 240, 1, WELD, g).quality() for g in (1.0, 4.0)}
     assert size[1.0].largest_angle / size[1.0].smallest_angle < 1.01

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from meshes import Block
-from meshes.draw.scales import tidy
+from meshes import Block, Placement
+from meshes.draw.scales import scalar, tidy
 from meshes.draw.shots import Shot
 from meshes.fields import LINE
 
@@ -47,3 +47,12 @@ def test_without_a_pressure_it_is_below_the_centre():
 def test_a_tidy_factor_is_the_next_one_below(factor, tidied):
     """1, 2 or 5 times a power of ten, which are their own."""
     assert tidy(factor) == pytest.approx(tidied, rel=1e-12)
+
+
+@pytest.mark.parametrize(("phi", "pulled"), [(np.pi / 2, "xx"), (np.pi, "yy")])
+def test_a_component_of_the_stress_is_that_of_the_world(phi, pulled):
+    """A pull of 3 along y1, to the disk: sideways it is sigma_xx, upright sigma_yy."""
+    stress = Placement(phi, 0.0, 0.0).stress(np.array([[3.0, 0.0, 0.0]]))
+    block = Block(np.zeros((1, 3)), np.zeros((1, 2), dtype=int), LINE, {"stress": stress})
+    told = {component: float(scalar(block, f"stress {component}")[0]) for component in ("xx", "yy", "xy")}
+    assert told == pytest.approx({"xx": 0.0, "yy": 0.0, "xy": 0.0} | {pulled: 3.0}, abs=1e-15)
