@@ -71,7 +71,7 @@ def test_bending_of_a_linear_stress_through_the_wall(halved):
 
 @pytest.mark.parametrize("halved", [0, 3])
 def test_the_mean_through_the_wall_is_an_integral(halved):
-    """sigma_theta = (rho - mid)^2 + 4 (rho - mid)^3 has the mean h^2/12 over a wall h; Simpson's rule is exact for it."""
+    """sigma_theta = (rho - mid)^2 + 4 (rho - mid)^3 has the mean h^2/12 over a wall h, by Simpson exactly."""
     ring = ring_mesh(0.7, 1.0, 24, 2, halved=halved)
     off = ring.radius - 0.85
     hoop = off**2 + 4 * off**3

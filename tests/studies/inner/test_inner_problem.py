@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf, pi, radians, sqrt
 
 import numpy as np
@@ -9,11 +10,11 @@ import pytest
 
 from rigid import Contact, Friction, Hoop, Release, Run, Scene, simulate
 from studies.inner.body import Body, accelerations, arms, body_of, contact_mobility, sliding_force
-from studies.inner.bristles import bristles
+from studies.inner.bristles import bristles, brush_pull, set_stretch
 from studies.inner.creep import creep, half_width, sticking_part
 from studies.inner.critical import critical_theta
 from studies.inner.events import REVERSAL, START, STOP, Event, passage
-from studies.inner.layers import layer, outer_forces, slip_behind
+from studies.inner.layers import Layer, layer, outer_forces, period_of, slip_behind
 from studies.inner.march import (
     BRUSH,
     FRICTION_IMPULSE,
@@ -24,14 +25,18 @@ from studies.inner.march import (
     PSI,
     RATE,
     REGULARISED,
+    SLIDE_LEFT,
     SLIDE_RIGHT,
     SLIP,
     STATE,
+    STICK,
     ScaledContact,
     System,
     march,
 )  # fmt: skip
 from studies.inner.scales import damping_of, epsilon, theta_of
+from studies.inner.separate import separate_from
+from studies.limit.compliant import at_foundation
 
 
 def scene_of(k: float, mass_ratio: float = 0.0, law: str = "patch", mu_s: float = 0.35, damping: float = 0.2) -> Scene:
@@ -101,6 +106,52 @@ def test_a_sliding_patch_vibrates_at_its_linearised_frequency(end_of_spin):
     assert np.diff(crossings).mean() == pytest.approx(period, rel=1e-4)
 
 
+@pytest.mark.parametrize("pull", [None, 0.3, -0.3])
+def test_the_period_of_a_patch_is_that_of_its_height(end_of_spin, pull):
+    """omega^2 = 2 A d(ddot h)/dN, by the difference that one more N makes of Newton's and Euler's equations."""
+    body, _, event = end_of_spin
+    behind = Event(STOP if pull is None else START, event.t, event.psi, event.omega, 0.3, pull)
+    normal, friction = outer_forces(body, behind, True)
+    more = 1.0, 0.0 if pull is None else pull
+    rise = [
+        accelerations(*body, event.psi, event.omega, normal + n * more[0], friction + n * more[1])[1] for n in (0, 1)
+    ]
+    square = 2 * half_width(normal) * (rise[1] - rise[0])
+    assert period_of(body, behind) == pytest.approx(2 * pi / sqrt(square), rel=1e-9)
+
+
+def test_a_damped_patch_loses_its_vibration_as_its_oscillator_does(end_of_spin):
+    """H'' = -omega^2 (H + theta H') of small vibrations: from peak to peak N falls by exp(-theta omega^2 T/2)."""
+    body, contact, event = end_of_spin
+    normal, state = sliding_patch(body, contact, event, 1e-3)
+    period = period_of(body, Event(START, event.t, event.psi, event.omega, None, 0.3))
+    theta = 0.1 * period / (2 * pi)  # a twentieth of critical
+    ends = np.array([6 * period, inf, 0.05, 1.0, inf])
+    damped = contact._replace(theta=theta)
+    records = march(System(body, damped, 0.0), state, SLIDE_RIGHT, bristles(), ends)[0]
+    off = records[:, 1] - normal
+    peaks = off[1:-1][(off[1:-1] > off[:-2]) & (off[1:-1] > off[2:]) & (off[1:-1] > 0)]
+    damped_period = period / sqrt(1 - 0.05**2)
+    # amplitude squared is 1e-6; a peak between steps of 1/80 of a period is too low by 1e-3 at most
+    fall = theta * (2 * pi / period) ** 2 / 2 * damped_period
+    assert np.log(peaks[:-1] / peaks[1:]) == pytest.approx(fall, abs=5e-3)
+
+
+@pytest.mark.parametrize(("slip", "way"), [(30.0, SLIDE_LEFT), (-30.0, SLIDE_RIGHT)])
+def test_what_comes_down_is_pushed_against_its_slip(end_of_spin, slip, way):
+    """From above the floor: J_F = -+ mu J_N as long as it slips, and friction takes energy."""
+    body, contact, event = end_of_spin
+    state = np.zeros(STATE)
+    state[PSI], state[OMEGA], state[HEIGHT], state[RATE], state[SLIP] = event.psi, 0.0, 0.1, -1.0, slip
+    ends = np.array([1.0, inf, 0.05, 1.0, inf])
+    records, switches, end, _ = march(System(body, contact, 0.0), state, STICK, bristles(), ends)
+    assert [mode for _, mode in switches] == [way]
+    assert end[NORMAL_IMPULSE] > 0.1
+    assert end[SLIP] * slip > 0, "it slips all the time"
+    assert end[FRICTION_IMPULSE] == pytest.approx(way * contact.mu * end[NORMAL_IMPULSE], rel=1e-9)
+    assert (records[:, 2] * slip <= 0).all()
+
+
 def test_a_frictionless_bounce_keeps_its_energy(end_of_spin):
     """H'^2/2 + (1 + a^2/K) (2/15) (-2 H)^(5/2) - (the rest of ddot h) H, lift-off included: from thrice as deep."""
     body, contact, event = end_of_spin
@@ -158,6 +209,25 @@ def test_steady_creep_of_a_brush_is_the_rolling_law():
     )
 
 
+@pytest.mark.parametrize("b", [0.5, 0.8])
+def test_a_brush_that_rolls_steadily_carries_what_its_law_says(b):
+    """Its leading part b sticks up to mu_s p and slides with mu p behind that: 300 bristles, and the closed form."""
+    contact = ScaledContact(BRUSH, 0.8, 0.5, 0.3, 0.0, 0.0)
+    half = 1.3
+    slip = contact.mu_s * half * (1 - b) / contact.kappa  # over Omega
+    kept = bristles(2 * half / 300)
+    set_stretch(kept, half, np.zeros(3), True)
+    step = 1.7 * kept.spacing
+    pulls = []
+    for i in range(1, 220):  # a passage takes 180 of them
+        pulls.append(brush_pull(kept, contact, half, i * step, i * step * slip, 1.0, True)[0])
+    exact = 3 * contact.mu_s * (b**2 - b**3) + contact.mu * (1 - 3 * b**2 + 2 * b**3)
+    # a point more or less that sticks is 1/300 of what jumps there
+    assert -np.mean(pulls[-20:]) / (2 / 3 * half**3) == pytest.approx(exact, abs=3e-3)
+    normal = 2 / 3 * half**3
+    assert creep(contact, normal, -exact * normal, 1.0).slip == pytest.approx(slip, rel=1e-9)
+
+
 def test_the_inner_problem_has_no_stiffness_in_it(end_of_spin):
     """The full equations at eps and eps/10 are the inner problem but for terms of order eps."""
     body, contact, event = end_of_spin
@@ -213,6 +283,90 @@ def test_a_reversal_hands_over_the_slip_that_its_layer_leaves():
     extrapolated = history.slip[late] - rate * history.tau[late]
     assert np.ptp(extrapolated) < 1e-6 * abs(rate * 40)
     assert slip_behind(way.body, way.contact, event) == pytest.approx(extrapolated[-1], abs=1e-6 * abs(rate * 40))
+
+
+def test_what_a_weakly_damped_reversal_hands_over_does_not_wait_for_its_ringing():
+    """What is left of N's vibration has an impulse to come, that of H': with it ten periods say what a hundred do."""
+    way = passage(scene_of(0.1, 0.1, damping=0.02))
+    event = way.events[0]
+    assert event.kind == REVERSAL
+    early, late = layer(way.body, way.contact, event), layer(way.body, way.contact, event, 150.0)
+    normal, friction = outer_forces(way.body, event, True)
+    rate = accelerations(*way.body, event.psi, event.omega, normal, friction)[2]
+    settled = late.end[SLIP] - rate * 150.0
+    without = early.end[SLIP] - rate * early.tau[-1]
+    off = slip_behind(way.body, way.contact, event) - settled
+    assert abs(off) < 0.01 * abs(without - settled)
+
+
+def test_a_slip_that_starts_needs_no_damper():
+    """The patch slides before its layer and behind it, and N rings about a force that stays positive."""
+    way = passage(scene_of(0.1))
+    event = way.events[-1]
+    assert event.kind == START
+    assert layer(way.body, way.contact._replace(theta=0.0), event).faithful
+    assert critical_theta(way.body, way.contact, event) == 0.0
+
+
+def test_a_brush_breaks_away_from_what_it_carries_at_the_most():
+    """mu_s > mu: its layer begins at the F of the rigid hoop before, and no bristle pushes against the others."""
+    way = passage(scene_of(0.1, law="brush"))
+    event = way.events[-1]
+    assert event.kind == START
+    found = layer(way.body, way.contact, event, 0.5)
+    normal, friction = outer_forces(way.body, event, False)
+    # of the part that sticks a twentieth is let go: by the law above it carries less by a few times that squared
+    assert found.friction_force[0] / found.normal_force[0] == pytest.approx(friction / normal, rel=0.02)
+    sliding = found.mode != STICK
+    assert (found.mode[sliding] * found.friction_force[sliding] > 0).all(), "it slides the way that friction says"
+
+
+def test_when_a_layer_is_over_is_read_off_its_history():
+    """N = n (1 + exp(-tau) cos(9 tau)) is within 2 % behind the last swing beyond; a patch that breaks twice."""
+    tau = np.linspace(0, 10, 10001)
+    swing = np.exp(-tau) * np.cos(9 * tau)
+    mode = np.where((tau >= 1) & (tau < 2) | (tau >= 3) & (tau < 4), SLIDE_RIGHT, STICK)
+    event = Event(STOP, 0.0, 0.1, 1.0, 0.3, None)
+    found = Layer(event, PATCH, tau, 5 * (1 + swing), 0 * tau, 0 * tau, 0 * tau, mode, (), np.zeros(STATE), 1.0)
+    last = tau[np.flatnonzero(np.abs(swing) > 0.02)[-1]]
+    assert np.log(50) - 2 * pi / 9 < last < np.log(50), "the envelope, and a swing"
+    assert found.settled(5.0) == pytest.approx(last, abs=2e-3)
+    assert found.settled(6.0) is None
+    assert found.resticks == pytest.approx(4.0, abs=2e-3)
+
+
+def test_events_are_the_same_in_si_units_and_a_turn_further():
+    """All of a passage is dimensionless; a disk that has gone round once more is where it was."""
+    scene = scene_of(0.1, 0.1)
+    here = passage(scene)
+    si = passage(scene.replace(hoop={"R": 0.5, "m": 0.3, "g": 9.81}))
+    further = passage(scene.replace(release={"phi0": scene.release.phi0 + 2 * pi}))
+    for there in (si, further):
+        for one, other in zip(here.events, there.events, strict=True):
+            assert (other.t, other.psi, other.omega) == pytest.approx((one.t, one.psi, one.omega), rel=1e-9, abs=1e-12)
+        assert there.edges == pytest.approx(here.edges, abs=1e-12)
+
+
+@pytest.mark.parametrize("mass_ratio", [0.0, 0.1])
+def test_layers_are_separate_where_the_longest_takes_the_time_to_the_next_event(mass_ratio):
+    """N = n (1 + exp(-tau)) behind each event is within 2 % after tau = ln 50, and a layer takes eps tau."""
+    scene = scene_of(0.1, mass_ratio)
+    way = passage(scene)
+    tau = np.linspace(0, 6, 60001)
+    layers = []
+    for event in way.events:
+        normal = outer_forces(way.body, event, True)[0] * (1 + np.exp(-tau))
+        rest = [0 * tau] * 4
+        layers.append(Layer(event, PATCH, tau, normal, *rest, (), np.zeros(STATE), 1.0))
+    events = [event.t for event in way.events]
+    if len(events) < 2:
+        assert separate_from(way, layers) == 0.0
+        events.append(events[0] + 0.01)
+        later = Event(START, events[1], 0.1, way.events[0].omega, None, 0.3)
+        way = replace(way, events=(*way.events, later))
+        layers.append(layers[0])
+    least = separate_from(way, layers)
+    assert epsilon(at_foundation(scene, least)) * np.log(50) == pytest.approx(np.diff(events).min(), rel=1e-3)
 
 
 def test_a_slip_that_starts_rings_without_a_net_impulse():
