@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from studies import limit_of
-from studies.stiffness.limits import CONFIDENCE, observed_rate, richardson
+from studies.stiffness.limits import CONFIDENCE, _t, observed_rate, richardson
 from studies.stiffness.series import extrapolated, terms
 
 S = np.geomspace(1e7, 1e13, 9)
@@ -100,6 +100,45 @@ def test_intervals_of_known_rates_hold_limit_and_further_cases(law, noise, floor
     assert limits >= 34
     assert held >= 34
     assert np.median(told) < 1  # more than the last case says
+
+
+def test_powers_behind_the_given_ones_go_on_in_their_last_step():
+    """eps^(1/3) and eps^(2/5) leave eps^(7/15), of one alone its multiples; a rate given twice has a logarithm too."""
+    x = np.array([1.0, 8.0, 1e3])
+    close = terms(x, (1 / 3, 2 / 5))
+    assert close[:, :4].T == pytest.approx(np.array([x**-p for p in (1 / 3, 2 / 5, 7 / 15, 8 / 15)]))
+    assert terms(x, (1 / 3,))[:, :3].T == pytest.approx(np.array([x ** (-p / 3) for p in (1, 2, 3)]))
+    twice = terms(x, (2 / 9, 1 / 3, 1 / 3))
+    wanted = [x ** (-2 / 9), x ** (-1 / 3), x ** (-1 / 3) * np.log(x), x ** (-4 / 9)]
+    assert twice[:, :4].T == pytest.approx(np.array(wanted))
+    assert not terms(np.inf, (1 / 3, 1 / 3)).any()
+
+
+def test_intervals_are_of_students_distribution():
+    """Its quantiles at 95 % on both sides, of one, two and five degrees of freedom (any table of statistics)."""
+    assert [_t(free) for free in (1, 2, 5)] == pytest.approx([12.706, 4.303, 2.571], abs=5e-4)
+
+
+def test_the_rate_is_that_of_the_cases_which_it_names():
+    """The softest ones follow another law; those that are named are the stiffest, and the line through them is told."""
+    distance = np.where(S < 1e9, 1.0, 1e-2 * (S / S[0]) ** (-1 / 3))
+    found = observed_rate(S, distance)
+    assert found.cases == tuple(range(S.size - len(found.cases), S.size))
+    assert (S[list(found.cases)] >= 1e9).all()
+    assert found.value == pytest.approx(1 / 3, abs=1e-6)
+
+
+def test_cases_too_soft_for_the_theory_do_not_count():
+    """The series holds from 1e9 on; what is below is off by 10 % of all, and the limit is none the worse for it."""
+    rates = (1 / 3, 2 / 3)
+    s = np.geomspace(1e7, 1e13, 13)
+    soft = s < 1e9
+    y = 0.17 + 0.02 * terms(s / s[0], rates)[:, :2] @ [1.0, -0.5] + np.where(soft, 0.02, 0.0)
+    error = np.full(s.size, 1e-9)
+    found = limit_of(s, y, 0.17, error, rates, holds=1e9)
+    alone = limit_of(s[~soft], y[~soft], 0.17, error[~soft], rates)
+    assert (found.value, found.uncertainty) == pytest.approx((alone.value, alone.uncertainty), rel=1e-12)
+    assert found.rigid_inside
 
 
 def test_a_known_rate_that_is_wrong_shows_in_the_interval():
