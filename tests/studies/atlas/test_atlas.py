@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -92,6 +93,21 @@ def test_the_ratio_of_the_coefficients_is_the_scenes():
         hoops = plane(scene, {"hoop.k": (0.1, 0.5), key: (0.1, 0.5)}).hoops(np.array([0.2, 0.3]), np.array([0.2, 0.4]))
         assert hoops["mu_s"] / hoops["mu"] == pytest.approx(0.35 / 0.3)
         assert hoops["phi0"] == pytest.approx(np.deg2rad(10))
+
+
+def test_a_hoop_with_mass_is_measured_by_its_whole_weight():
+    """Of a map over its mass: loss over M g R and peak over M g, as one motion has them over m g."""
+    scene = load_scene("paper-3.3-heavier")
+    ratios = np.array([0.1, 0.5])
+    seen = plane(scene, {"hoop.mass_ratio": (0.05, 1.0), "friction.mu": (0.1, 0.5)}).run(ratios, np.array([0.3, 0.2]))
+    for i, (ratio, mu) in enumerate(zip(ratios, (0.3, 0.2), strict=True)):
+        friction = {"mu": mu, "mu_s": mu * scene.friction.mu_s / scene.friction.mu}
+        hoop = scene.replace(hoop={"mass_ratio": float(ratio)}, friction=friction, run={"until": "pulse"})
+        pulse = simulate(hoop).pulses[0]
+        assert pulse.friction_loss > 0
+        assert seen.loss[i] == pytest.approx(pulse.friction_loss / (1 + ratio), rel=1e-9)
+        assert 10 ** seen.peak[i] == pytest.approx(pulse.peak_normal_force / (1 + ratio), rel=1e-9)
+        assert seen.share[i] == pytest.approx(pulse.impulse_ratio / mu, rel=1e-9)
 
 
 def test_no_hoop_has_less_static_than_kinetic_friction():
@@ -210,6 +226,65 @@ def test_every_number_lies_inside_the_map(drawn: Atlas):
         box = text.get_window_extent()
         assert inside.x0 <= box.x0 < box.x1 <= inside.x1
         assert inside.y0 <= box.y0 < box.y1 <= inside.y1
+
+
+def under(axes, x: float, y: float):
+    """What a picture shows at a point of its axes, as a mouse there would be told."""
+    at = SimpleNamespace(**dict(zip("xy", axes.transData.transform((x, y)), strict=True)))
+    return axes.images[0].get_cursor_data(at)
+
+
+@pytest.mark.parametrize("name", ["paper-3.1", "paper-3.2-k0.25", "paper-3.2-k0.75"])
+def test_the_picture_has_at_a_scene_of_the_paper_what_its_motion_has(drawn: Atlas, name: str):
+    """Its marker stands at its k and mu by the ticks; the colours there are those of its phases and measures."""
+    scene, figure = load_scene(name), drawn.plot()
+    x, y = (scene.hoop.k - 0.02) / 0.88, (scene.friction.mu - 0.02) / 0.98
+    main, *panels = (axes for axes in figure.axes if axes.images)
+    assert any(np.allclose(line.get_xydata(), [[x, y]]) for line in main.lines)
+    for axis, low, wide in ((main.xaxis, 0.02, 0.88), (main.yaxis, 0.02, 0.98)):
+        for place, label in zip(axis.get_ticklocs(), axis.get_ticklabels(), strict=True):
+            assert low + wide * place == pytest.approx(float(label.get_text()), abs=1e-9)
+    motion = simulate(scene)
+    pulse = motion.pulses[0]
+    wanted = [pulse.impulse_ratio / scene.friction.mu, pulse.friction_loss, pulse.peak_normal_force]
+    for axes, value in zip(panels, wanted, strict=True):
+        # of the nearest of 65 points a side: off by no more than the map changes over a square
+        share = np.abs(np.gradient(np.asarray(axes.images[0].get_array(), dtype=float))).sum(axis=0)
+        off = np.nanmax(share[int(y * SIDE) : int(y * SIDE) + 2, int(x * SIDE) : int(x * SIDE) + 2])
+        assert float(under(axes, x, y)) == pytest.approx(value, abs=off)
+    phases = [str(p.kind) for p in motion.phases if p.t_end > pulse.t_start and p.t_start < pulse.t_end]
+    legend = main.get_legend()
+    entries = zip(legend.get_texts(), legend.get_patches(), strict=False)
+    told = {text.get_text().split("  ")[1]: patch for text, patch in entries if "  (" in text.get_text()}
+    colour = np.array(told[", ".join(phases)].get_facecolor()[:3])
+    assert np.asarray(under(main, x, y)[:3]) / 255 == pytest.approx(colour, abs=0.01)
+
+
+def test_a_number_stands_in_the_region_whose_line_of_the_legend_has_it(drawn: Atlas):
+    main = drawn.plot().axes[0]
+    lines = [entry.get_text() for entry in main.get_legend().get_texts()]
+    squares = drawn.found.squares
+    for text in (text for text in main.texts if text.get_text().isdecimal()):
+        x, y = (min(int(share * len(squares)), len(squares) - 1) for share in text.get_position())
+        told = next(line for line in lines if line.startswith(f"{text.get_text()}  "))
+        near = set(np.unique(squares[max(y - 4, 0) : y + 5, max(x - 4, 0) : x + 5]).tolist())
+        assert any(f"  {region.phases}  " in told for region in drawn.regions if region.sequence in near)
+
+
+@pytest.mark.parametrize(("release", "hatch"), [({}, "////"), ({"slip0": 1.0}, "xxx")])
+def test_what_hops_and_what_jams_is_hatched_where_it_does(release, hatch):
+    """From rest with spin enough; and skids released where Coulomb's law has no finite force, which jam."""
+    over = {"release.omega0": (0.0, 4.0)} if not release else {"release.phi0_deg": (181.0, 359.0)}
+    found = atlas_of(load_scene("paper-3.1").replace(release=release), over | {"friction.mu": (0.02, 1.5)}, side=16)
+    mask = found.found.jams if release else found.found.hops
+    assert mask.any()
+    assert not np.array_equal(mask, mask.T)
+    main = found.plot().axes[0]
+    (drawn,) = (each for each in main.collections if getattr(each, "hatches", None) == [hatch])
+    share = np.linspace(0, 1, 17)
+    inside = np.array([[any(path.contains_point((x, y)) for path in drawn.get_paths()) for x in share] for y in share])
+    within = (slice(1, -1), slice(1, -1))  # points of the frame are on the edge of what is filled
+    assert np.array_equal(inside[within], mask[within])
 
 
 @pytest.mark.parametrize("over", ["hoop.k=0.1", "hoop.k=a:b", "hoop.k=0.1:0.2:0.3", "hoop.k=0.1:0.2"])
