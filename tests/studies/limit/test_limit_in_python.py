@@ -7,11 +7,15 @@ import dataclasses
 import numpy as np
 import pytest
 
-from rigid import Run, load_scene
+from rigid import Run, load_scene, simulate
 from studies import LimitStudy
+from studies.inner.events import passage
+from studies.inner.layers import layer, outer_forces
 from studies.limit.compliant import Sight
+from studies.limit.damping import Spot
 from studies.limit.prediction import predict
-from studies.limit.study import OBSERVED
+from studies.limit.study import OBSERVED, EventFound
+from studies.limit.summary import damping_sentences, event_sheet, map_sheet, sight_sheet
 
 AWAY = 1.05
 """Observed over predicted distance of a solver made up here."""
@@ -54,6 +58,63 @@ def test_the_table_has_a_row_for_each_measure_of_each_run(study):
     assert (seen["distance"] / seen["predicted"]).tolist() == pytest.approx([AWAY] * len(seen), rel=1e-6)
     assert (seen["value"] - seen["limit"]).tolist() == seen["distance"].tolist()
     assert set(frame[frame["failure"] != ""]["solver"]) == {"flexible"}
+
+
+def columns_of(sheet) -> dict[str, list[str]]:
+    """The cells of a sheet by heading; of headings that stand twice a list behind the other."""
+    columns: dict[str, list[str]] = {}
+    for column in (*sheet.keys, *sheet.columns):
+        columns.setdefault(column.heading.replace("\n", " "), []).extend(column.cells)
+    return columns
+
+
+def test_the_sheet_of_what_was_seen_divides_both_distances_by_one_power(study):
+    """Of a solver that is off by 1.05 of what is predicted: at any foundation the coefficient, and 1.05 times that."""
+    told = columns_of(sight_sheet(study))
+    assert told["observed/ predicted"] == [f"{AWAY:.3f}"] * 2 * len(OBSERVED)
+    for i, name in enumerate([*OBSERVED, *OBSERVED]):
+        coefficient = study.prediction.terms[name].coefficient
+        assert float(told["predicted"][i]) == pytest.approx(coefficient, rel=1e-3)  # four digits
+        assert float(told["distance over power"][i]) == pytest.approx(AWAY * coefficient, rel=1e-3)
+
+
+def test_the_sheet_of_events_has_the_forces_of_the_rigid_hoop(study):
+    """Spin, roll, skid: F = mu N before the first event and -mu N behind the last, the angles those of the phases."""
+    way = passage(study.scene)
+    events = []
+    for event in way.events:
+        sides = [outer_forces(way.body, event, behind) for behind in (False, True)]
+        events.append(EventFound(event, *sides, layer(way.body, way.contact, event, 0.5), 0.1, 0.0))
+    told = columns_of(event_sheet(dataclasses.replace(study, events=tuple(events))))
+    phases = [phase for phase in simulate(study.scene).phases if phase.t_start >= way.pulse.t_start]
+    assert [float(cell) for cell in told["phi [deg]"]] == pytest.approx(
+        [np.degrees(phase.phi_start) for phase in phases[:2]], abs=6e-4
+    )
+    n_before, n_behind = (float(told[f"{side} [Mg]"][place]) for side, place in (("N before", 0), ("behind", 1)))
+    f_before, f_behind = (float(told[f"{side} [Mg]"][place]) for side, place in (("F before", 0), ("behind", 3)))
+    mu = study.scene.friction.mu
+    assert f_before / n_before == pytest.approx(mu, rel=1e-4)  # five digits
+    assert f_behind / n_behind == pytest.approx(-mu, rel=1e-4)
+
+
+def test_a_map_has_dampings_down_and_foundations_across():
+    spots = [Spot(d, f, 1.0, d + f / 1e12, 0.0, 0.0) for f in (1e11, 2e11) for d in (0.1, 0.5, 0.2)]
+    told = columns_of(map_sheet(spots))
+    assert told["damping"] == ["0.1", "0.2", "0.5"]
+    assert [float(cell) for cell in told["1e+11"]] == pytest.approx([0.2, 0.3, 0.6])
+    assert [float(cell) for cell in told["2e+11"]] == pytest.approx([0.3, 0.4, 0.7])
+
+
+@pytest.mark.parametrize(("damping", "word"), [(0.3, "above"), (0.05, "below")])
+def test_a_damping_is_said_to_be_on_the_side_of_the_critical_one_on_which_it_is(study, damping, word):
+    way = passage(study.scene)
+    event = way.events[0]
+    history = layer(way.body, way.contact, event, 0.5)
+    found = EventFound(event, (1.0, 0.3), (1.0, 0.1), history, 0.1, 0.0)
+    scene = study.scene.replace(contact={"damping": damping})
+    (said, *_) = damping_sentences(dataclasses.replace(study, scene=scene, events=(found,)))
+    assert said.startswith("Below a damping ratio of 0.1 ")
+    assert said.endswith(f"this scene's {damping} is {word} it.")
 
 
 @pytest.mark.parametrize("form", [(), ("--json",)])
