@@ -43,6 +43,18 @@ def test_what_is_filled_is_what_runs_give(drawn: Atlas):
     assert np.array_equal(drawn.found.values[0][computed], seen.share.reshape(computed.shape)[computed])
 
 
+def test_the_arrays_of_a_map_are_in_the_units_that_they_say(drawn: Atlas):
+    """Where hoops were run: J_F/(mu J_N), loss over M g R and peak over M g of the motion of that row and column."""
+    for row, column in ((16, 16), (48, 0), (0, 64)):
+        assert drawn.found.computed[row, column]
+        k, mu = float(drawn.x[column]), float(drawn.y[row])
+        friction = {"mu": mu, "mu_s": mu * 0.35 / 0.3}
+        pulse = simulate(load_scene("paper-3.1").replace(hoop={"k": k}, friction=friction)).pulses[0]
+        told = [a[row, column] for a in (drawn.impulse_share, drawn.friction_loss, drawn.peak_normal_force)]
+        wanted = [pulse.impulse_ratio / mu, pulse.friction_loss, pulse.peak_normal_force]
+        assert told == pytest.approx(wanted, rel=1e-9, abs=1e-12)
+
+
 def test_rolling_throughout_begins_where_the_closed_form_has_it(drawn: Atlas):
     """The last slip of the pulse ends at the k of section 3.2, to a part of a square."""
     rows = WITHIN * SIDE

@@ -17,6 +17,7 @@ import pytest
 from rigid import load_scene, scene_from_dict, simulate
 from studies import Ladder, StudyError, limit_of, stiffness_study
 from studies.cli import hoop as cli
+from studies.limit.prediction import predict
 from studies.plots.difference import (
     FORCES,
     at_the_same_angle,
@@ -27,7 +28,7 @@ from studies.plots.difference import (
 from studies.running import history
 from studies.stiffness.figures import distances, impulse_space
 from studies.stiffness.limits import CONFIDENCE, fitted_series
-from studies.stiffness.summary import case_cells, prediction_sentence, verdict
+from studies.stiffness.summary import case_cells, case_heading, prediction_sentence, rigid_cells, verdict
 
 THIRD = "third_solver:softened"
 LINE = ("study", "stiffness", "paper-3.3-massless", "--solver", THIRD, "--workers", 1, "--count", 5)
@@ -162,6 +163,71 @@ def test_the_histories_of_a_pulse_end_where_its_measures_do():
     spinning = columns["t"] < pulse.phases[0].t_end
     ratio = columns["friction_impulse"][spinning][5:] / columns["normal_impulse"][spinning][5:]
     assert ratio == pytest.approx(motion.scene.friction.mu, rel=1e-3)
+
+
+def foreseen(study):
+    """The study with what theory says of its scene, which the third solver does not do."""
+    return replace(study, prediction=predict(study.scene.replace(run={"until": "pulse"})))
+
+
+def test_distances_are_drawn_in_units_of_their_own(study):
+    """A hoop of 0.3 m and 2 kg: m g R = 5.886 J and m sqrt(g R) = 3.43 N s are what its distances are multiples of."""
+    scene = study.scene.replace(hoop={"R": 0.3, "m": 2.0, "g": 9.81})
+    si = foreseen(stiffness_study(scene, Ladder("both", 1e8, 1e13, 6), solver=THIRD))
+    foundation = [rung.contact_stiffness for rung in si.rungs]
+    for name, unit in (("impulse_ratio", 1.0), ("friction_loss", 5.886), ("normal_impulse", 2 * 2.943**0.5)):
+        drawn, limit = si.distance(name), si.limits[name]
+        assert drawn.stiffness == pytest.approx(foundation)
+        away = np.array([rung.measure(name) for rung in si.rungs]) - limit.rigid
+        assert drawn.off * unit == pytest.approx(away, rel=1e-9)
+        assert drawn.error * unit == pytest.approx([rung.error(name) for rung in si.rungs], rel=1e-9)
+        assert drawn.predicted[0][[0, -1]] == pytest.approx(drawn.stiffness[[0, -1]])
+        term = si.prediction.terms[name]
+        assert drawn.predicted[1] * unit == pytest.approx(
+            np.abs(term.at(drawn.predicted[0] ** (-1 / 3)) - term.limit), rel=1e-9
+        )
+
+
+def test_a_coefficient_is_of_the_cases_for_which_theory_holds(study):
+    """Those from the foundation on at which the events are separate, and no other."""
+    known = foreseen(study)
+    least = known.rungs[3].contact_stiffness
+    held = replace(known, separate=least).coefficient("impulse_ratio")
+    assert held == replace(known, rungs=known.rungs[3:]).coefficient("impulse_ratio")
+    assert held != known.coefficient("impulse_ratio")
+    assert known.expected("impulse_ratio", least) > 0
+    assert replace(known, separate=1.01 * least).expected("impulse_ratio", least) == 0
+
+
+def test_a_record_has_both_stiffnesses_under_their_names(study):
+    for record, rung in zip(study.records(), study.rungs, strict=True):
+        scene = scene_from_dict(rung.outcome.scene)
+        assert record["bending_stiffness"] == scene.ring.bending_stiffness
+        assert record["contact_stiffness"] == scene.contact.stiffness
+        assert record["impulse_ratio"] == rung.outcome.pulses[0]["impulse_ratio"]
+
+
+def test_what_is_said_to_be_observed_and_to_lie_outside_is(study):
+    """The third solver is not what theory foresees: both numbers are told, and which is which."""
+    known = foreseen(study)
+    told = prediction_sentence(known)
+    seen = known.coefficient("impulse_ratio")
+    assert seen.observed != pytest.approx(seen.predicted, rel=1e-2)
+    assert f"{seen.observed:.4g} ± {seen.uncertainty:.2g} observed, {seen.predicted:.4g} predicted" in told
+    other = replace(study.limits["normal_impulse"], value=2.0, uncertainty=0.25, rigid=3.0, span=9.0)
+    said = verdict(replace(study, limits={**study.limits, "normal_impulse": other}))
+    assert "J_N (normal impulse) tends to 2.000000 ± 0.25" in said
+    assert "3.000000, outside that interval by 0.75" in said
+    row = dict(zip(rigid_cells_heads(study), rigid_cells(study), strict=True))
+    pulse = study.reference.pulses[0]
+    assert float(row["J_F/J_N"]) == pytest.approx(pulse["impulse_ratio"], abs=6e-6)
+    assert float(row["J_N"]) == pytest.approx(pulse["normal_impulse"], rel=1e-4)
+
+
+def rigid_cells_heads(study) -> list[str]:
+    """The headings of the ladder's table without their units; the two errors apart."""
+    heads = [head.partition("\n")[0] for head in case_heading(study)]
+    return [f"{heads[i - 1]} ±" if head == "±" else head for i, head in enumerate(heads)]
 
 
 def test_the_line_of_a_fitted_series_goes_through_its_cases():
