@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from meshes import Block, Placement
-from meshes.draw.scales import scalar, tidy
-from meshes.draw.shots import Shot
+from meshes.draw.scales import limits, scalar, scale_of, tidy, tidy_factor
+from meshes.draw.shots import Curves, Shot
 from meshes.fields import LINE
 
 THETA = np.array([-0.5, -0.2, -0.1, 0.0, 0.1, 0.2, 0.7])  # denser where it touches, as a rim is
@@ -56,3 +56,42 @@ def test_a_component_of_the_stress_is_that_of_the_world(phi, pulled):
     block = Block(np.zeros((1, 3)), np.zeros((1, 2), dtype=int), LINE, {"stress": stress})
     told = {component: float(scalar(block, f"stress {component}")[0]) for component in ("xx", "yy", "xy")}
     assert told == pytest.approx({"xx": 0.0, "yy": 0.0, "xy": 0.0} | {pulled: 3.0}, abs=1e-15)
+
+
+def coloured(values):
+    """An instant of a ring whose points have these values of a field."""
+    block = Block(np.zeros((len(values), 3)), np.zeros((1, 2), dtype=int), LINE, {"hoop_stress": np.array(values)})
+    return Shot(0.0, block, None, np.zeros(2), 1.0)
+
+
+def test_colours_reach_from_the_least_to_the_largest_of_the_run():
+    """But for the highest thousandth; of a signed field, whose middle colour is 0, as far to either side."""
+    tension, pressure = coloured(np.linspace(0, 2, 10_001)), coloured(np.linspace(0, -5, 10_001))
+    low, high = limits([tension, pressure], "hoop_stress", False)
+    assert low == -5.0
+    assert high == pytest.approx(2.0, abs=0.01)
+    low, high = limits([tension, pressure], "hoop_stress", True)
+    assert low == -high
+    assert high == pytest.approx(5.0, abs=0.02)
+    assert limits([tension], "hoop_stress", False)[0] == 0.0
+    spike = coloured([*np.linspace(0, 2, 10_001), 1e6])
+    assert limits([spike], "hoop_stress", False)[1] == pytest.approx(2.0, abs=0.01)
+
+
+@pytest.mark.parametrize("R", [1.0, 0.02])
+def test_displacements_are_enlarged_to_a_share_of_the_radius(R):
+    """Up to 0.06 R, and no less than two fifths of that, whatever the unit of length."""
+    seen = []
+    for size in (1e-5, 3e-4):
+        moved = shot([0, 0, 0, 1, 0, 0, 0], moved=size * R)
+        seen.append(replace(moved, ring=moved.rim, radius=R))
+    factor = tidy_factor(seen)
+    assert 0.4 * 0.06 < 3e-4 * factor <= 0.06 * (1 + 1e-12)
+    assert tidy_factor([replace(seen[0], ring=coloured([1.0]).ring)]) == 1.0, "nothing moves"
+
+
+def test_arrows_are_scaled_by_the_largest_resultant_and_slip():
+    """Of N = 3 and F = -4 at one instant it is 5; slips count without their sign."""
+    curves = Curves(np.arange(3.0), np.array([4.5, 3.0, 1.0]), np.array([0.0, -4.0, 1.0]))
+    shots = [replace(coloured([0.0]), slip_velocity=v) for v in (None, -0.7, 0.2)]
+    assert scale_of(curves, shots) == {"force": 5.0, "slip": 0.7, "usual": 0.0}

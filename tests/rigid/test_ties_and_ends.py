@@ -49,6 +49,25 @@ def test_smallest_friction_that_rolls_throughout():
     assert len(kinds(simulate(Scene(hoop, Friction(mu_s * (1 - 1e-10), 0.3), RELEASE)))) > 1
 
 
+@pytest.mark.parametrize(
+    ("hoop", "release"),
+    [
+        (Hoop(0.6), RELEASE),
+        (Hoop(0.3, 1.02, 1.0), Release(radians(100))),
+        (Hoop(0.3, 1.02, 1.0), Release(radians(150), 0.5)),
+        (Hoop(0.3, 1.02, 8.0), Release(radians(100), 1.5)),
+        (Hoop(0.6, 1.0, 2.0), Release(radians(200), -0.1)),
+    ],
+)
+def test_the_friction_that_rolls_throughout_is_the_largest_ratio_of_the_swing(hoop, release):
+    """|F|/N of a hoop that cannot slip, sampled over its swing, over the top too, to the square of the distance."""
+    needed = rolling_mu_s(hoop, release)
+    motion = simulate(Scene(hoop, Friction(1e3, 1e3), release, Run(t_end=15.0)))
+    assert kinds(motion) == [Kind.ROLL]
+    states = motion.at(np.linspace(0, motion.t_end, 50_001)[:-1])
+    assert (np.abs(states.friction_force) / states.normal_force).max() == pytest.approx(needed, rel=1e-6)
+
+
 def test_no_friction_rolls_where_n_would_vanish():
     """A tiny disk on a massless hoop cannot roll through: N of rolling falls below 0."""
     assert rolling_mu_s(Hoop(1e-3), RELEASE) == inf
