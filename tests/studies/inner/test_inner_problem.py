@@ -309,7 +309,7 @@ def test_a_slip_that_starts_needs_no_damper():
 
 
 def test_a_brush_breaks_away_from_what_it_carries_at_the_most():
-    """mu_s > mu: its layer begins at the F of the rigid hoop before, and no bristle pushes against the others."""
+    """mu_s > mu: its layer begins at the F of the rigid hoop before."""
     way = passage(scene_of(0.1, law="brush"))
     event = way.events[-1]
     assert event.kind == START
@@ -317,8 +317,21 @@ def test_a_brush_breaks_away_from_what_it_carries_at_the_most():
     normal, friction = outer_forces(way.body, event, False)
     # of the part that sticks a twentieth is let go: by the law above it carries less by a few times that squared
     assert found.friction_force[0] / found.normal_force[0] == pytest.approx(friction / normal, rel=0.02)
-    sliding = found.mode != STICK
-    assert (found.mode[sliding] * found.friction_force[sliding] > 0).all(), "it slides the way that friction says"
+
+
+@pytest.mark.parametrize(("slip", "way"), [(30.0, SLIDE_LEFT), (-30.0, SLIDE_RIGHT)])
+def test_a_brush_that_slides_throughout_is_pushed_against_its_slip(end_of_spin, slip, way):
+    """So fast that no bristle holds: F = -+ mu N, to round-off of the sum over the bristles."""
+    body, contact, event = end_of_spin
+    normal, state = sliding_patch(body, contact, event, 0.0)
+    state[OMEGA], state[SLIP], half = 0.0, slip, half_width(normal)
+    kept = bristles(2 * half / 100)
+    set_stretch(kept, half, np.zeros(3), True)
+    brush = contact._replace(law=BRUSH)
+    records = march(System(body, brush, 0.0), state, STICK, kept, np.array([0.5, inf, 0.1, 1.0, inf]))[0]
+    late = records[len(records) // 2 :]
+    assert (late[:, 3] * slip > 0).all(), "it slips all the time"
+    assert late[:, 2] == pytest.approx(way * contact.mu * late[:, 1], rel=1e-9)
 
 
 def test_when_a_layer_is_over_is_read_off_its_history():
