@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 import numpy as np
+import pytest
 
 from rigid import Friction, Hoop, Kind, Landing, Release, Run, Scene, simulate, simulate_batch
 from studies import measures
@@ -30,6 +31,19 @@ def test_the_phases_of_a_pulse_are_those_that_a_batch_has():
             assert phase_sequence(motion, pulse) == [str(kind.value) for kind in batch.phases(i, j)]
             landings += any(p.kind == Kind.IMPACT and p.t_start == pulse.t_start for p in motion.phases)
     assert landings > 5  # enough of them to tell
+
+
+def test_the_three_restitutions_of_a_pulse_are_told_apart():
+    """With friction they differ: Newton's is that of velocities, Poisson's of impulses, the energetic one of works."""
+    scene = Scene(Hoop(0.1, 1.02, 0.1), Friction(0.35, 0.3), Release(phi0_deg=10), run=Run(until="pulse"))
+    motion = simulate(scene)
+    pulse = motion.pulses[0]
+    told = measures(motion, pulse)
+    names = ("newton_restitution", "poisson_restitution", "energetic_restitution")
+    assert [told[name] for name in names] == [getattr(pulse, name) for name in names]
+    assert len({told[name] for name in names}) == 3
+    assert told["impulse_ratio_over_mu"] == pytest.approx(told["friction_impulse"] / told["normal_impulse"] / 0.3)
+    assert told["duration"] == pulse.t_end - pulse.t_start
 
 
 def test_the_peak_of_a_jam_is_null_in_json():
