@@ -162,3 +162,17 @@ def brush_pull(
     if carried == 0:
         return 0.0, 0.0
     return pull * (2 / 3) * half**3 / carried, stuck / (high - low + 1)
+
+
+@part
+def way_of_sliding(kept: Any) -> int:
+    """1 or -1 where a brush slid throughout in the last step taken, to the right or to the left; 0 where it stuck.
+
+    A bristle that slides stands just where it would stick: the next step alone says which.
+    """
+    total = 0
+    for j in range(kept.ends[0], kept.ends[1] + 1):
+        if kept.sliding[j % SIZE] == 0:
+            return 0
+        total += kept.sliding[j % SIZE]
+    return 1 if total > 0 else -1

@@ -77,11 +77,14 @@ class Layer:
 
     @property
     def resticks(self) -> float | None:
-        """tau from which on the patch sticks for good; None if it slides at the end, or has no stick."""
+        """tau from which on the patch sticks for good; None if it slides at the end, or has no stick, or breaks away on
+        a longer clock than this one, as a brush with mu_s > mu does."""
         if self.law == REGULARISED or self.mode[-1] != STICK:
             return None
         slides = np.flatnonzero(self.mode != STICK)
-        return float(self.tau[slides[-1] + 1]) if slides.size else 0.0
+        if not slides.size:
+            return None if self.event.kind == START else 0.0
+        return float(self.tau[slides[-1] + 1])
 
     def settled(self, normal: float, share: float = 0.02) -> float | None:
         """tau from which on N is within a ``share`` of the force it tends to; None if it is not by the end."""
@@ -187,7 +190,11 @@ def _marched(system: System, state: Array, mode: int, kept: Bristles, ends: Arra
 def _break_away(
     contact: ScaledContact, event: Event, half: float, normal: float, friction: float, kept: Bristles
 ) -> None:
-    """A brush that has just begun to break: its leading part sticks in steady rolling, and slides behind that."""
+    """A brush that has just begun to break: its leading part sticks in steady rolling, and slides behind that.
+
+    It runs away more slowly than a layer lasts (:func:`studies.limit.onset.brush_delay`): what is seen here is how near
+    to it the roll stays.
+    """
     part = sticking_part(contact.mu_s, contact.mu, abs(friction) / normal)
     slip = creep(contact, normal, friction, event.omega).slip
     low, high = kept.ends

@@ -22,7 +22,7 @@ import numpy as np
 from rigid.kernel.compile import jit, part
 
 from . import body as mechanics
-from .bristles import brush_pull, set_stretch, step_on, total_stretch
+from .bristles import brush_pull, set_stretch, step_on, total_stretch, way_of_sliding
 
 PATCH, BRUSH, REGULARISED = range(3)  # the codes of the laws in flexible.contact.laws, each in its scaled form here
 STICK, SLIDE_RIGHT, SLIDE_LEFT = 0, 1, -1  # a spinning hoop is pushed to the right
@@ -148,10 +148,8 @@ def _switch(state: Any, contact: Any, mode: int, kept: Any) -> int:
 def _note(row: Any, tau: float, state: Any, contact: Any, mode: int, kept: Any) -> None:
     """Fill a record."""
     row[1], row[2] = _forces(state, contact, mode, kept)
-    if contact.law == BRUSH:  # it sticks as long as any of its bristles does
-        half, _, eta = _normal(state, contact.theta)
-        if half > 0 and brush_pull(kept, contact, half, state[ROLLED], state[WAY], eta, False)[1] == 0:
-            mode = SLIDE_RIGHT if row[2] > 0 else SLIDE_LEFT
+    if contact.law == BRUSH and _normal(state, contact.theta)[0] > 0:
+        mode = way_of_sliding(kept)
     row[0], row[3], row[4], row[5] = tau, state[SLIP], state[HEIGHT], mode
     row[6], row[7] = state[PSI], state[OMEGA]
 

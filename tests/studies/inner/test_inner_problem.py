@@ -332,6 +332,7 @@ def test_a_brush_that_slides_throughout_is_pushed_against_its_slip(end_of_spin, 
     late = records[len(records) // 2 :]
     assert (late[:, 3] * slip > 0).all(), "it slips all the time"
     assert late[:, 2] == pytest.approx(way * contact.mu * late[:, 1], rel=1e-9)
+    assert (late[:, 5] == way).all(), "and is said to"
 
 
 def test_when_a_layer_is_over_is_read_off_its_history():
