@@ -20,6 +20,9 @@ from .solvers import build, solver, version
 SHARE = 0.1
 """Numerical error may be this share of the distance that a study reports."""
 
+SAME = 1e-13
+"""A measure this near to the rigid one, in its unit, is that in any run, as J_F/J_N = mu where a pulse slides
+throughout: there is no distance to resolve."""
 NEGLIGIBLE = 1e-7
 """Numerical error below this (J_F/J_N, or m g R) is not made smaller: a measure may happen to cross the rigid value,
 and no error is a tenth of nothing."""
@@ -230,8 +233,14 @@ def _resolved(case: Case) -> dict[str, Any]:
 
 def _is_resolved(case: Case, found: dict[str, Any]) -> bool:
     """Whether the numerical error is at most its share of every distance."""
-    pulse, error = found["pulses"][0], found["numerical_error"][0]
-    return all(error[name] <= SHARE * max(abs(pulse[name] - rigid), expected) for name, rigid, expected in case.against)
+    error = found["numerical_error"][0]
+    return all(error[name] <= SHARE * away for name, away in _distances(case, found["pulses"][0]).items())
+
+
+def _distances(case: Case, pulse: Mapping[str, float]) -> dict[str, float]:
+    """How far measures are from the rigid ones, those that are there already left out."""
+    found = {name: max(abs(pulse[name] - rigid), expected) for name, rigid, expected in case.against}
+    return {name: away for name, away in found.items() if away > SAME * MEASURES[name].unit.of(case.scene)}
 
 
 def _pair(case: Case, rtol: float, most: float = inf) -> tuple[dict[str, Any], float]:
@@ -244,9 +253,8 @@ def _pair(case: Case, rtol: float, most: float = inf) -> tuple[dict[str, Any], f
         raise Unfinished(f"no pulse came to its end: {fine['ended']}")
     errors = tuple(_errors(old, new) for old, new in zip(coarse["pulses"], fine["pulses"], strict=True))
     excess = 0.0
-    for name, rigid, expected in case.against:
-        unit = MEASURES[name].unit.of(case.scene)
-        allowed = max(SHARE * max(abs(fine["pulses"][0][name] - rigid), expected), NEGLIGIBLE * unit)
+    for name, away in _distances(case, fine["pulses"][0]).items():
+        allowed = max(SHARE * away, NEGLIGIBLE * MEASURES[name].unit.of(case.scene))
         excess = max(excess, errors[0][name] / allowed)
     return fine | {"numerical_error": errors}, excess
 

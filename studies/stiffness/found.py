@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rigid import Scene, scene_to_dict
 from rigid.output import summary
 
-from ..running.case import SHARE, Outcome
+from ..running.case import SAME, SHARE, Outcome
 from ..running.history import rows_to_csv
 from ..running.measures import MEASURES
 from .coefficient import Coefficient, coefficient
@@ -124,7 +124,9 @@ class StiffnessStudy:
             name: max(abs(rung.measure(name) - self.limits[name].rigid), self.expected(name, rung.contact_stiffness))
             for name in LIMITS[:2]
         }
-        return tuple(name for name, away in distances.items() if rung.error(name) > SHARE * away) or LIMITS[:2]
+        least = {name: SAME * MEASURES[name].unit.of(self.scene) for name in distances}
+        loose = (name for name, away in distances.items() if away > least[name] and rung.error(name) > SHARE * away)
+        return tuple(loose) or LIMITS[:2]
 
     def coefficient(self, name: str) -> Coefficient | None:
         """How fast a measure comes to its limit, observed and predicted; None where only the leading one of the powers

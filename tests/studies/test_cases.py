@@ -11,7 +11,7 @@ from third_solver import softened
 
 from flexible import FlexiblePulse
 from rigid import Motion, Scene, load_scene
-from studies.running.case import Case, run_case
+from studies.running.case import FINER, Case, run_case
 from studies.running.store import Store
 
 SCENE = load_scene("paper-3.1")
@@ -46,6 +46,15 @@ def test_a_measure_that_there_is_not_comes_back_as_none(tmp_path):
     for mine, theirs in zip(outcome.pulses, back.pulses, strict=True):
         assert isnan(mine["impulse_ratio_over_mu"])
         np.testing.assert_array_equal(list(theirs.values()), list(mine.values()))
+
+
+def test_what_is_the_rigid_value_in_any_run_is_resolved_by_the_first():
+    """A hoop that nothing brakes slides: J_F = 0 at any tolerance, and there is no distance to be a tenth of."""
+    scene = load_scene("paper-3.3-massless").replace(friction={"mu_s": 0, "mu": 0}, run={"until": "pulse"})
+    outcome = run_case(Case("flexible", scene, against=(("impulse_ratio", 0.0, 0.0), ("friction_loss", 0.0, 0.0))))
+    assert outcome.resolved
+    assert outcome.rtol == scene.solve.rtol / FINER
+    assert outcome.numerical_error[0]["friction_loss"] > 0, "an error there is"
 
 
 def losing(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:

@@ -182,7 +182,7 @@ def test_another_window_leaves_the_rim_where_it_was(hoop):
 
 
 @pytest.mark.parametrize("level", [ChainHoop, ReducedHoop])
-@pytest.mark.parametrize(("elements", "close"), [(240, 0.18), (480, 0.04)])
+@pytest.mark.parametrize(("elements", "close"), [(240, 0.18), pytest.param(480, 0.04, marks=pytest.mark.slow)])
 def test_a_stiff_floor_dents_the_wall_as_hertz_has_it(level, elements, close):
     """Half-width of a line contact in plane stress, a^2 = 4 N R/(pi E b), on a floor 1e5 times as stiff as the wall.
 

@@ -31,6 +31,7 @@ def test_a_ring_that_lands_flat_is_rolled_on():
 FLAT = ROLL.replace(ring={"bending_stiffness": 0.5}, hoop={"k": 0.3})
 
 
+@pytest.mark.slow
 def test_a_soft_hoop_at_rest_takes_long_steps():
     """From equilibrium the hoop hardly moves, and in one step its patch may be another one.
 
@@ -164,6 +165,7 @@ def test_newton_does_not_go_to_and_fro_for_ever():
     assert motion.completed, motion.ended
 
 
+@pytest.mark.slow
 def test_a_stiff_floor_under_a_thick_wall_of_the_reduced_ring():
     """As above on the reduced level: impulses of the pulse are those of a mesh twice as fine, to what rtol promises."""
     scene = HOOP.replace(
@@ -179,6 +181,7 @@ def test_a_stiff_floor_under_a_thick_wall_of_the_reduced_ring():
     assert abs(one.friction_impulse - other.friction_impulse) < 1e-3 * other.normal_impulse
 
 
+@pytest.mark.slow
 def test_a_wall_that_throws_the_hoop_back():
     """A disk too small for its ring comes back out of the pulse where it came in: the pulse is over, and it is said."""
     scene = HOOP.replace(

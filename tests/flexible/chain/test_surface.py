@@ -83,6 +83,7 @@ def test_the_wall_beside_the_weld_has_its_mass():
     np.testing.assert_allclose(ends.gyro, -ends.gyro.T, atol=1e-15)
 
 
+@pytest.mark.slow
 def test_the_rim_beside_the_weld_moves_as_the_mesh_s_to_second_order():
     """A push and a pull behind the weld: their sum, from a wall over the disk to its end, to a twentieth.
 

@@ -116,6 +116,7 @@ def test_equilibria_of_the_levels():
         assert heights[2] == pytest.approx(heights[1], rel=0.01)
 
 
+@pytest.mark.slow
 def test_equilibrium_of_a_soft_ring():
     """E b R/(m g) = 1e6: the sag is several walls, and forces balance; softer than it can carry is said to be so."""
     pose = Pose(2.2, 1.0, 0.0, 1.3, -0.2, Kind.ROLL)

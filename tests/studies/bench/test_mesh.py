@@ -39,6 +39,7 @@ def test_elements_are_chosen_by_what_is_assumed_here():
         assert elements_around(3 * assumed / 2**3.4, bending, wall) == pytest.approx(480, abs=1)
 
 
+@pytest.mark.slow
 def test_a_mesh_that_leaves_too_much_is_told_and_drawn(monkeypatch):
     """By its ring, and what is stated of the chosen ones holds: steps are fine enough not to hide it."""
     monkeypatch.setattr(mesh, "places", lambda quick: [ONE])

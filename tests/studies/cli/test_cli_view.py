@@ -58,7 +58,7 @@ def test_frames_at_listed_times_with_listed_fields(hoop, run, tmp_path):
 
 
 @needs_renderer
-def test_view_draws_a_picture_and_an_animation(run, tmp_path):
+def test_view_draws_a_picture_and_an_animation(hoop, run, tmp_path):
     from PIL import Image
 
     png, gif = tmp_path / "a.png", tmp_path / "a.gif"
@@ -70,12 +70,10 @@ def test_view_draws_a_picture_and_an_animation(run, tmp_path):
     assert is_one_sentence(done.stderr)
     assert f"t = {nearest}, the frame nearest to 5.85" in done.stderr
     for exact in (("--time", nearest), ()):
-        done = process("view", run, "--png", png, *exact)
-        assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+        assert hoop("view", run, "--png", png, *exact) == (0, "", "")
     with Image.open(png) as image:
         assert len(image.convert("RGB").getcolors(maxcolors=10**7)) > 100
-    done = process("view", run, "--gif", gif, "--frames", 3, "--fps", 5, "--pace", "time", "--factor", 100)
-    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert hoop("view", run, "--gif", gif, "--frames", 3, "--fps", 5, "--pace", "time", "--factor", 100) == (0, "", "")
     with Image.open(gif) as image:
         assert image.n_frames == 3
 

@@ -61,6 +61,7 @@ def test_first_hops_are_compared_at_the_finest_with_what_the_setting_before_had(
     assert not compared([*found[:-1], Rolled(CASES[0], THEIRS, "", note="ended early")]), "no hop to compare"
 
 
+@pytest.mark.slow
 def test_without_the_other_code_ours_rolls_and_that_is_said(hoop, monkeypatch, tmp_path):
     monkeypatch.setattr(peers, "installed", lambda name: False)
     monkeypatch.setattr(peers, "CASES", CASES[1:2])
@@ -112,6 +113,7 @@ WHOLE_ROLL = (
 18 to 29 % less and are 6, 10 and 33 % lower; the fourth and the last are others."""
 
 
+@pytest.mark.slow
 def test_a_whole_roll_is_that_of_geometrically_exact_cables():
     """E I/(m g R^2) = 10 from 10 degrees, k = 0.1, m_h/m = 0.1, undamped: the vibration of its start throws it up at
     each swing, over the pulse to the next turn. A third of the tolerance moves ours by 0.003, 1 % and 3 % (the
