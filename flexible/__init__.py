@@ -17,9 +17,9 @@ In the order in which they build on each other:
 ``models``    a hoop that can be moved in time: reduced, all nodes, geometrically exact, chain
 ``time``      one implicit step; adaptive steps with located events
 ``handover``  where a flexible segment begins: in the equilibrium of a rigid motion
-``solve``     simulate(scene), ``pulses`` which of them a motion has, ``told`` how far it is and why it ends;
-              ``builder`` what a motion is put together from, ``segment`` records read as phases and pulses,
-              ``motion`` what comes back, ``saved`` from a file and ``packed`` into one
+``builder``   what a motion is put together from, ``segment`` records read as phases and pulses, ``motion`` what comes
+              back, ``saved`` from a file and ``packed`` into one
+``run``       simulate(scene): pulse by pulse or flexible throughout, which pulses it has, how it ends
 ``output``    displacement and stress, all fields as a series on disk, the hoop as a whole (not loaded here)
 """
 
@@ -27,8 +27,8 @@ from typing import TYPE_CHECKING
 
 from .motion import FlexibleMotion, FlexiblePulse, History, Ledger
 from .ring.possible import ensure_possible
+from .run.solve import simulate
 from .saved import load_motion
-from .solve import simulate
 
 if TYPE_CHECKING:
     __version__: str

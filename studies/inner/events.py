@@ -7,7 +7,7 @@ from math import pi
 
 from flexible import rigid_limit
 from flexible.contact.laws.listing import LAWS
-from flexible.pulses import lead
+from flexible.run.pulses import lead
 from rigid import Kind, Motion, Pulse, Run, Scene, simulate
 from rigid.output.units import without_units
 

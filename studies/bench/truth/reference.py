@@ -114,7 +114,7 @@ def run_hoop(scene: Scene, hoop: Any) -> Measured:
         The run did not come to its end.
     """
     from flexible.handover import hand_over
-    from flexible.pulses import LEAD
+    from flexible.run.pulses import LEAD
     from flexible.segment import peak
     from flexible.time.adaptive import march
     from flexible.time.events import Ends

@@ -242,7 +242,7 @@ def test_a_soft_pulse_against_all_nodes(monkeypatch):
     scene = HOOP.replace(ring={"bending_stiffness": 10.0}, hoop={"mass_ratio": 0.05}, solve={"rtol": 3e-4})
     found = []
     for kind in (ChainHoop, ExactHoop):
-        monkeypatch.setattr("flexible.solve.hoop_of", lambda inner, kind=kind: kind(inner, through=2))
+        monkeypatch.setattr("flexible.run.solve.hoop_of", lambda inner, kind=kind: kind(inner, through=2))
         pulse = flexible.simulate(scene).pulses[0]
         ratio = pulse.friction_impulse / pulse.normal_impulse
         found.append([

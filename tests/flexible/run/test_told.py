@@ -5,7 +5,7 @@ from __future__ import annotations
 from scenes import HOOP
 
 from flexible import simulate
-from flexible.told import in_time_of, with_advice
+from flexible.run.told import in_time_of, with_advice
 from rigid import load_scene
 
 

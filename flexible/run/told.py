@@ -6,10 +6,10 @@ import re
 from collections.abc import Callable
 from math import inf
 
-from rigid import Scene
+from rigid import Run, Scene
 from rigid.output.units import Unit
 
-from .time.adaptive import AS_ASKED
+from ..time.adaptive import AS_ASKED
 
 Report = Callable[[float], object]
 Fraction = Callable[[float, float], float]  # of time and angle of a step
@@ -48,9 +48,16 @@ def with_advice(scene: Scene, trouble: str) -> str:
     return f"{trouble}; the pulse of so small a disk wants ring.bending_stiffness well above 1.3/k = {needed:.3g}"
 
 
-def last_turn(number: int) -> str:
-    """That the turns asked for are done."""
-    return f"the last turn asked for is reached: number {number}"
+def run_over(run: Run) -> str:
+    """That the turns, or the time, asked for are done."""
+    if run.turns is None:
+        return "the time to run is over"
+    return f"the last turn asked for is reached: number {run.turns}"
+
+
+def pulse_over(back: bool) -> str:
+    """That the first pulse is over, and whether the hoop turned ``back`` in it."""
+    return "the first pulse is over" + (": the hoop turned back in it" if back else "")
 
 
 def in_time_of(scene: Scene, sentence: str) -> str:

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import ceil, floor, inf, pi
 
-from rigid import Motion, Pulse, Run, Scene
+from rigid import Motion, Pulse
 
-from .builder import Builder
-from .models.select import Hoop
-from .models.state import State
-from .segment import Segment
-from .time.advance import SHORTEST
-from .time.events import Ends
+from ..builder import Builder
+from ..segment import Segment
 
 LEAD = 0.5  # a flexible segment begins this many pulse lengths before the pulse, to let its start settle
 AT_REST = 1e-6  # sqrt(g/R), phidot at a turn, and sqrt(R/g) within which times of it are one
@@ -82,15 +77,6 @@ def _ways(segment: Segment, swing: Motion, pulse: Pulse) -> tuple[float | None, 
     return enters, segment.crossing(pulse.phi_end, after) if len(turned) >= behind else None
 
 
-def to_the_end_of(pulse: Pulse, ends: Ends, phi: float) -> Ends:
-    """``ends``, and the end of a rigid pulse if it lies ahead in this swing: hops may lead to a later one."""
-    if phi < pulse.phi_end < ends.high and pulse.phi_end > pulse.phi_start:
-        return ends._replace(high=pulse.phi_end)
-    if ends.low < pulse.phi_end < phi and pulse.phi_end < pulse.phi_start:
-        return ends._replace(low=pulse.phi_end)
-    return ends
-
-
 def _is_next(swing: Motion, pulse: Pulse) -> bool:
     """Whether the rigid hoop comes to a pulse without a turn on the way."""
     return not any(t < pulse.t_start for t in _turned(swing))
@@ -147,41 +133,3 @@ def add_pulses(builder: Builder, segment: Segment, swing: Motion, pulses: list[P
             if len(builder.pulses) > known and over_bottom(pulse if back else builder.pulses[-1]):
                 found = BACKWARD if back else FORWARD
     return found
-
-
-def rest_of(run: Run, builder: Builder) -> Run | None:
-    """How far there is still to run; None if that is reached."""
-    if run.turns is not None:
-        left = run.turns - len(builder.turns)
-        return Run(turns=left) if left > 0 else None
-    if run.t_end is not None:
-        return Run(t_end=run.t_end - builder.t) if run.t_end - builder.t >= SHORTEST else None
-    return run
-
-
-def swung(
-    scene: Scene, hoop: Hoop, builder: Builder, begins: tuple[State, Motion, list[Pulse], Run, float],
-    watch: Callable[[float, float], None] | None,
-) -> tuple[State, Segment, str]:  # fmt: skip
-    """March through a swing; on through a turn where the disk rocks on a soft wall, in a pulse that is not over.
-
-    ``begins``: the state, the rigid hoop's swing and its pulses, how far to run, and the time to stop at.
-    """
-    state, swing, pulses, run, until = begins
-    turns, inside = turns_of(swing, pulses, run.turns), None
-    segment: Segment | None = None
-    while True:
-        phi = float(state.pos[2])
-        low, high = 2 * pi * (ceil(phi / (2 * pi)) - 1), 2 * pi * (floor(phi / (2 * pi)) + 1)
-        ends = Ends(until, low, high, turns)
-        if run.until == "pulse" and inside is not None:
-            ends = Ends(until, min(inside.phi_start, inside.phi_end), max(inside.phi_start, inside.phi_end), turns)
-        elif run.until == "pulse" and pulses:  # before the first whole pulse there may be the rest of one
-            ends = to_the_end_of(pulses[-1], ends, phi)
-        began = state.t
-        state, part, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
-        segment = part if segment is None else segment.then(part)
-        over = trouble or state.t == began or state.t >= until or rest_of(scene.run, builder) is None
-        inside, turns = None if over else unfinished(segment, swing, pulses), 1
-        if inside is None:
-            return state, segment, trouble

@@ -1,0 +1,48 @@
+"""What lies ahead of a run: how far it has still to go, and the rigid hoop from where it stands."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from rigid import Kind, Motion, Release, Run, Scene
+from rigid.phases.choice import LEAST_LOSS, SLIPS
+
+from ..builder import Builder
+from ..models.select import Hoop
+from ..models.state import State
+from ..time.advance import SHORTEST
+
+
+def rest_of(run: Run, builder: Builder) -> Run | None:
+    """How far there is still to run; None if that is reached."""
+    if run.turns is not None:
+        left = run.turns - len(builder.turns)
+        return Run(turns=left) if left > 0 else None
+    if run.t_end is not None:
+        return Run(t_end=run.t_end - builder.t) if run.t_end - builder.t >= SHORTEST else None
+    return run
+
+
+def from_here(scene: Scene, hoop: Hoop, state: State, run: Run) -> Scene:
+    """The scene whose rigid hoop takes over from a flexible one."""
+    release = Release(float(state.pos[2]), float(state.vel[2]), float(hoop.law.handed_back(state)))
+    return replace(scene, release=release, run=run)
+
+
+def slips_no_more(motion: Motion) -> bool:
+    """Whether a run to rest is over where this rigid motion begins."""
+    slips = [phase.t_end for phase in motion.phases if phase.kind != Kind.ROLL]
+    if not slips or motion.scene.friction.mu == 0:
+        return True
+    if len(slips) < SLIPS:
+        return False
+    before, after = motion.at(np.array([0.0, slips[int(SLIPS) - 1]])).energy
+    return bool(before - after <= LEAST_LOSS * after)
+
+
+def whirls(motion: Motion) -> bool:
+    """Whether a run to turns has none to wait for: this rigid motion has none, and slips no more."""
+    waits = motion.scene.run.turns is not None
+    return waits and motion.period is not None and not motion.turns and slips_no_more(motion)

@@ -1,0 +1,107 @@
+"""``resolve = "pulses"``: rigid between pulses, flexible inside them."""
+
+from __future__ import annotations
+
+from math import inf
+
+import rigid
+from rigid import Motion, Pulse, Scene
+
+from ..builder import Builder
+from ..contact.laws.listing import rigid_limit
+from ..handover import ensure_stands_in, hand_over, one_of
+from ..models.select import Hoop
+from ..models.state import State
+from ..segment import Segment
+from ..time.adaptive import MarchError
+from ..time.advance import SHORTEST
+from ..time.events import Ends
+from .ahead import from_here, rest_of, slips_no_more, whirls
+from .pulses import ends_with_turn, goes_through_turns, lead, over_bottom
+from .told import Progress, pulse_over, run_over, swept, with_advice
+
+BACK = 0.01  # of the way through a segment, by which a hoop that turned back is out where it came in
+WAITS = 10.0  # sqrt(R/g) that a hoop may take for it, beyond four pulse lengths: a swing takes a few
+
+
+def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> str:
+    """Rigid between pulses, flexible inside."""
+    current = scene
+    done, fresh = 0, True  # segments, and whether a pulse that begins at once is one of its own
+    whirled = False
+    while True:
+        motion = rigid.simulate(rigid_limit(current))
+        try:
+            lost = builder.lost_to_hand_overs(float(motion.at(0.0).energy))
+            ensure_stands_in(lost, builder.initial or inf, builder.t)
+        except MarchError as error:
+            builder.completed = False
+            return str(error)
+        # what a motion that takes over begins in is the rest of the pulse that is just over
+        pulse = next((p for p in motion.pulses if p.t_start > 0 or fresh), None)
+        at_rest = scene.run.until == "rest" and slips_no_more(motion)  # what it rolls through is no pulse with a loss
+        goes_round = whirls(motion)
+        if goes_round and whirled:  # for a revolution at least, as the rigid hoop does
+            return motion.ended
+        whirled = goes_round
+        if pulse is None or at_rest:
+            builder.add_rigid(motion, motion.t_end)
+            builder.completed = motion.completed
+            over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
+            return run_over(scene.run) if over else motion.ended
+        start = lead(motion, pulse)
+        ends_there = builder.add_rigid(motion, start)
+        try:
+            state = hand_over(hoop, motion, start, one_of(ends_there, 1))
+        except MarchError as error:
+            builder.completed = False
+            return with_advice(scene, str(error))
+        state = state._replace(t=builder.t, x_C=builder.x_C)
+        ends, timed = _ends_of(motion, pulse, start, state)
+        low, high = done / (done + 2), (done + 1) / (done + 3)
+        watch = progress.watch(low, high, swept((float(state.pos[2]), pulse.phi_end)))
+        state, segment, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
+        at_turn = 0 < ends.turns <= len(segment.turns())
+        onward = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
+        back = not (timed or at_turn) and onward * (float(state.pos[2]) - pulse.phi_end) < 0
+        if not trouble and back and ends.t - state.t < SHORTEST:
+            trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get out of the pulse"
+        if trouble:
+            builder.completed = False
+            return with_advice(scene, trouble)
+        _list(builder, segment, pulse, start, back)
+        done, fresh = done + 1, at_turn
+        if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse):
+            return pulse_over(back)
+        rest = rest_of(scene.run, builder)
+        if rest is None:
+            return run_over(scene.run)
+        current = from_here(scene, hoop, state, rest)
+
+
+def _ends_of(motion: Motion, pulse: Pulse, start: float, state: State) -> tuple[Ends, bool]:
+    """Where a segment through a pulse of the rigid hoop ends, which begins in a state, ``start`` after the rigid hoop;
+    and whether that is an instant.
+
+    A pulse that the end of the run cuts, or that goes on through a turn, ends with the rigid one; any other at its
+    angle or where it came in.
+    """
+    run_ends = pulse.cut and motion.scene.run.t_end is not None and pulse.t_end == motion.t_end
+    t_end = state.t + pulse.t_end - start
+    if run_ends or goes_through_turns(motion, pulse):
+        return Ends(t=t_end), True
+    phi = float(state.pos[2])
+    low, high = sorted((phi - BACK * (pulse.phi_end - phi), pulse.phi_end))
+    late = t_end + 3 * (pulse.t_end - start) + WAITS
+    return Ends(late, low, high, 1 if ends_with_turn(motion, pulse) else 0), False
+
+
+def _list(builder: Builder, segment: Segment, pulse: Pulse, start: float, back: bool) -> None:
+    """List the pulse that a segment went through, from where it came to it, to where it left it."""
+    first = segment.t_start if start == pulse.t_start else segment.crossing(pulse.phi_start, segment.t_start)
+    if first is None and back:  # it turned back before it came to the pulse
+        return
+    leaves = max(segment.crossings(pulse.phi_start), default=segment.t_end) if back else segment.t_end
+    measured = segment.pulse(segment.t_start if first is None else first, leaves)
+    # a pulse that begins at once is cut by the release alone, not where the one before it ended with a turn
+    builder.list_pulse(measured, pulse.cut and (pulse.t_start > 0 or len(builder.marches) == 1))

@@ -1,0 +1,119 @@
+"""``resolve = "all"``: flexible from the release on, swing by swing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import ceil, floor, pi
+from typing import NamedTuple
+
+import rigid
+from rigid import Motion, Pulse, Run, Scene
+
+from ..builder import Builder
+from ..contact.laws.listing import rigid_limit
+from ..handover import hand_over
+from ..models.select import Hoop
+from ..models.state import State
+from ..segment import Segment
+from ..time.adaptive import MarchError
+from ..time.events import Ends
+from .ahead import from_here, rest_of, slips_no_more, whirls
+from .pulses import BACKWARD, add_pulses, swings, turns_of, unfinished
+from .told import Progress, pulse_over, run_over, with_advice
+
+
+class Swing(NamedTuple):
+    """A swing that lies ahead."""
+
+    rigid: Motion  # that of the rigid hoop, released from the flexible one's state
+    pulses: list[Pulse]  # of it
+    run: Run  # how far there is still to go
+    until: float  # the time at which to stop
+
+
+def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> str:
+    """Run a scene; each pulse is measured over the rigid hoop's interval.
+
+    A swing ends where phidot = 0 and no pulse goes on, or the disk passes the top. The rigid hoop that says where its
+    pulse lies, and whether the run is at rest, is released from the flexible one's state at its beginning. A run is at
+    rest behind a swing over the bottom alone, not where a soft hoop rocks beside its release.
+    """
+    reference = rigid.simulate(rigid_limit(scene))
+    try:
+        state = hand_over(hoop, reference, 0.0)
+    except MarchError as error:
+        builder.completed = False
+        return with_advice(scene, str(error))
+    if reference.t_end == 0 and scene.run.t_end is None and scene.solve.start == "equilibrium":
+        builder.add_rigid(reference, 0.0)
+        return reference.ended
+    run: Run | None = scene.run
+    whirled = swung_through = False
+    horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
+    watch = progress.watch(0.0, 1.0, lambda t, phi: t / horizon)
+    while run is not None:
+        here = from_here(scene, hoop, state, Run(until="rest" if run.until == "rest" else "pulse"))
+        swing = rigid.simulate(rigid_limit(here))
+        if run.until == "rest" and swung_through and slips_no_more(swing):
+            return swing.ended
+        # a swing that begins at a turn has no rest of a pulse to list, and a pulse that goes on through one is one
+        pulses = [p for p in swing.pulses if not p.cut or (p.t_start == 0 and not builder.pieces)]
+        began, limit = state.t, builder.t + 4 * swing.t_end + 10
+        until = limit if scene.run.t_end is None else scene.run.t_end
+        state, segment, trouble = _swung(scene, hoop, builder, state, Swing(swing, pulses, run, until), watch)
+        run = rest_of(scene.run, builder)
+        way = add_pulses(builder, segment, swing, pulses, over=not trouble and run is None)
+        if not trouble and state.t == began and run is not None:
+            trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: a swing of no length"
+        elif not trouble and scene.run.t_end is None and state.t >= limit:
+            trouble = f"stopped at t = {state.t:.6g}: the rigid hoop swings that far in a quarter of this time"
+        if trouble:
+            builder.completed = False
+            return with_advice(scene, trouble)
+        if scene.run.until == "pulse" and way:
+            return pulse_over(way == BACKWARD)
+        swung_through = swings(segment)
+        onward = None
+        if run is not None and run.turns is not None and not segment.turns():
+            onward = rigid.simulate(rigid_limit(from_here(scene, hoop, state, Run(turns=1))))
+        goes_round = onward is not None and whirls(onward)
+        if onward is not None and goes_round and whirled:
+            return onward.ended
+        whirled = goes_round
+    return run_over(scene.run)
+
+
+def _swung(
+    scene: Scene, hoop: Hoop, builder: Builder, state: State, swing: Swing, watch: Callable[[float, float], None] | None
+) -> tuple[State, Segment, str]:
+    """March through a swing; on through a turn where the disk rocks on a soft wall, in a pulse that is not over."""
+    turns, inside = turns_of(swing.rigid, swing.pulses, swing.run.turns), None
+    segment: Segment | None = None
+    while True:
+        began = state.t
+        state, part, trouble = builder.march(
+            hoop, state, _ends(swing, inside, turns, float(state.pos[2])), scene.solve.rtol, watch
+        )
+        segment = part if segment is None else segment.then(part)
+        over = trouble or state.t == began or state.t >= swing.until or rest_of(scene.run, builder) is None
+        inside, turns = None if over else unfinished(segment, swing.rigid, swing.pulses), 1
+        if inside is None:
+            return state, segment, trouble
+
+
+def _ends(swing: Swing, inside: Pulse | None, turns: int, phi: float) -> Ends:
+    """Where a march through a swing ends that begins at an angle, ``inside`` a pulse or not: at so many turns or at the
+    top; of a run to a pulse, at the end of that, if it lies ahead, for hops may lead to a later one."""
+    ends = Ends(swing.until, 2 * pi * (ceil(phi / (2 * pi)) - 1), 2 * pi * (floor(phi / (2 * pi)) + 1), turns)
+    if swing.run.until != "pulse":
+        return ends
+    if inside is not None:
+        low, high = sorted((inside.phi_start, inside.phi_end))
+        return ends._replace(low=low, high=high)
+    if swing.pulses:  # before the first whole pulse there may be the rest of one
+        pulse = swing.pulses[-1]
+        if phi < pulse.phi_end < ends.high and pulse.phi_end > pulse.phi_start:
+            return ends._replace(high=pulse.phi_end)
+        if ends.low < pulse.phi_end < phi and pulse.phi_end < pulse.phi_start:
+            return ends._replace(low=pulse.phi_end)
+    return ends
