@@ -116,7 +116,8 @@ def legend(atlas: Drawn, named: list[Region], rest: list[Region]) -> list[Artist
     if rest:
         area = sum(region.share for region in rest)
         said = f"{area:.2%}" if area >= 1e-4 else "less than 0.01%"
-        entries.append(Patch(facecolor=REST, label=f"{len(rest)} more sequences ({said})"))
+        plural = "s" if len(rest) > 1 else ""
+        entries.append(Patch(facecolor=REST, label=f"{len(rest)} more sequence{plural} ({said})"))
     if any(region.sequence == NO_PULSE for region in atlas.regions):
         entries.append(Patch(facecolor=NOTHING, label="no pulse", **thin))
     if atlas.found.hops.any():

@@ -126,7 +126,8 @@ def _robust_limits(axes: Axes, values: list[np.ndarray], floor: bool = False) ->
     if ends:
         low, high = min(e[0] for e in ends), max(e[1] for e in ends)
         pad = 0.06 * (high - low or 1.0)
-        axes.set_ylim(0.0 if floor and low >= -pad else low - pad, high + pad)
+        bottom = 0.0 if floor and low >= -pad else low - pad
+        axes.set_ylim(bottom, high + max(pad, 0.06 * (high - bottom)))
 
 
 def impulses(
