@@ -1,0 +1,40 @@
+"""A batch against the motions of its scenes, one by one: with mass, in SI units, a point mass."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from rigid import Friction, Hoop, Release, Scene, load_scene, simulate, simulate_batch
+
+SCENES = {
+    "without mass": load_scene("paper-3.1"),
+    "with mass": load_scene("paper-3.3-heavier").replace(hoop={"mass_ratio": 1.5}),
+    "thrown, in SI units": Scene(
+        Hoop(0.2, 1.1, 0.3, R=0.4, m=0.7, g=9.81), Friction(0.4, 0.3), Release(phi0_deg=60, omega0=2.0, slip0=-0.5)
+    ),
+    "a point mass": Scene(Hoop(0.0, 1.0), Friction(0.5, 0.4), Release(phi0_deg=120)),
+}
+
+
+def test_a_batch_is_its_scenes_one_by_one():
+    """Turns and first pulses, in R, m and g, to round-off; compiled or interpreted differ in a last digit or two."""
+    batch = simulate_batch(list(SCENES.values()), turns=2)
+    for row, scene in enumerate(SCENES.values()):
+        motion = simulate(scene.to_dimensionless().replace(run={"turns": 2}))
+        assert batch.turn_count[row] == len(motion.turns)
+        assert batch.pulse_count[row] == len(motion.pulses)
+        for number, turn in enumerate(motion.turns):
+            found = [getattr(batch, f"turn_{name}")[row, number] for name in ("t", "phi", "slip_velocity", "energy")]
+            exact = [turn.t, turn.phi, turn.slip_velocity, turn.energy]
+            assert found == pytest.approx(exact, rel=1e-11, abs=1e-11)
+        for number, pulse in enumerate(motion.pulses[:2]):
+            for name in ("normal_impulse", "friction_impulse", "friction_loss", "phi_start"):
+                assert getattr(batch, name)[row, number] == pytest.approx(getattr(pulse, name), rel=1e-10, abs=1e-11)
+
+
+def test_a_batch_has_what_at_least_one_of_these_scenes_has():
+    """Else the comparison above would be of nothing."""
+    batch = simulate_batch(list(SCENES.values()), turns=2)
+    assert (batch.turn_count > 0).any()
+    assert np.isfinite(batch.normal_impulse).any(axis=1).sum() >= 3
