@@ -251,7 +251,7 @@ def limit_of(
     ``exponents``, slowest first, are the leading rates where theory knows them, ``holds`` the stiffness from which on
     it does. With fewer than :func:`.series.fewest` cases there a rate is fitted, to all.
     """
-    (values, alike), stiff = settled(y), np.asarray(s, float) >= holds
+    (values, alike), stiff = settled(y, rigid), np.asarray(s, float) >= holds
     known = exponents is not None and (holds == 0 or int(np.isfinite(values[stiff]).sum()) >= fewest(exponents))
     if exponents is not None and known:
         off = np.zeros_like(values) if error is None else np.asarray(error, float)

@@ -67,14 +67,17 @@ def terms(x: ArrayLike, exponents: Sequence[float]) -> Array:
     return x**-rates * np.where(again, np.log(x), 1.0)
 
 
-def settled(y: ArrayLike) -> tuple[Array, float]:
-    """The values, all of them the last one where no more than round-off is between them, and that round-off."""
+def settled(y: ArrayLike, rigid: float) -> tuple[Array, float]:
+    """The values, all of them the last one where no more than round-off is between them, and that round-off.
+
+    It is 0 where all of them are the rigid value to the last bit.
+    """
     values = np.asarray(y, float)
     known = values[np.isfinite(values)]
     alike = _ALIKE * float(np.max(np.abs(known), initial=0.0))
     if known.size and np.ptp(known) <= alike:
         values = np.where(np.isfinite(values), known[-1], nan)
-    return values, alike
+    return values, alike if np.any(known != rigid) else 0.0
 
 
 def extrapolated(
