@@ -10,12 +10,12 @@ from rigid.output.whole import write_whole
 
 from .ring import MeshError, RingMesh
 
-HOLD = (".msh", ".vtu", ".vtk", ".inp", ".mdpa", ".xdmf", ".xmf", ".hmf", ".e", ".ex2", ".exo", ".med")
-"""Formats in which meshio writes nine-node quads; others it writes without them, or breaks off."""
+HOLD = (".msh", ".vtu", ".vtk", ".inp", ".mdpa", ".e", ".ex2", ".exo")
+"""Formats in which meshio writes nine-node quads and reads them again; others it writes without them, or breaks off."""
 
 
 def save_mesh(ring: RingMesh, path: str | Path) -> None:
-    """Write the mesh: nine-node quads, and the three-node lines of its boundaries with their numbers.
+    """Write the mesh: nine-node quads, and the three-node lines of its boundaries, in .msh, .vtu and .vtk with numbers.
 
     Parameters
     ----------
