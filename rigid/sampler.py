@@ -37,7 +37,7 @@ def parameters(scene: Scene) -> list[float]:
     bounce = scene.landing.restitution
     return [
         e, one_minus_e, gyr, zeta, friction.mu_s, friction.mu, bounce, turns,
-        inf if t_end is None else t_end, float(UNTIL_CODES[run.until]), 0.0,
+        inf if t_end is None else t_end, float(UNTIL_CODES[run.until]),
     ]  # fmt: skip
 
 

@@ -173,7 +173,8 @@ class Release:
 class Run:
     """How far to run: to a number of turns (instants with phidot = 0 after release), to a time, or until an event.
 
-    ``until`` is "pulse" (the end of the first pulse) or "rest" (nothing is lost any more).
+    ``until`` is "pulse" (the end of the first whole pulse; one that the release cuts is none) or "rest" (nothing is
+    lost any more).
     """
 
     turns: int | None = None

@@ -71,7 +71,7 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
             return with_advice(scene, trouble)
         _list(builder, segment, pulse, start, back)
         done, fresh = done + 1, at_turn
-        if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse):
+        if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse) and not builder.pulses[-1].cut:
             return pulse_over(back)
         rest = rest_of(scene.run, builder)
         if rest is None:

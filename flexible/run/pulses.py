@@ -115,7 +115,8 @@ def add_pulses(builder: Builder, segment: Segment, swing: Motion, pulses: list[P
     Returns
     -------
     int
-        What the last pulse over the bottom was: FORWARD, BACKWARD where the hoop turned back in it; 0 without one.
+        What the last whole pulse over the bottom was: FORWARD, BACKWARD where the hoop turned back in it; 0 without
+        one.
     """
     found = 0
     for pulse in pulses:
@@ -130,6 +131,7 @@ def add_pulses(builder: Builder, segment: Segment, swing: Motion, pulses: list[P
         if leaves is not None and leaves > enters:
             known = len(builder.pulses)
             builder.list_pulse(segment.pulse(enters, leaves), cut)
-            if len(builder.pulses) > known and over_bottom(pulse if back else builder.pulses[-1]):
+            listed = builder.pulses[known:]
+            if listed and not listed[0].cut and over_bottom(pulse if back else listed[0]):
                 found = BACKWARD if back else FORWARD
     return found

@@ -56,8 +56,8 @@ def run_over(run: Run) -> str:
 
 
 def pulse_over(back: bool) -> str:
-    """That the first pulse is over, and whether the hoop turned ``back`` in it."""
-    return "the first pulse is over" + (": the hoop turned back in it" if back else "")
+    """That the first whole pulse is over, and whether the hoop turned ``back`` in it."""
+    return "the first whole pulse is over" + (": the hoop turned back in it" if back else "")
 
 
 def in_time_of(scene: Scene, sentence: str) -> str:

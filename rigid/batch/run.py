@@ -71,7 +71,6 @@ def simulate_batch(
     t_end: float | None = None,
     until: str | None = None,
     pulses: int = 2,
-    whole: bool = False,
     workers: int | None = None,
 ) -> Batch:
     """The motions of many scenes, by the compiled kernel, on all cores.
@@ -87,8 +86,6 @@ def simulate_batch(
         the scenes is not looked at.
     pulses : int
         How many pulses to keep of each scene.
-    whole : bool
-        That until="pulse" means a whole pulse: one that the release cuts does not end the motion.
     workers : int, optional
         Threads; as many as there are cores if not given. Results do not depend on it.
 
@@ -105,7 +102,7 @@ def simulate_batch(
     turns = Run(turns, t_end, until).turns  # refuses what no run can be
     table = table_of(scenes)
     count = len(table)
-    pars, release = parameters_of(table, turns, t_end, until, whole), np.ascontiguousarray(table[:, 5:8])
+    pars, release = parameters_of(table, turns, t_end, until), np.ascontiguousarray(table[:, 5:8])
     rows = Rows(
         np.zeros((count, END_VALUES)),
         np.full((count, 2 if turns is None else turns, TURN_VALUES), np.nan),

@@ -71,7 +71,7 @@ def _check(table: Array) -> None:
             raise SceneError(f"scene {index} of the batch: {error}") from None
 
 
-def parameters_of(table: Array, turns: int | None, t_end: float | None, until: str | None, whole: bool) -> Array:
+def parameters_of(table: Array, turns: int | None, t_end: float | None, until: str | None) -> Array:
     """Parameters of all scenes, as :func:`rigid.sampler.parameters` makes them for one."""
     k, r, mass_ratio, mu_s, mu, *_, bounce = table.T
     hoop = hoop_constants(k, r, mass_ratio)
@@ -83,5 +83,5 @@ def parameters_of(table: Array, turns: int | None, t_end: float | None, until: s
     pars[:, at.MU_S], pars[:, at.MU], pars[:, at.RESTITUTION] = mu_s, mu, bounce
     pars[:, at.TURNS] = inf if turns is None else turns
     pars[:, at.T_END] = inf if t_end is None else t_end
-    pars[:, at.UNTIL], pars[:, at.WHOLE_ONLY] = UNTIL_CODES[until], whole
+    pars[:, at.UNTIL] = UNTIL_CODES[until]
     return pars

@@ -3,9 +3,9 @@
 Inside the kernels R = g = M = 1 with M the total mass; :mod:`rigid.solve` converts at the boundary.
 """
 
-# What does not change during a motion. With WHOLE_ONLY no pulse that the release cuts ends a run to the first pulse.
-ECC, ONE_MINUS_E, GYR, ZETA, MU_S, MU, RESTITUTION, TURNS, T_END, UNTIL, WHOLE_ONLY = range(11)
-PARAMETERS = 11
+# What does not change during a motion.
+ECC, ONE_MINUS_E, GYR, ZETA, MU_S, MU, RESTITUTION, TURNS, T_END, UNTIL = range(10)
+PARAMETERS = 10
 NOTHING, FIRST_PULSE, REST = range(3)  # values of UNTIL
 
 # The state: the angle as (offset, chart, whole turns), see rigid.kernel.angle; UN and GAP are the normal velocity

@@ -7,7 +7,7 @@ from .rolling.phase import LISTED_PERIODS
 
 _REASONS = {
     at.TIME_REACHED: "the time to run is over",
-    at.PULSE_OVER: "the first pulse is over",
+    at.PULSE_OVER: "the first whole pulse is over",
     at.RESTS: "rests: nothing moves any more",
     at.SLIDES: "slides for ever: a smooth floor takes no energy",
     at.HITS_FLOOR: "the point mass hits the floor",

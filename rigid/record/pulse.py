@@ -48,7 +48,6 @@ from ..kernel.layout import (  # fmt: skip
     TOP,
     UN,
     WHOLE,
-    WHOLE_ONLY,
     WIDTH,
     XDOT,
     YDOT,
@@ -90,7 +89,7 @@ def energy(par, state):
 @kernel
 def watch(par, state, normal_force, events):
     """Open or close the pulse at the present state, N being the force from here on; True if one was closed
-    that may end a run to the first pulse.
+    that ends a run to the first whole pulse.
     """
     if normal_force > 1.0:
         if state[P_OPEN] == 0.0:
@@ -141,9 +140,7 @@ def cross_bottom(state):
 
 @kernel
 def close_pulse(par, state, events):
-    """End the stretch; True if it was a pulse over the bottom, which is then in the event log and counted (and, where
-    that is asked for, a whole one).
-    """
+    """End the stretch; a pulse over the bottom is then in the event log and counted. True if it was a whole one."""
     if state[P_OPEN] == 0.0:
         return False
     state[P_OPEN] = 0.0
@@ -155,7 +152,7 @@ def close_pulse(par, state, events):
         return False
     write_pulse(par, state, events)
     state[PULSES_DONE] += 1
-    return state[P_CUT] == 0.0 or par[WHOLE_ONLY] == 0.0
+    return state[P_CUT] == 0.0
 
 
 @kernel

@@ -135,7 +135,7 @@ class Plane:
         """
         hoops = self.hoops(x, y)
         there = hoops["mu_s"] >= hoops["mu"]
-        batch = simulate_batch({name: column[there] for name, column in hoops.items()}, until="pulse", whole=True)
+        batch = simulate_batch({name: column[there] for name, column in hoops.items()}, until="pulse")
         first = np.arange(len(batch)), (batch.cut[:, 0] == 1).astype(int)  # at most one is cut by the release
         seen = batch.cut[first] == 0
         sequence = np.full(x.shape, NO_HOOP, dtype=np.int64)

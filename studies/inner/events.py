@@ -87,16 +87,19 @@ def passage(scene: Scene) -> Passage:
     Raises
     ------
     StudyError
-        There is no whole pulse, it has more than rolling and sliding in it, or the hoop is at rest where it begins or
-        turns round in it.
+        There is no whole pulse, the hoop is released inside another one, it has more than rolling and sliding in it, or
+        the hoop is at rest where it begins or turns round in it.
     """
     tended = rigid_limit(scene)
     motion = simulate(tended.replace(run=Run(until="pulse")))
     if not motion.pulses:
         raise StudyError(f"The rigid hoop has no pulse to study here: {motion.ended}.")
-    pulse = next((p for p in motion.pulses if not p.cut), None)
-    if pulse is None:
-        raise StudyError("The rigid hoop is released inside its first pulse, and what is left of that is not studied.")
+    pulse = motion.pulses[0]
+    if pulse.cut:
+        raise StudyError(
+            "The hoop is released inside a pulse: how the state in which it comes to the first whole one tends to that "
+            "of the rigid hoop is not foreseen."
+        )
     first = lead(motion, pulse)
     if any(first < turn.t < pulse.t_end for turn in motion.turns):
         raise StudyError("The hoop turns round in its pulse: there is no limit to predict for that yet.")

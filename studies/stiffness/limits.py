@@ -262,7 +262,7 @@ def limit_of(
         # a rate fitted where two terms of opposite sign still compete is not that of the last one
         uncertainty = hypot(uncertainty, value - richardson(s, values, error, SLOWEST)[0])
         rates = (fitted,)
-    rate = observed_rate(s, values - rigid, error)
+    rate = observed_rate(s, np.where(np.abs(values - rigid) > alike, values - rigid, 0.0), error)
     return Limit(
         value,
         max(uncertainty, alike),

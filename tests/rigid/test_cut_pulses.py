@@ -124,11 +124,26 @@ def test_whole_pulses_are_not_marked(whole):
     assert not any(pulse.cut for pulse in simulate(SCENE.replace(run={"turns": 4})).pulses)
 
 
-def test_until_the_first_pulse_waits_for_a_whole_crossing():
-    """What is left of a pulse when the disk is released behind the bottom does not end such a run."""
-    motion = simulate(Scene(Hoop(0.3), Friction(0.5, 0.4), Release(pi, 0.5), Run(until="pulse")))
-    assert [pulse.cut for pulse in motion.pulses] == [True, False]
-    assert motion.t_end == motion.pulses[1].t_end
+@pytest.mark.parametrize(
+    ("scene", "cuts"),
+    [
+        (Scene(Hoop(0.3), Friction(0.5, 0.4), Release(pi, 0.5)), [True, False]),  # at the bottom
+        (Scene(Hoop(0.3), Friction(0.35, 0.3), Release(phi0_deg=178, omega0=2.0)), [True, False]),  # on the way to it
+        (Scene(Hoop(0.3), Friction(0.35, 0.3), Release(phi0_deg=182, omega0=2.0)), [True, False]),  # behind it
+        (Scene(Hoop(0.3), Friction(0.35, 0.3), Release(phi0_deg=10)), [False]),
+    ],
+)
+def test_a_run_to_a_pulse_goes_on_to_the_first_whole_one(scene, cuts):
+    """What is left of a pulse in which the hoop is released does not end it, be it over the bottom or not."""
+    motion = simulate(scene.replace(run={"until": "pulse"}))
+    assert [pulse.cut for pulse in motion.pulses] == cuts
+    assert motion.t_end == motion.pulses[-1].t_end
+    longer = simulate(scene.replace(run={"t_end": motion.t_end + 0.5}))
+    assert longer.pulses[: len(cuts)] == motion.pulses
+    batch = simulate_batch([scene], until="pulse")
+    assert batch.pulse_count[0] == len(cuts)
+    assert batch.t_end[0] == pytest.approx(motion.t_end, rel=1e-13)
+    assert batch.impulse_ratio[0, len(cuts) - 1] == pytest.approx(motion.pulses[-1].impulse_ratio, rel=1e-12)
 
 
 def test_a_batch_marks_them_too():
@@ -151,19 +166,3 @@ def test_energy_gained_in_a_pulse_would_show():
     scene = load_scene("paper-3.2-k0.75").replace(run={"turns": 40})
     losses = np.array([pulse.friction_loss for pulse in simulate(scene).pulses])
     assert np.abs(losses).max() < 1e-14
-
-
-def test_a_batch_goes_on_to_a_whole_pulse_where_it_is_asked_to():
-    """Released in a pulse and past the bottom: what is left of it ends a run to the first pulse, or does not."""
-    scene = Scene(Hoop(0.3), Friction(0.35, 0.3), Release(phi0_deg=178, omega0=2.0))
-    batch = simulate_batch([scene], until="pulse")
-    assert batch.pulse_count[0] == 1
-    assert batch.cut[0, 0] == 1
-    batch = simulate_batch([scene], until="pulse", whole=True)
-    assert batch.cut[0].tolist() == [1, 0]
-    pulse = simulate(scene.replace(run={"turns": 2})).pulses[1]
-    assert not pulse.cut
-    assert batch.t_end[0] == batch.t_stop[0, 1] == pytest.approx(pulse.t_end, rel=1e-13)
-    assert batch.impulse_ratio[0, 1] == pytest.approx(pulse.impulse_ratio, rel=1e-12)
-    rest = Scene(Hoop(0.3), Friction(0.35, 0.3), Release(phi0_deg=10))
-    assert simulate_batch([rest], until="pulse", whole=True) == simulate_batch([rest], until="pulse")

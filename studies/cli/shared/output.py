@@ -114,7 +114,7 @@ def write_first_pulse(scene: Scene, out: Path) -> None:
     from flexible import simulate
 
     motion = simulate(scene.replace(run=Run(until="pulse")), history=True)
-    write_fields(motion, out)
+    write_fields(motion, out, pulse=max(len(motion.pulses) - 1, 0))  # the whole one, behind what the release cuts
 
 
 def write_mesh(scene: Scene, path: Path) -> str:

@@ -161,7 +161,7 @@ def test_a_disk_that_rocks_in_a_pulse_does_not_end_it():
     """
     motion = flexible.simulate(ROCKS, history=True, states=False)
     assert motion.completed, motion.ended
-    assert motion.ended.startswith("the first pulse is over")
+    assert motion.ended.startswith("the first whole pulse is over")
     (pulse,), history = motion.pulses, motion.history
     rigid_pulse = rigid.simulate(rigid_limit(ROCKS)).pulses[0]
     assert (pulse.phi_start, pulse.phi_end) == pytest.approx((rigid_pulse.phi_start, rigid_pulse.phi_end), abs=1e-6)

@@ -189,8 +189,9 @@ def test_a_measure_that_does_not_change_is_its_own_limit():
 @pytest.mark.parametrize("exponents", [None, (1 / 3, 2 / 3)])
 def test_a_measure_that_changes_by_round_off_is_its_own_limit(exponents):
     y = -0.3 + 5.6e-17 * np.array([0, 1, -1, 2, 0, -1, 1, 0, -2])
-    found = limit_of(S, y, -0.3, np.full(9, 5.6e-17), exponents)
+    found = limit_of(S, y, -0.3 + 1.1e-16, np.full(9, 5.6e-17), exponents)
     assert found.rigid_inside
+    assert np.isnan(found.rate)
     assert found.value == pytest.approx(-0.3, rel=1e-12)
     assert not limit_of(S, y, -0.3 + 1e-9, np.full(9, 5.6e-17), exponents).rigid_inside
 

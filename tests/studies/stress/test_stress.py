@@ -104,7 +104,7 @@ def test_a_crash_and_a_run_without_end_are_told():
     cut = run._find(run.FLEXIBLE, 1, scene, Work(100, 60.0), endless)
     lost = run._find(run.FLEXIBLE, 2, scene, Work(100, 0.01), deaf)
     stuck = Finding("flexible", 3, scene, "stopped at t = 1e-5: no step", 0.1, {}, completed=False)
-    fine = Finding("flexible", 4, scene, "the first pulse is over", 0.1, {"energy": 0.5})
+    fine = Finding("flexible", 4, scene, "the first whole pulse is over", 0.1, {"energy": 0.5})
     report = Report(0, [crashed, cut, lost, stuck, fine])
     assert report.failures == [crashed]
     assert report.completed("flexible") == 1 / 5
