@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import re
 import shutil
-import sys
 import types
 import warnings
 from importlib import import_module
 from pathlib import Path
 from tempfile import TemporaryDirectory
+
+import click
 
 ROOT = Path(__file__).parent.parent
 PACKAGES = ("rigid", "meshes", "flexible", "studies")
@@ -102,10 +103,15 @@ def build(out: Path) -> Path:
     return first
 
 
-def main(arguments: list[str]) -> None:
-    """Build it where the first argument says, by default in ``build/site``."""
-    print(build(Path(arguments[0]) if arguments else ROOT / "build" / "site"))
+@click.command(context_settings={"help_option_names": ["-h", "--help"]})
+@click.argument("folder", type=click.Path(file_okay=False, path_type=Path), default=ROOT / "build" / "site")
+def main(folder: Path) -> None:
+    """The documentation as one static site in FOLDER, by default build/site of the checkout."""
+    try:
+        click.echo(build(folder))
+    except ModuleNotFoundError as error:
+        raise click.UsageError(f"The site needs {error.name}: install hoop-pulse with the extra [docs].") from None
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import Any
+
+import click
 
 HERE = Path(__file__).parent
 BOOKS = ("pulse", "limit", "hop")
@@ -31,16 +32,21 @@ def run(path: Path) -> Any:
     return book
 
 
-def main(names: tuple[str, ...] = BOOKS) -> None:
-    """Run and rewrite the notebooks named."""
-    import nbformat
+@click.command(context_settings={"help_option_names": ["-h", "--help"]})
+@click.argument("names", nargs=-1, type=click.Choice(BOOKS))
+def main(names: tuple[str, ...]) -> None:
+    """Run the notebooks named, by default all, and rewrite them with their output."""
+    try:
+        import nbformat
 
-    for name in names:
-        path = HERE / f"{name}.ipynb"
-        book = run(path)
-        nbformat.write(book, path)
-        print(path.name)
+        for name in names or BOOKS:
+            path = HERE / f"{name}.ipynb"
+            book = run(path)
+            nbformat.write(book, path)
+            click.echo(path.name)
+    except ModuleNotFoundError as error:
+        raise click.UsageError(f"Notebooks need {error.name}: install hoop-pulse with the extra [test].") from None
 
 
 if __name__ == "__main__":
-    main(tuple(sys.argv[1:]) or BOOKS)
+    main()

@@ -9,8 +9,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
-from studies.site import PACKAGES
+from studies.site import PACKAGES, main
 
 pytest.importorskip("pdoc")
 ROOT = Path(__file__).parents[2]
@@ -24,6 +25,17 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == str(out / "index.html")
     return out
+
+
+@pytest.mark.parametrize(("line", "status"), [("--help", 0), ("--out=site", 2), ("a.md", 2)])
+def test_what_is_no_folder_is_not_written_to(tmp_path: Path, monkeypatch, line: str, status: int) -> None:
+    """An option was a folder of that name, and a file a traceback."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "a.md").touch()
+    told = CliRunner().invoke(main, [line])
+    assert told.exit_code == status
+    assert "Usage: " in told.output
+    assert [path.name for path in tmp_path.iterdir()] == ["a.md"]
 
 
 @pytest.mark.parametrize("package", PACKAGES)
