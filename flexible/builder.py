@@ -22,7 +22,7 @@ from .motion import FlexibleMotion, FlexiblePulse, Kept, Ledger, March
 from .packed import pack
 from .segment import Segment, history_of
 from .time.adaptive import LIMITS, Limits, march
-from .time.course import Course, Marched
+from .time.course import Course, Marched, Stop
 from .time.events import Ends
 from .time.methods import METHODS
 
@@ -81,7 +81,7 @@ class Sampler:
             if motion.kept:
                 arrays |= {f"kept{number}.{name}": a for name, a in pack(motion.kept[number].states).items()}
             marches.append({
-                "attempts": marched.attempts, "ended": marched.ended, "turned": turned,
+                "attempts": marched.attempts, "turned": turned,
                 "course": {name: getattr(course.now, name) for name in COURSE}, "length": course.length,
                 "books": course.now.books._asdict(),
             })  # fmt: skip
@@ -136,7 +136,6 @@ class Builder:
         self.marches: list[March] = []
         self.earlier: FlexibleMotion | None = None
         self.stop: Callable[[], bool] | None = None
-        self.completed = True
         self.t = 0.0
         self.x_C = 0.0
         self.initial: float | None = None
@@ -216,7 +215,7 @@ class Builder:
 
     def march(
         self, hoop: FlexibleHoop, state: State, ends: Ends, rtol: float, progress: Callable[[float, float], None] | None
-    ) -> tuple[State, Segment, str]:
+    ) -> tuple[State, Segment, Stop | None]:
         """March, or go over a march of the earlier motion that this one goes on from; its last one is taken up.
 
         Returns
@@ -224,7 +223,7 @@ class Builder:
         state : State
             At the end.
         segment : Segment
-        trouble : str
+        stop : Stop, optional
             Why it stopped early, if it did.
         """
 
@@ -257,7 +256,7 @@ class Builder:
         first = marched.records[0].t
         self.marches.append(March(marched, tuple(turned for turned in self.range.records if turned[0] > first)))
         rise = momentum(hoop, state, np.eye(len(state.vel))[1]) / (1 + self.hoop.mass_ratio)
-        return marched.state, self._add_flexible(marched, rise), marched.ended
+        return marched.state, self._add_flexible(marched, rise), marched.stop
 
     def _earlier(self, number: int, state: State) -> tuple[March | None, bool]:
         """The march of that number in the motion to go on from, and whether it is to be taken up, as its last one, or
@@ -277,7 +276,7 @@ class Builder:
             raise ValueError("The motion to resume does not come from this scene.")
         return None, False
 
-    def motion(self, scene: Scene, ended: str, history: bool) -> FlexibleMotion:
+    def motion(self, scene: Scene, ended: str, completed: bool, history: bool) -> FlexibleMotion:
         """The motion in the units of ``scene``."""
         ledger = Ledger(
             self.initial or 0.0, *self.held, self.friction_loss, self.landing_loss, self.damping_loss, self.hand_over,
@@ -290,7 +289,7 @@ class Builder:
             turns=tuple(in_units(turn, scene) for turn in self.turns),
             pulses=tuple(replace(in_units(pulse, scene), sample=sample) for pulse in self.pulses),
             ended=ended,
-            completed=self.completed,
+            completed=completed,
             sample=sample,
             ledger=in_units(ledger, scene),
             steps=self.steps,

@@ -25,6 +25,7 @@ from .models.equilibrium import Patch, settle
 from .models.select import Hoop
 from .models.state import State, Touching, in_motion
 from .time.adaptive import MarchError, compile_steps, restart
+from .time.course import Stop
 
 Array = NDArray[np.float64]
 
@@ -120,7 +121,7 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
     """
     s, c = sin(pose.phi), cos(pose.phi)
     a_x, angular = pose.accelerations(hoop)
-    lost = f"no start at phi = {pose.phi:.6g}: no equilibrium of the ring under N = {pose.normal_force:.4g} was found"
+    lost = f": no equilibrium of the ring under N = {pose.normal_force:.4g} was found"
     zero = np.zeros(3 + hoop.coordinates)
     mode = hoop.law.start(pose.kind)
     try:
@@ -128,7 +129,7 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
         if pose.normal_force <= 0:
             ring.linearise(1.0)
     except np.linalg.LinAlgError:
-        raise MarchError(lost) from None
+        raise MarchError(Stop(lost, phi=pose.phi, what="no start")) from None
     if pose.normal_force <= 0:
         window = hoop.window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
         ring.move(window, np.zeros(2 * (2 * window[1] + 1)))
@@ -144,7 +145,8 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
     reached = settle(ring, patch)
     if reached < 1:
         share = reached * pose.normal_force / (1 + hoop.scene.hoop.mass_ratio)
-        raise MarchError(f"{lost}: from no load on, it is lost at N = {share:.3g} of the weight of disk and hoop")
+        lost += f": from no load on, it is lost at N = {share:.3g} of the weight of disk and hoop"
+        raise MarchError(Stop(lost, phi=pose.phi, what="no start"))
     pos = np.concatenate([[0.0, patch.height, pose.phi], ring.coordinates])
     rim = Touching(patch.window, patch.u, patch.nodal, patch.res, patch.bristles)
     return in_motion(t, x_C, (pos, zero, zero), mode, rim, pose.slip_velocity)
@@ -183,10 +185,11 @@ def ensure_stands_in(lost: float, energy: float, t: float) -> None:
         The rigid hoop is no stand-in between pulses.
     """
     if -lost > GAINS * energy:
-        raise MarchError(
-            f"stopped at t = {t:.6g}: the rigid hoop, which stands for the flexible one between pulses, would add"
+        why = (
+            ": the rigid hoop, which stands for the flexible one between pulses, would add"
             f" {-100 * lost / energy:.2g} % of the energy; with solve.resolve = 'all' it is flexible throughout"
         )
+        raise MarchError(Stop(why, t, by_ring=False))
 
 
 def compile_ahead(hoop: Hoop) -> None:

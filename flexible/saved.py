@@ -72,7 +72,7 @@ def _march(number: int, told: dict[str, Any], stored: Stored, pieces: tuple[Piec
     end, state = unpack(_named(f"march{number}.", stored))
     told["course"]["pace"] = Pace(*told["course"]["pace"])
     now = Standing(state=state, books=Books(**told["books"]), cut=False, **told["course"])
-    marched = Marched(end, records, told["attempts"], told["ended"], Course(now, records, told["length"]))
+    marched = Marched(end, records, told["attempts"], None, Course(now, records, told["length"]))
     return March(marched, tuple((t, turned, phi) for t, turned, phi in told["turned"]))
 
 

@@ -20,7 +20,7 @@ from .phases.choice import MOST_STALLS, entry_run, release_from
 from .phases.reasons import reason
 from .record.pulse import cut_pulse
 from .sampler import Log, Sampler, parameters
-from .scene import Scene
+from .scene import Run, Scene
 from .scenefile import SceneLike, as_scene, scene_from_dict
 
 LOG_RECORDS = 128
@@ -142,31 +142,40 @@ def simulate(scene: SceneLike) -> Motion:
 
 def _motion(scene: Scene, log: Log) -> Motion:
     """The motion of a scene from what its run left; its lists are made when they are looked at."""
-    code, _, final = log
     sample = Sampler(scene, log)
-    period = final[at.PERIOD] * scene.time_unit if 0 < final[at.PERIOD] < inf else None
     return Motion(
         scene,
         Deferred(lambda: sample.listing.phases),
         Deferred(lambda: sample.listing.turns),
         Deferred(lambda: sample.listing.pulses),
-        _ended(code, scene, period, final),
+        _ended(log, scene.run, scene.time_unit),
         sample,
-        period,
-        code != at.WORK_BOUND,
+        _period(log, scene.time_unit),
+        log.code != at.WORK_BOUND,
     )
 
 
-def _ended(code: int, scene: Scene, period: float | None, final: list[float]) -> str:
+def _period(log: Log, unit: float) -> float | None:
+    period = log.final[at.PERIOD]
+    return period * unit if 0 < period < inf else None
+
+
+def _ended(log: Log, run: Run, unit: float) -> str:
     """The reason, with the numbers of this motion."""
-    words = reason(code)
+    code, _, final = log
+    words, period = reason(code), _period(log, unit)
     if code == at.TURNS_REACHED:
-        return f"{words}: number {scene.run.turns}"
+        return f"{words}: number {run.turns}"
     if code == at.WORK_BOUND:
-        return f"{words} after {final[at.T] * scene.time_unit:.6g}: the motion goes on"
+        return f"{words} after {final[at.T] * unit:.6g}: the motion goes on"
     if period is None or code not in (at.ROLLS, at.WHIRLS, at.ROLLS_ON):
         return words
     return f"{words}; period {period:.12g}"
+
+
+def ended_in(motion: Motion, unit: float) -> str:
+    """Why a motion of this solver ends, as ``motion.ended`` says it, with sqrt(R/g) = ``unit`` in its times."""
+    return _ended(motion.sample.log, motion.scene.run, unit)  # type: ignore[attr-defined]
 
 
 def unstored(told: Stored, scene: Scene) -> Motion:

@@ -15,16 +15,17 @@ from ..models.state import State
 from ..segment import Segment
 from ..time.adaptive import MarchError
 from ..time.advance import SHORTEST
+from ..time.course import Stop
 from ..time.events import Ends
 from .ahead import from_here, rest_of, slips_no_more, whirls
 from .pulses import ends_with_turn, goes_through_turns, lead, over_bottom
-from .told import Progress, pulse_over, run_over, swept, with_advice
+from .told import Ending, Progress, pulse_over, run_over, swept
 
 BACK = 0.01  # of the way through a segment, by which a hoop that turned back is out where it came in
 WAITS = 10.0  # sqrt(R/g) that a hoop may take for it, beyond four pulse lengths: a swing takes a few
 
 
-def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> str:
+def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> Ending:
     """Rigid between pulses, flexible inside."""
     current = scene
     done, fresh = 0, True  # segments, and whether a pulse that begins at once is one of its own
@@ -35,40 +36,36 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
             lost = builder.lost_to_hand_overs(float(motion.at(0.0).energy))
             ensure_stands_in(lost, builder.initial or inf, builder.t)
         except MarchError as error:
-            builder.completed = False
-            return str(error)
+            return error.stop
         # what a motion that takes over begins in is the rest of the pulse that is just over
         pulse = next((p for p in motion.pulses if p.t_start > 0 or fresh), None)
         at_rest = scene.run.until == "rest" and slips_no_more(motion)  # what it rolls through is no pulse with a loss
         goes_round = whirls(motion)
         if goes_round and whirled:  # for a revolution at least, as the rigid hoop does
-            return motion.ended
+            return motion
         whirled = goes_round
         if pulse is None or at_rest:
             builder.add_rigid(motion, motion.t_end)
-            builder.completed = motion.completed
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
-            return run_over(scene.run) if over else motion.ended
+            return run_over(scene.run) if over else motion
         start = lead(motion, pulse)
         ends_there = builder.add_rigid(motion, start)
         try:
             state = hand_over(hoop, motion, start, one_of(ends_there, 1))
         except MarchError as error:
-            builder.completed = False
-            return with_advice(scene, str(error))
+            return error.stop
         state = state._replace(t=builder.t, x_C=builder.x_C)
         ends, timed = _ends_of(motion, pulse, start, state)
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, swept((float(state.pos[2]), pulse.phi_end)))
-        state, segment, trouble = builder.march(hoop, state, ends, scene.solve.rtol, watch)
+        state, segment, stop = builder.march(hoop, state, ends, scene.solve.rtol, watch)
         at_turn = 0 < ends.turns <= len(segment.turns())
         onward = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
         back = not (timed or at_turn) and onward * (float(state.pos[2]) - pulse.phi_end) < 0
-        if not trouble and back and ends.t - state.t < SHORTEST:
-            trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the hoop does not get out of the pulse"
-        if trouble:
-            builder.completed = False
-            return with_advice(scene, trouble)
+        if stop is None and back and ends.t - state.t < SHORTEST:
+            stop = Stop(": the hoop does not get out of the pulse", state.t, float(state.pos[2]))
+        if stop is not None:
+            return stop
         _list(builder, segment, pulse, start, back)
         done, fresh = done + 1, at_turn
         if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse) and not builder.pulses[-1].cut:

@@ -17,16 +17,17 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import rigid
-from rigid import Scene, SceneLike
+from rigid import Motion, Scene, SceneLike
 from rigid.kernel.interrupts import between_calls
 
 from ..builder import Builder
 from ..models.select import Range, hoop_of
 from ..motion import FlexibleMotion
 from ..ring.possible import ensure_possible
+from ..time.course import Stop
 from .between import through_pulses
 from .throughout import throughout
-from .told import Progress, Report, in_time_of
+from .told import Progress, Report, in_words
 
 
 @between_calls()
@@ -80,9 +81,10 @@ def simulate(
     builder.most_steps, builder.stop = most_steps, stop
     builder.earlier = None if resume is None else _resumable(resume, scene, history and states)
     run = through_pulses if scene.solve.resolve == "pulses" else throughout
-    ended = run(inner, hoop, builder, Progress(progress))
-    complaint = builder.range.complaint()
-    return builder.motion(scene, in_time_of(scene, f"{ended}; {complaint}" if complaint else ended), history)
+    ending = run(inner, hoop, builder, Progress(progress))
+    ended, complaint = in_words(ending, scene), builder.range.complaint()
+    completed = ending.completed if isinstance(ending, Motion) else not isinstance(ending, Stop)
+    return builder.motion(scene, f"{ended}; {complaint}" if complaint else ended, completed, history)
 
 
 def _resumable(earlier: FlexibleMotion, scene: Scene, states: bool) -> FlexibleMotion:

@@ -16,10 +16,11 @@ from ..models.select import Hoop
 from ..models.state import State
 from ..segment import Segment
 from ..time.adaptive import MarchError
+from ..time.course import Stop
 from ..time.events import Ends
 from .ahead import from_here, rest_of, slips_no_more, whirls
 from .pulses import BACKWARD, add_pulses, swings, turns_of, unfinished
-from .told import Progress, pulse_over, run_over, with_advice
+from .told import Ending, Progress, pulse_over, run_over
 
 
 class Swing(NamedTuple):
@@ -31,7 +32,7 @@ class Swing(NamedTuple):
     until: float  # the time at which to stop
 
 
-def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> str:
+def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> Ending:
     """Run a scene; each pulse is measured over the rigid hoop's interval.
 
     A swing ends where phidot = 0 and no pulse goes on, or the disk passes the top. The rigid hoop that says where its
@@ -42,11 +43,10 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
     try:
         state = hand_over(hoop, reference, 0.0)
     except MarchError as error:
-        builder.completed = False
-        return with_advice(scene, str(error))
+        return error.stop
     if reference.t_end == 0 and scene.run.t_end is None and scene.solve.start == "equilibrium":
         builder.add_rigid(reference, 0.0)
-        return reference.ended
+        return reference
     run: Run | None = scene.run
     whirled = swung_through = False
     horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
@@ -55,21 +55,20 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
         here = from_here(scene, hoop, state, Run(until="rest" if run.until == "rest" else "pulse"))
         swing = rigid.simulate(rigid_limit(here))
         if run.until == "rest" and swung_through and slips_no_more(swing):
-            return swing.ended
+            return swing
         # a swing that begins at a turn has no rest of a pulse to list, and a pulse that goes on through one is one
         pulses = [p for p in swing.pulses if not p.cut or (p.t_start == 0 and not builder.pieces)]
         began, limit = state.t, builder.t + 4 * swing.t_end + 10
         until = limit if scene.run.t_end is None else scene.run.t_end
-        state, segment, trouble = _swung(scene, hoop, builder, state, Swing(swing, pulses, run, until), watch)
+        state, segment, stop = _swung(scene, hoop, builder, state, Swing(swing, pulses, run, until), watch)
         run = rest_of(scene.run, builder)
-        way = add_pulses(builder, segment, swing, pulses, over=not trouble and run is None)
-        if not trouble and state.t == began and run is not None:
-            trouble = f"stopped at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: a swing of no length"
-        elif not trouble and scene.run.t_end is None and state.t >= limit:
-            trouble = f"stopped at t = {state.t:.6g}: the rigid hoop swings that far in a quarter of this time"
-        if trouble:
-            builder.completed = False
-            return with_advice(scene, trouble)
+        way = add_pulses(builder, segment, swing, pulses, over=stop is None and run is None)
+        if stop is None and state.t == began and run is not None:
+            stop = Stop(": a swing of no length", state.t, float(state.pos[2]))
+        elif stop is None and scene.run.t_end is None and state.t >= limit:
+            stop = Stop(": the rigid hoop swings that far in a quarter of this time", state.t)
+        if stop is not None:
+            return stop
         if scene.run.until == "pulse" and way:
             return pulse_over(way == BACKWARD)
         swung_through = swings(segment)
@@ -78,27 +77,27 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
             onward = rigid.simulate(rigid_limit(from_here(scene, hoop, state, Run(turns=1))))
         goes_round = onward is not None and whirls(onward)
         if onward is not None and goes_round and whirled:
-            return onward.ended
+            return onward
         whirled = goes_round
     return run_over(scene.run)
 
 
 def _swung(
     scene: Scene, hoop: Hoop, builder: Builder, state: State, swing: Swing, watch: Callable[[float, float], None] | None
-) -> tuple[State, Segment, str]:
+) -> tuple[State, Segment, Stop | None]:
     """March through a swing; on through a turn where the disk rocks on a soft wall, in a pulse that is not over."""
     turns, inside = turns_of(swing.rigid, swing.pulses, swing.run.turns), None
     segment: Segment | None = None
     while True:
         began = state.t
-        state, part, trouble = builder.march(
+        state, part, stop = builder.march(
             hoop, state, _ends(swing, inside, turns, float(state.pos[2])), scene.solve.rtol, watch
         )
         segment = part if segment is None else segment.then(part)
-        over = trouble or state.t == began or state.t >= swing.until or rest_of(scene.run, builder) is None
+        over = stop is not None or state.t == began or state.t >= swing.until or rest_of(scene.run, builder) is None
         inside, turns = None if over else unfinished(segment, swing.rigid, swing.pulses), 1
         if inside is None:
-            return state, segment, trouble
+            return state, segment, stop
 
 
 def _ends(swing: Swing, inside: Pulse | None, turns: int, phi: float) -> Ends:

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from math import inf
+from typing import TypeAlias
 
-from rigid import Run, Scene
+from rigid import Motion, Run, Scene
 from rigid.output.units import Unit
+from rigid.solve import ended_in
 
-from ..time.adaptive import AS_ASKED
+from ..time.course import Stop
 
 Report = Callable[[float], object]
 Fraction = Callable[[float, float], float]  # of time and angle of a step
 
-_TIME = re.compile(r"(?<=\bt = )[-+.\de]*\d")
+Ending: TypeAlias = str | Stop | Motion
+"""Why a run ends: in words; where it stopped early; or by the rigid motion that begins there, with its own reason."""
 
 
 class Progress:
@@ -40,14 +42,6 @@ def swept(span: tuple[float, float]) -> Fraction:
     return lambda t, phi: (phi - span[0]) / width
 
 
-def with_advice(scene: Scene, trouble: str) -> str:
-    """What to say of a run that stopped: one that was not asked to may have a ring too soft for its disk."""
-    needed = 1.3 / scene.hoop.k if scene.hoop.k > 0 else inf
-    if trouble.endswith(AS_ASKED) or scene.ring.bending_stiffness >= 10 * needed:
-        return trouble
-    return f"{trouble}; the pulse of so small a disk wants ring.bending_stiffness well above 1.3/k = {needed:.3g}"
-
-
 def run_over(run: Run) -> str:
     """That the turns, or the time, asked for are done."""
     if run.turns is None:
@@ -60,9 +54,19 @@ def pulse_over(back: bool) -> str:
     return "the first whole pulse is over" + (": the hoop turned back in it" if back else "")
 
 
-def in_time_of(scene: Scene, sentence: str) -> str:
-    """A sentence of the solver, whose times are in sqrt(R/g), with those of the scene."""
-    if scene.dimensionless:
-        return sentence
-    unit = Unit.TIME.of(scene)
-    return _TIME.sub(lambda found: f"{float(found[0]) * unit:.6g} {Unit.TIME.label(scene)}", sentence)
+def in_words(ending: Ending, scene: Scene) -> str:
+    """The sentence, with its times in the units of ``scene``."""
+    if isinstance(ending, Motion):
+        return ended_in(ending, scene.time_unit)
+    if isinstance(ending, str):
+        return ending
+    told = ending.told() if scene.dimensionless else ending.told(Unit.TIME.of(scene), Unit.TIME.label(scene))
+    return told + _advice(scene.to_dimensionless()) if ending.by_ring else told
+
+
+def _advice(scene: Scene) -> str:
+    """What to say of a ring that may be too soft for its disk, if that may be; in the solver's units."""
+    needed = 1.3 / scene.hoop.k if scene.hoop.k > 0 else inf
+    if scene.ring.bending_stiffness >= 10 * needed:
+        return ""
+    return f"; the pulse of so small a disk wants ring.bending_stiffness well above 1.3/k = {needed:.3g}"

@@ -33,6 +33,7 @@ from .course import (
     Course,
     Marched,
     Standing,
+    Stop,
     beginning,
 )
 from .events import Ends
@@ -42,7 +43,11 @@ Array = NDArray[np.float64]
 
 
 class MarchError(RuntimeError):
-    """A step that could not be mended; the sentence says where and why."""
+    """A step that could not be mended; ``stop`` says where and why."""
+
+    def __init__(self, stop: Stop) -> None:
+        super().__init__(stop.told())
+        self.stop = stop
 
 
 class Limits(NamedTuple):
@@ -56,7 +61,6 @@ class Limits(NamedTuple):
 
 
 LIMITS = Limits()
-AS_ASKED = " as asked"  # ends what is said of a stop that the user wanted
 
 
 def machine(model: Model) -> tuple[Callable[..., Advanced], Any]:
@@ -114,9 +118,7 @@ def restart(model: Model, state: State, mode: int) -> State:
     state = state._replace(mode=mode)
     found = _alone(model, state, 0.0, ESDIRK3)
     if found is None:
-        raise MarchError(
-            f"no forces at t = {state.t:.6g}, phi = {state.pos[2]:.6g}: the patch could not be re-solved"
-        )  # fmt: skip
+        raise MarchError(Stop(": the patch could not be re-solved", state.t, float(state.pos[2]), "no forces"))
     pos = state.pos.copy()
     pos[3:] = found.pos[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
     return found._replace(
@@ -182,7 +184,8 @@ def march(
     tolerance = method.tolerance(rtol) * model.steps
     aims = Aims(tolerance, 1 / method.estimates, float(limits.longest), limits.most, model.relaxation)
     ends = Ends(float(ends.t), float(ends.low), float(ends.high), ends.turns)
-    why, stood, behind, ended, lost = PAUSED, now, len(records), "", -np.inf
+    why, stood, behind, lost = PAUSED, now, len(records), -np.inf
+    stop: Stop | None = None
     while why in (PAUSED, LACKS, MODE_ENDED):
         if not now.cut:
             stood, behind = now, len(records)
@@ -201,7 +204,7 @@ def march(
             try:
                 state, energies, released = _in_mode(model, now.state, mode, records[-1])
             except MarchError as trouble:
-                ended = str(trouble) if why == MODE_ENDED else ""
+                stop = trouble.stop if why == MODE_ENDED else None
                 break
             books = now.books._replace(friction_loss=now.books.friction_loss + released)
             now = now._replace(state=state, books=books)
@@ -214,23 +217,22 @@ def march(
     if why in (PAUSED, CAPPED) and not now.cut:
         stood, behind = now, len(records)
     if why != REACHED:
-        ended = ended or _sentence(why, now, limits)
-    return Marched(now.state, records, now.attempts, ended, Course(stood, records, behind))
+        stop = stop or _stop(why, now, limits)
+    return Marched(now.state, records, now.attempts, stop, Course(stood, records, behind))
 
 
 def _records(rows: Array) -> list[Record]:
     return [Record._make([*row[:-2], int(row[-2])]) for row in rows.tolist()]
 
 
-def _sentence(why: int, now: Standing, limits: Limits) -> str:
+def _stop(why: int, now: Standing, limits: Limits) -> Stop:
     """Why a march stopped early."""
     state = now.state
-    stopped = f"stopped at t = {state.t:.6g}"
     if why == CAPPED:
-        return f"{stopped} after {limits.before + now.attempts} steps"
+        return Stop(f" after {limits.before + now.attempts} steps", state.t)
     if why == PAUSED:
-        return f"{stopped}{AS_ASKED}"
+        return Stop(" as asked", state.t, by_ring=False)
     trouble = "no step however short could be solved"
     if why == STALLED:
         trouble = "stick and slip follow each other without end"
-    return f"{stopped}, phi = {state.pos[2]:.6g} (N = {state.normal_force:.4g}): {trouble}"
+    return Stop(f" (N = {state.normal_force:.4g}): {trouble}", state.t, float(state.pos[2]))

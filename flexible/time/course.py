@@ -1,4 +1,5 @@
-"""Where a march stands: all that its next step depends on, so that it can be left there and taken up again."""
+"""Where a march stands: all that its next step depends on, so that it can be left there and taken up again; and why it
+stopped there."""
 
 from __future__ import annotations
 
@@ -58,11 +59,31 @@ def beginning(state: State, step: float) -> Standing:
     return Standing(state, step, AFRESH, Books(), 0, 0, 0, False)
 
 
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Why and where a march stopped early, or a run; times are told in the units of whoever asks."""
+
+    why: str  # follows the place: ": the reason", or " after 5 steps"
+    t: float | None = None  # sqrt(R/g)
+    phi: float | None = None
+    what: str = "stopped"
+    by_ring: bool = True  # whether a ring too soft for its disk may be the cause
+
+    def told(self, unit: float = 1.0, label: str = "") -> str:
+        """The sentence, with times in units of which sqrt(R/g) is ``unit``, and the name of that behind them."""
+        places = []
+        if self.t is not None:
+            places.append(f"t = {self.t * unit:.6g} {label}".rstrip())
+        if self.phi is not None:
+            places.append(f"phi = {self.phi:.6g}")
+        return f"{self.what} at {', '.join(places)}{self.why}"
+
+
 class Marched(NamedTuple):
     """What a march came to."""
 
     state: State
     records: list[Record]  # one for every accepted step, and for the other side of every event
     attempts: int  # steps tried
-    ended: str  # empty when one of the ends was reached, otherwise why the march stopped early
+    stop: Stop | None  # None when one of the ends was reached; a file does not keep it: what goes on stops anew
     course: Course  # an instant before the steps that the march's own ends made shorter

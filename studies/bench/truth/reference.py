@@ -126,9 +126,9 @@ def run_hoop(scene: Scene, hoop: Any) -> Measured:
     else:
         pulse = motion.pulses[0]
         start, ends = pulse.t_start - LEAD * (pulse.t_end - pulse.t_start), Ends(high=pulse.phi_end)
-    _, records, _, trouble, _ = march(hoop, hand_over(hoop, motion, start), ends, scene.solve.rtol)
-    if trouble:
-        raise RuntimeError(trouble)
+    _, records, _, stop, _ = march(hoop, hand_over(hoop, motion, start), ends, scene.solve.rtol)
+    if stop is not None:
+        raise RuntimeError(stop.told())
     last = records[-1]
     top = peak(*(np.array([getattr(record, name) for record in records]) for name in ("t", "normal_force")))
     return Measured(last.normal_impulse, last.friction_impulse, last.friction_loss, top)

@@ -2,24 +2,38 @@
 
 from __future__ import annotations
 
+import pytest
 from scenes import HOOP
 
 from flexible import simulate
-from flexible.run.told import in_time_of, with_advice
+from flexible.run.told import in_words
+from flexible.time.course import Stop
 from rigid import load_scene
 
 
 def test_a_sentence_has_the_times_of_its_scene():
-    """The solver's are in sqrt(R/g)."""
-    sentence = "stopped at t = 5.1032, phi = 4.1: no step below 1e-12 (E b = 3, t = 1e-05)"
+    """The solver's are in sqrt(R/g); they are rounded once, in the unit in which they are told."""
     paper, printed = load_scene("paper-3.1"), load_scene("printed")
-    assert in_time_of(paper, sentence) == sentence
+    stop = Stop(" (N = 3): no step below 1e-12", 5.10320449, 4.1, by_ring=False)
+    assert in_words(stop, paper) == "stopped at t = 5.1032, phi = 4.1 (N = 3): no step below 1e-12"
     unit = (0.1 / 9.81) ** 0.5
-    told = in_time_of(printed, sentence)
+    told = in_words(stop, printed)
+    assert told == f"stopped at t = {5.10320449 * unit:.6g} s, phi = 4.1 (N = 3): no step below 1e-12"
     assert (
-        told
-        == f"stopped at t = {5.1032 * unit:.6g} s, phi = 4.1: no step below 1e-12 (E b = 3, t = {1e-5 * unit:.6g} s)"
+        in_words(Stop(": nothing", phi=1.0, what="no start", by_ring=False), printed) == "no start at phi = 1: nothing"
     )
+
+
+@pytest.mark.parametrize("resolve", ["pulses", "all"])
+def test_a_period_is_in_the_unit_of_its_scene(resolve):
+    """In seconds it is sqrt(R/g) times that of the same hoop without units, all twelve digits of it."""
+    scene = load_scene("printed").replace(
+        hoop={"k": 0.75}, friction={"mu_s": 1.0, "mu": 0.9}, run={"until": "rest"},
+        ring={"bending_stiffness": 24000.0}, solve={"resolve": resolve, "rtol": 1e-2},
+    )  # fmt: skip
+    seconds, numbers = (simulate(each).ended.split("; period ") for each in (scene, scene.to_dimensionless()))
+    assert seconds[0] == numbers[0] == "rolls for ever: |F| < mu_s N over the whole swing"
+    assert float(seconds[1]) == pytest.approx((0.1 / 9.81) ** 0.5 * float(numbers[1]), rel=1e-11)
 
 
 def test_a_run_that_is_stopped_says_when_in_its_own_unit():
@@ -41,6 +55,6 @@ def test_a_run_that_is_out_of_steps_tells_all_that_it_took():
 def test_a_stop_that_was_asked_for_gets_no_advice():
     """Of a disk too small for its ring it is told where the run stops by itself."""
     soft = HOOP.replace(hoop={"k": 0.01}, ring={"bending_stiffness": 200.0})
-    assert with_advice(soft, "stopped at t = 1 after 5 steps").endswith("well above 1.3/k = 130")
-    assert with_advice(soft, "stopped at t = 1 as asked") == "stopped at t = 1 as asked"
+    assert in_words(Stop(" after 5 steps", 1.0), soft).endswith("well above 1.3/k = 130")
+    assert in_words(Stop(" as asked", 1.0, by_ring=False), soft) == "stopped at t = 1 as asked"
     assert simulate(soft, stop=lambda: True).ended.endswith(" as asked")

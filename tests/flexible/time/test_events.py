@@ -102,7 +102,7 @@ def test_no_step_passes_its_event_where_shorter_ones_fail(failing, monkeypatch):
         if record.mode == STICK:  # Newton's tolerance of 1e-9 (1 + N) on both forces
             assert abs(record.friction_force) <= mu_s * record.normal_force + 3e-9 * (1 + record.normal_force)
     if failing == 1:  # nothing leads up to the event, and nothing is taken beyond it
-        assert "no step however short" in ended
+        assert "no step however short" in ended.why
         assert records[-1].t == fails.longest[1]
     else:  # lengths up to half of that which passed the event can be solved: it breaks loose within them and slides on
         assert not ended
