@@ -141,7 +141,7 @@ class States(Same):
 
 
 @dataclass(frozen=True, repr=False)
-class Motion:
+class Motion(summary.Summarised):
     """What a solver returns: phases, turns and pulses as plain values, and any instant between on demand.
 
     ``ended`` says in words why the motion stops; ``period`` is that of a motion that will roll for ever.
@@ -251,17 +251,14 @@ class Motion:
             raise ValueError("A motion of this solver cannot be saved.")
         write(path, scene_to_dict(self.scene), stored(self))
 
-    def __repr__(self) -> str:
-        return summary.text(self._title(), self._lines())
-
-    def _repr_html_(self) -> str:
+    def _table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
         header = ("pulse", "t", "J_N", "J_F", "J_F/J_N", "friction loss", "peak N")
         rows = [
             (str(number), f"{p.t_start:.6g} to {p.t_end:.6g}", *(f"{value:.6g}" for value in (
                 p.normal_impulse, p.friction_impulse, p.impulse_ratio, p.friction_loss, p.peak_normal_force)))
             for number, p in enumerate(self.pulses[: summary.SHOWN], 1)
         ]  # fmt: skip
-        return summary.html(self._title(), self._lines(), header, rows)
+        return header, rows
 
     def _title(self) -> str:
         return f"{type(self).__name__} to t = {self.t_end:.6g}: {self.ended}"

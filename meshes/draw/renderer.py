@@ -101,7 +101,6 @@ class Renderer:
         self._edge, self._ghost = _lines(first.ring.points, edges), _lines(first.ring.points, edges)
         flat: dict[str, Any] = {"lighting": False, "show_scalar_bar": False}
         self.plotter.add_mesh(self._ghost, name="undeformed", color=style.GHOST, line_width=width, **flat)
-        self.ring_actor: Any = None
         self.paint(colours)
         self.plotter.add_mesh(self._edge, name="rim", color=style.EDGE, line_width=0.8 * width, **flat)
         self._disk = None
@@ -135,7 +134,7 @@ class Renderer:
                 "cmap": style.colormap(colours.field),
                 "clim": [colours.low, colours.high],
             }
-        self.ring_actor = self.plotter.add_mesh(
+        self.plotter.add_mesh(
             self._ring, name="ring", lighting=False, show_scalar_bar=False, reset_camera=False, **options
         )
 

@@ -23,7 +23,7 @@ PULSE_MEASURES = (
 
 
 @dataclass(frozen=True, repr=False)
-class Batch:
+class Batch(summary.Summarised):
     """What became of ``n`` scenes, in the paper's units (R, m, g); ``turns`` and ``pulses`` below are the numbers of
     columns asked for; what a scene does not have is NaN.
     """
@@ -91,12 +91,6 @@ class Batch:
     def phases(self, scene: int, pulse: int = 0) -> tuple[Kind, ...]:
         """What the contact does in a pulse of a scene, in its order; nothing where there is no such pulse."""
         return phases_of(self.sequence[scene, pulse])
-
-    def __repr__(self) -> str:
-        return summary.text(self._title(), self._lines())
-
-    def _repr_html_(self) -> str:
-        return summary.html(self._title(), self._lines())
 
     def _title(self) -> str:
         return f"Batch of {len(self)} scenes"

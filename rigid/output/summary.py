@@ -34,3 +34,25 @@ def html(title: str, lines: Iterable[Line], header: Sequence[str] = (), rows: It
     head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
     table = f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>" if body else ""
     return f"<div><b>{escape(title)}</b><table>{told}</table>{table}</div>"
+
+
+class Summarised:
+    """A result that shows itself: by its title and lines, and in a notebook by a table as well if it has one."""
+
+    __slots__ = ()
+
+    def _title(self) -> str:
+        raise NotImplementedError
+
+    def _lines(self) -> Iterable[Line]:
+        raise NotImplementedError
+
+    def _table(self) -> tuple[Sequence[str], Iterable[Sequence[str]]]:
+        """Header and rows."""
+        return (), ()
+
+    def __repr__(self) -> str:
+        return text(self._title(), self._lines())
+
+    def _repr_html_(self) -> str:
+        return html(self._title(), self._lines(), *self._table())

@@ -28,7 +28,7 @@ SHADE = 1 / 256
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class Atlas:
+class Atlas(summary.Summarised):
     """A map of (side + 1)^2 hoops; rows run up, columns across."""
 
     plane: Plane
@@ -105,12 +105,6 @@ class Atlas:
             "jamming": float(self.found.jams.mean()),
             "paper": [{"scene": name, "x": x, "y": y} for name, x, y in self.plane.scenes_of_the_paper()],
         }  # fmt: skip
-
-    def __repr__(self) -> str:
-        return summary.text(self._title(), self._lines())
-
-    def _repr_html_(self) -> str:
-        return summary.html(self._title(), self._lines())
 
     def _title(self) -> str:
         return f"Atlas over {' and '.join(self.plane.keys)}: {self.sequence.size} hoops, {self.found.runs} of them run"

@@ -31,7 +31,7 @@ _COLUMNS = ("bending_stiffness", "k", "mass_ratio", "foundation", "mu_s", "mu", 
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class HopStudy:
+class HopStudy(summary.Summarised):
     """What the study found."""
 
     scene: Scene
@@ -68,12 +68,6 @@ class HopStudy:
         from .maps import map_figure
 
         return map_figure(self) or hop_map(self)
-
-    def __repr__(self) -> str:
-        return summary.text(self._title(), self._lines())
-
-    def _repr_html_(self) -> str:
-        return summary.html(self._title(), self._lines())
 
     def _title(self) -> str:
         over = STIFFNESS if self.second is None else f"{STIFFNESS} and {self.second}"

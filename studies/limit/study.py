@@ -92,7 +92,7 @@ class Other:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class LimitStudy:
+class LimitStudy(summary.Summarised):
     """What the study found."""
 
     scene: Scene
@@ -108,12 +108,6 @@ class LimitStudy:
     """What was observed."""
     others: tuple[Other, ...]
     """What the same hoop tends to under other compliances, this one's among them."""
-
-    def __repr__(self) -> str:
-        return summary.text(self._title(), self._lines())
-
-    def _repr_html_(self) -> str:
-        return summary.html(self._title(), self._lines())
 
     def _title(self) -> str:
         return f"Limit study: {len(self.events)} events, {len(self.sights)} runs beside them"

@@ -71,7 +71,7 @@ class Rung:
 
 
 @dataclass(frozen=True, slots=True, repr=False)
-class StiffnessStudy:
+class StiffnessStudy(summary.Summarised):
     """What the study found."""
 
     scene: Scene
@@ -218,15 +218,12 @@ class StiffnessStudy:
         told = ([("" if value != value else value) for value in record.values()] for record in records)  # NaN is empty
         return rows_to_csv(list(records[0]), told)
 
-    def __repr__(self) -> str:
-        return summary.text(self._title(), self._lines())
-
-    def _repr_html_(self) -> str:
+    def _table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
         rows = [
             (f"{r.contact_stiffness:.3g}", f"{r.bending_stiffness:.3g}", *(f"{r.measure(name):.6g}" for name in LIMITS))
             for r in self.rungs
         ]
-        return summary.html(self._title(), self._lines(), ("foundation", "E I/(m g R^2)", *LIMITS), rows)
+        return ("foundation", "E I/(m g R^2)", *LIMITS), rows
 
     def _title(self) -> str:
         return f"Stiffness study: {len(self.rungs)} rungs, {len(self.failures)} failed"
