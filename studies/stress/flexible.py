@@ -114,7 +114,7 @@ def flexible_margins(scene: Scene, thorough: bool, work: Work) -> Checked:
     motion = simulate(scene, history=True, progress=work, most_steps=work.steps)
     cut = work.cuts(motion)
     margins = listed(motion)
-    if not any(margins.values()):
+    if max(margins.values()) <= 1:
         margins |= _history(motion) | _ledger(motion)
         if thorough and motion.pulses and not cut:
             margins |= _again(motion, work)
