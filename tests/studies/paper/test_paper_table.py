@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -26,6 +27,35 @@ def test_every_printed_number(verdicts):
     assert all(verdict.why for verdict in failing)
     assert sorted({verdict.place[:3] for verdict in failing}) == ["2.2", "2.4", "3.4"]
     assert len(failing) == 5
+
+
+#: as printed, by section; (9) in sec. 2.2, and no closed form
+PRINTED = {
+    "2.2": [0.045],
+    "2.4": [0.04, 8.24, 0.0064, 0.2048, 0.0016, 0.0128, 0.1],
+    "3.1": [0.71402, 3.18085, 3.20455, 4.54542, 2.49277, 5.74, 8.84, 318],
+    "3.2": [0.80625, 3.21545, 3.37076, 4.61783, 32.4, 3.52, 1.3, 2.94, 0.5385],
+    "3.3": [4.04, 5.425, 5.04],
+    "3.4": [1.38862, 1.80266, 0.78],
+}
+
+
+def test_the_papers_numbers_are_those_that_it_prints():
+    """Each to one unit of its last digit, or less."""
+    found = {section: [] for section in PRINTED}
+    for number in numbers():
+        if number.place != "2.3":
+            found[number.place[:3]].append(number.paper)
+            assert number.unit <= 1.0001 * 10.0 ** -len(f"{number.paper:g}".partition(".")[2]), number.quantity
+    assert found == PRINTED
+
+
+@pytest.mark.parametrize("way", [1, -1])
+def test_a_number_off_by_two_units_does_not_agree(way):
+    for number in numbers():
+        assert replace(number, ours=number.paper + 2 * way * number.unit).verdict.agrees is False
+        assert replace(number, ours=number.paper + 0.99 * way * number.unit).verdict.agrees is True
+        assert replace(number, ours=number.paper + 2 * way * number.unit).verdict.difference * way > 0
 
 
 def test_our_own_values_where_the_paper_fails():
