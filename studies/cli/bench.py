@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from ..running.files import to_json, write_text
+from ..running.files import StudyError, to_json, write_text
 from .shared.options import as_json, out_folder
 from .shared.results import begin_results, results_folder
 
@@ -50,6 +50,8 @@ def bench(
     from ..machine.processes import Processes
     from ..running.progress import bar
 
+    if peers_too and what not in ("rigid", "flexible"):
+        raise StudyError(f"--peers is not possible with {what}: other solvers are raced in rigid and flexible.")
     target = results_folder(out)
     apart = Processes(1)  # a process that has compiled holds memory, which is measured here
     try:

@@ -119,3 +119,11 @@ def test_check_ends_with_one_when_a_ratio_does_not_hold(hoop, monkeypatch):
     assert status == 1
     assert is_one_sentence(err)
     assert hoop("bench", "rigid")[0] == 0
+
+
+@pytest.mark.parametrize("what", ["mesh", "knobs", "soft", "scaling"])
+def test_peers_are_refused_where_there_are_none(hoop, what):
+    """And not left out without a word."""
+    status, out, err = hoop("bench", what, "--peers")
+    assert (status, out) == (2, "")
+    assert is_one_sentence(err)
