@@ -100,6 +100,31 @@ def test_a_record_says_all_units_or_none() -> None:
         assert units_of(record)
 
 
+#: what is measured in which unit, by name
+MEASURED = {
+    Unit.TIME: "t t_start t_end time_off_floor",
+    Unit.NUMBER: "phi phi0 phi_start phi_end stick_fraction"
+    " newton_restitution poisson_restitution energetic_restitution",
+    Unit.ANGULAR_VELOCITY: "omega omega0",
+    Unit.ANGULAR_ACCELERATION: "alpha",
+    Unit.LENGTH: "x_C y_C patch_length",
+    Unit.VELOCITY: "slip_velocity slip0 vertical_velocity",
+    Unit.FORCE: "normal_force friction_force peak_normal_force",
+    Unit.IMPULSE: "normal_impulse friction_impulse",
+    Unit.ENERGY: "energy initial kinetic gravity ring_strain contact_spring ring_energy_peak contact_energy_peak"
+    " friction_loss damping_loss landing_loss numerical_loss hand_over residual",
+}
+
+
+@pytest.mark.parametrize(
+    "record",
+    [Phase, Turn, Pulse, States, rigid.Release, rigid.Run, flexible.FlexiblePulse, flexible.History, flexible.Ledger],
+)
+def test_a_quantity_has_the_unit_of_what_it_is(record: type[Any]) -> None:
+    of = {name: unit for unit, names in MEASURED.items() for name in names.split()}
+    assert units_of(record) == {name: of[name] for name in units_of(record)}
+
+
 def test_a_scene_without_its_units() -> None:
     scene: Scene = SCENE.replace(run={"t_end": 3.0}).to_dimensionless()
     assert scene.dimensionless

@@ -188,6 +188,7 @@ def test_a_cycle_that_drifts_is_found(monkeypatch):
     [
         ("N >= 0", {"normal_force": -OFF}),
         ("|F| <= mu_s N", {"friction_force": 1.0}),
+        ("|F| <= mu_s N", {"friction_force": -1.0}),
         ("in order", {"t": 1.0}),
         ("finite", {"ring_strain": float("nan")}),
     ],
