@@ -229,3 +229,32 @@ def test_numbers_are_one_scene():
 @pytest.mark.parametrize("stiffness", [0.0, 1e17, 1e40])
 def test_a_foundation_stiffer_than_gaps_are_known_is_refused(stiffness):
     assert said(Contact, stiffness=stiffness).startswith(f"contact.stiffness = {stiffness!r} is not possible")
+
+
+@pytest.mark.parametrize("degrees", [7, 10, 29, 35, 57, 114, 229.1])
+def test_an_angle_is_written_as_it_was_typed(degrees):
+    """And not with the last digits of two conversions; radians alone do not stand in the file."""
+    scene = scene_from_dict({**FILE, "release": {"phi0_deg": degrees}})
+    assert scene_to_dict(scene)["release"]["phi0_deg"] == degrees
+    assert "phi0" not in scene_to_dict(scene)["release"]
+
+
+def test_any_angle_survives_its_dict_to_the_last_bit():
+    """Also one that is not that of a float in degrees, of which there are some among these."""
+    beside = 0
+    for phi0 in np.random.default_rng(1).uniform(0.01, 2 * pi, 200).tolist():
+        data = scene_to_dict(Scene(Hoop(0.1), Friction(0.35, 0.3), Release(phi0)))
+        assert scene_from_dict(data).release.phi0 == phi0
+        beside += "phi0" in data["release"]
+    assert 0 < beside < 200
+
+
+def test_radians_that_are_not_those_of_the_degrees_beside_them_are_refused():
+    release = {"phi0_deg": 10.0, "phi0": radians(10) * (1 + 1e-9)}
+    assert "it must be phi0_deg in radians" in said(scene_from_dict, {**FILE, "release": release})
+
+
+@pytest.mark.parametrize(("key", "value"), [("k", 0.1), ("mass_ratio", 0.1), ("r", 1.02)])
+def test_a_point_mass_has_no_radius_and_its_hoop_no_mass_and_no_wall(key, value):
+    hoop = {"point_mass": True, key: value}
+    assert f"hoop.{key} = {value} is not possible: with point_mass" in said(scene_from_dict, {**FILE, "hoop": hoop})

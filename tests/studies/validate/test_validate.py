@@ -71,10 +71,12 @@ def test_a_wrong_solver_fails(monkeypatch):
     assert len(failed(list(point_mass.rows()))) >= 5
 
 
-#: how far off a solver is seen, as a share of the value; by the words with which a source begins
+#: how far off a solver is seen, as a share of the value; by the words with which a source begins, or one of its rows
 SEEN = {
     "plane stress of an annulus": 2e-5,
-    "Castigliano": 0.25,  # at 30 degrees from the weld, which is a tenth as wide
+    "C_rr E I/a^3 at 30": 0.25,  # degrees from the weld, which is a tenth as wide
+    "C_rr E I/a^3 at 90": 0.08,
+    "C_rr E I/a^3 at 180": 0.04,
     "Timoshenko": 0.005,
     "Euler": 0.02,
     "Winkler": 2e-3,
@@ -82,8 +84,11 @@ SEEN = {
     "derived, studies/README.md": 0.03,
     "derived, studies.validate.point_mass": 1e-8,
     "Littlewood": 1e-6,
-    "Theron and du Plessis": 0.02,
+    "time at which the particle": 1e-9,
+    "the same of a hoop with inertia": 4e-4,
+    "N of that hoop": 0.02,
     "Lubarda 2009": 1e-11,
+    "Lubarda, ": None,
 }
 
 
@@ -92,10 +97,14 @@ def test_every_row_fails_beside_a_solver_that_is_off(rows):
     for row in rows:
         if row.verdict != "pass" or isinstance(row.value, str):
             continue
-        (off,) = (share for begins, share in {**SEEN, "Lubarda, ": None}.items() if row.source.startswith(begins))
+        (off,) = (
+            share for begins, share in SEEN.items() if row.source.startswith(begins) or row.what.startswith(begins)
+        )
         if off is None:
             _, _, digits = repr(row.value).removesuffix(".0").partition(".")
             off = max(2.0 * 10.0 ** -len(digits) / row.value, 1e-13)
+        if row.why.startswith("round-off"):
+            off = min(off, 1e-10)
         for way in (1, -1):
             assert replace(row, ours=row.value * (1 + way * off)).verdict == "fail", row.what
 
