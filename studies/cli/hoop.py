@@ -120,7 +120,7 @@ def flexible(
 
     if fields and out is None and earlier is None:
         raise StudyError("--fields needs --out DIR: the fields are files.")
-    if not fields and (frames or times or only):
+    if not fields and (frames, times, only) != (None, None, None):
         raise StudyError("--frames, --times and --only need --fields, which writes the frames.")
     described = load_scene(scene)
     wishes = field_wishes(frames, times, only, described.run.t_end) if fields else None

@@ -26,7 +26,8 @@ def write_motion(motion: Motion, out: Path) -> None:
     from ...plots import pulse as figures
 
     first = next((pulse for pulse in motion.pulses if not pulse.cut), motion.pulses[0])
-    title = "A pulse cut by the run" if first.cut else "The first pulse"
+    whole = "The first whole pulse" if motion.pulses[0].cut else "The first pulse"
+    title = "A pulse cut by the run" if first.cut else whole
     through = history.dimensionless(history.through(motion, first), motion.scene)
     figures.save(figures.pulse([("", through, figures.RIGID)], title), out / "pulse.png")
     if (ledger := figures.energy(through, "Where the energy is during the first pulse")) is not None:
