@@ -47,7 +47,7 @@ def bench(
     scaling   cost against stiffness, turns, mesh, scenes and workers
     """
     from ..machine.kernels import prepare
-    from ..machine.processes import Processes
+    from ..machine.processes import Processes, WorkerDied
     from ..running.progress import bar
 
     if peers_too and what not in ("rigid", "flexible"):
@@ -56,6 +56,8 @@ def bench(
     apart = Processes(1)  # a process that has compiled holds memory, which is measured here
     try:
         apart.submit(prepare, "rigid", "reduced", *(["chain"] if what == "soft" else [])).result()
+    except WorkerDied:
+        raise StudyError("The process that compiles the solvers died, out of memory perhaps.") from None
     finally:
         apart.stop()
     run = importlib.import_module(f"studies.bench.{what}").bench

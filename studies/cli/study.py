@@ -130,8 +130,9 @@ def stiffness(
 def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool, place: Pool) -> StudyError | None:
     """All that a study leaves, the page last: what it names is there. What kept the fields from being written.
 
-    Figures and fields are made side by side, what takes longest first.
+    Figures and fields are made side by side, what takes longest first; a figure whose process dies is drawn here.
     """
+    from ..machine.processes import WorkerDied
     from ..running.progress import bar
     from ..stiffness.report import CAPTIONS, stiffness_report, write_figure
     from .shared.output import write_first_pulse
@@ -147,7 +148,11 @@ def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool, p
     images, lost, beside = {}, None, []
     with bar("figures and fields") as progress:
         for number, (name, figure) in enumerate(drawn.items(), 1):
-            if (image := figure.result()) is not None:
+            try:
+                image = figure.result()
+            except WorkerDied:
+                image = write_figure(found, name, target)
+            if image is not None:
                 images[name] = image
             progress(number / (len(drawn) + fields))
         if written is not None:
@@ -157,6 +162,8 @@ def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool, p
                 beside.append(f"fields.pvd: the ring at the scene's own stiffness; {where}")
             except StudyError as error:
                 lost = error
+            except WorkerDied:
+                lost = StudyError("No fields were written: the process that made them died, out of memory perhaps.")
     stiffness_report(found, images, line, page, numbers, beside)
     return lost
 

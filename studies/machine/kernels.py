@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future
+from contextlib import suppress
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ from typing import Any
 from rigid import Scene
 from rigid.kernel.store import is_cold
 
-from .processes import Processes, cores
+from .processes import Processes, WorkerDied, cores
 
 LEVELS = {"reduced": "flexible.time.advance", "chain": "flexible.time.chain_step"}
 """Levels of the flexible solver that have compiled code of their own, and the module whose code is compiled last."""
@@ -116,7 +117,8 @@ def compile_side_by_side(names: Iterable[str], submit: Callable[..., Future[Any]
             waiting.append(submit(compile_alone, part, told))
             told = True
     for future in waiting:
-        future.result()
+        with suppress(WorkerDied):  # of want of memory beside the others, perhaps: whoever calls it compiles it, alone
+            future.result()
     return cold
 
 

@@ -6,7 +6,7 @@ import re
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Executor, Future, wait
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Protocol, TypeVar
 
 from rigid import scene_to_dict
@@ -83,7 +83,8 @@ class Machine(Pool):
         if case.solver == "flexible":
             levels = [level for level in levels_of([case.scene]) if level not in self._ready]
             if absent := compile_side_by_side(levels, self._processes.submit):  # once for all workers
-                self._processes.submit(prepare, *absent).result()
+                with suppress(WorkerDied):  # the cases compile it, and one that does not survive that is tried again
+                    self._processes.submit(prepare, *absent).result()
             self._ready.update(levels)
         return self._processes.submit(run_case, case)
 

@@ -11,6 +11,7 @@ import rigid
 from rigid.kernel import store
 from studies.machine import kernels
 from studies.machine.kernels import CONTACT, LEVELS, STAGE, compile_alone, compile_on_all_cores, missing, prepare
+from studies.machine.processes import WorkerDied
 from studies.running import workers
 from studies.running.case import Case
 
@@ -78,6 +79,31 @@ def test_a_single_motion_is_compiled_for_on_all_cores(asked, cold, monkeypatch):
     cold.add(STAGE)  # it was killed in the middle, say
     compile_on_all_cores(["chain"])
     assert asked[4:] == [(compile_alone, STAGE, False), "stopped"]
+
+
+def test_what_a_process_dies_compiling_is_left_to_whoever_calls_it(cold, monkeypatch):
+    """Of want of memory beside the others, say: the case runs all the same."""
+
+    class Processes:
+        def __init__(self, count):
+            pass
+
+        def submit(self, function, *arguments):
+            future = Future()
+            if function in (prepare, compile_alone):
+                future.set_exception(WorkerDied("its worker process died"))
+            else:
+                future.set_result("an outcome")
+            return future
+
+        def stop(self):
+            pass
+
+    for user in (kernels, workers):
+        monkeypatch.setattr(user, "Processes", Processes)
+    monkeypatch.setattr(kernels, "cores", lambda: 2)
+    compile_on_all_cores(["rigid", "chain"])
+    assert workers.Machine(2).submit(Case("flexible", rigid.load_scene("paper-3.3-massless"))).result() == "an outcome"
 
 
 def test_each_level_is_known_to_be_compiled_by_its_own_step(monkeypatch):

@@ -8,6 +8,7 @@ import io
 import json
 import re
 import tomllib
+from concurrent.futures import Future
 from dataclasses import replace
 
 import numpy as np
@@ -18,6 +19,7 @@ from rigid import load_scene, scene_from_dict, simulate
 from studies import Ladder, StudyError, limit_of, stiffness_study
 from studies.cli import hoop as cli
 from studies.limit.prediction import predict
+from studies.machine.processes import WorkerDied
 from studies.plots.difference import (
     FORCES,
     at_the_same_angle,
@@ -26,6 +28,8 @@ from studies.plots.difference import (
     passage_of,
 )
 from studies.running import history
+from studies.running.workers import Here
+from studies.stiffness import report
 from studies.stiffness.figures import distances, impulse_space
 from studies.stiffness.limits import CONFIDENCE, fitted_series
 from studies.stiffness.summary import case_cells, case_heading, prediction_sentence, rigid_cells, verdict
@@ -254,3 +258,18 @@ def test_without_friction_there_is_no_impulse_space_and_no_distance_to_draw():
         assert [text.get_text() for text in axes.texts] == ["the rigid value, to round-off"]
         assert not axes.lines
     assert "at any stiffness" in prediction_sentence(found)
+
+
+def test_a_figure_whose_process_died_is_drawn_all_the_same(hoop, tmp_path, monkeypatch):
+    def die(function, *arguments):
+        future = Future()
+        future.set_exception(WorkerDied("its worker process died"))
+        return future
+
+    drawn = []
+    monkeypatch.setattr(Here, "beside", staticmethod(die))
+    monkeypatch.setattr(report, "write_figure", lambda found, name, out: drawn.append(name))
+    status, _, stderr = hoop(*LINE, "--out", tmp_path)
+    assert (status, stderr) == (0, "")
+    assert drawn == list(report.CAPTIONS)
+    assert (tmp_path / "report.html").is_file()
