@@ -25,6 +25,8 @@ from . import BLAS_THREADS, search_garbage_seldom
 
 _ONE_THREAD = dict.fromkeys((*BLAS_THREADS, "NUMBA_NUM_THREADS"), "1")
 
+_DIED = "its worker process died: out of memory perhaps"
+
 _STARTING = threading.Lock()
 _LOGGER = logging.getLogger("hoop-pulse")
 
@@ -84,7 +86,7 @@ class Processes:
             except WorkerDied as death:
                 pipe, error = None, death
             except OSError:  # it had died before it could be given the task
-                pipe, error = None, WorkerDied("its worker process died")
+                pipe, error = None, WorkerDied(_DIED)
             except Exception as unsendable:  # the task or its answer cannot be pickled
                 error = unsendable
             if error is not None:
@@ -103,7 +105,10 @@ class Processes:
         with _STARTING, _one_thread():
             if self._closing.is_set():
                 raise WorkerDied("the pool is closed")
-            worker.start()
+            try:
+                worker.start()
+            except OSError as error:  # no more processes, memory or files are allowed, or the current folder is gone
+                raise WorkerDied(f"its worker process could not be started: {error.strerror or error}") from None
             self._workers[slot] = worker
         theirs.close()
         return ours
@@ -118,7 +123,7 @@ class Processes:
         except (EOFError, OSError):
             pass
         worker.join()
-        raise WorkerDied("its worker process died")
+        raise WorkerDied(_DIED)
 
 
 def _work(pipe: Connection, level: int) -> None:

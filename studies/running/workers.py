@@ -194,7 +194,7 @@ def run_all(cases: Iterable[Case], pool: Pool) -> Iterator[tuple[Case, Outcome]]
                 if deaths[case] < _DEATHS:
                     again.append(case)
                 else:
-                    yield case, failed(case, f"{death}, {_DEATHS} times: out of memory perhaps")
+                    yield case, failed(case, f"{_DEATHS} times {death}")
             except OtherBuild as error:
                 raise StudyError(f"{error}.") from None
             except (Exception, CancelledError) as error:

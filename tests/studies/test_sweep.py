@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import errno
 import json
 import os
 import pickle
@@ -15,6 +16,7 @@ import sys
 import time
 from collections.abc import Callable
 from importlib import metadata
+from multiprocessing.context import SpawnProcess
 from pathlib import Path
 from typing import Any
 
@@ -599,3 +601,16 @@ def test_workers_that_hang_or_die_are_ended_and_replaced():
     assert processes.submit(abs, -3).result(timeout=HANGS) == 3
     processes.stop()
     assert hanging.exception(timeout=0) is not None
+
+
+def test_a_worker_that_cannot_be_started_is_said_to_be_none(monkeypatch):
+    """As where no more processes are allowed, or the current folder is gone."""
+
+    def refused(worker):
+        raise OSError(errno.EAGAIN, "resource temporarily unavailable")
+
+    monkeypatch.setattr(SpawnProcess, "start", refused)
+    processes = Processes(1)
+    with pytest.raises(WorkerDied, match="could not be started: resource temporarily unavailable"):
+        processes.submit(abs, -2).result(timeout=HANGS)
+    processes.stop()
