@@ -15,6 +15,8 @@ def main() -> None:
     search_garbage_seldom()
     # read when numba is imported, for LLVM: compiles in a tenth less time than its 3, to code as fast
     os.environ.setdefault("NUMBA_OPT", "2")
+    # figures are files: no window's backend is needed, whatever the environment names, perhaps one of years ago
+    os.environ["MPLBACKEND"] = "agg"
     sys.exit(run())
 
 

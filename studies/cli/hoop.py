@@ -7,7 +7,6 @@ sentence; 130 interrupted; 141 nobody reads the output any more.
 
 from __future__ import annotations
 
-import errno
 import os
 import shlex
 import sys
@@ -26,7 +25,7 @@ from .bench import bench, stress, validate
 from .completion import completion
 from .hop import hop
 from .limit import limit
-from .shared.options import Commands, Names, SceneName, as_json, field_names, out_folder, scene_argument
+from .shared.options import Commands, Names, SceneName, Unread, as_json, field_names, out_folder, scene_argument
 from .shared.results import begin_results, results_folder
 from .shared.single import one_flexible, one_rigid
 from .study import study
@@ -232,9 +231,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return _say(f"{kept}.", 130)
     except ImportError as error:
         return _say(f"A part of the installation is missing or broken: {error}.", 2)
-    except OSError as error:
+    except (Unread, OSError) as error:
         _forget_stdout()
-        if error.errno == errno.EPIPE:  # the reader of our output has seen enough
+        if isinstance(error, Unread | BrokenPipeError):
             return 141
         return _say(trouble(error), 2)
 

@@ -28,7 +28,7 @@ CODE = (
 )
 
 
-@click.group(cls=Commands)
+@click.group(cls=Commands, no_args_is_help=False)
 def study() -> None:
     """Both solvers over many scenes: the limit of stiffness, sweeps over anything."""
 

@@ -110,8 +110,8 @@ def write_whole(path: str | Path, write: Callable[[Path], Any]) -> Path:
 
 
 def write_text(path: str | Path, text: str) -> Path:
-    """Write a text file whole or not at all."""
-    return write_whole(path, lambda part: part.write_text(text, encoding="utf-8"))
+    """Write a text file whole or not at all; a name in it whose bytes are no UTF-8 keeps these bytes."""
+    return write_whole(path, lambda part: part.write_text(text, encoding="utf-8", errors="surrogateescape"))
 
 
 def plain(value: Any) -> Any:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import fields
 from math import isfinite
 from pathlib import Path
@@ -152,8 +153,35 @@ def _hush(ctx: click.Context, _: click.Parameter, value: bool) -> None:
         ctx.with_resource(quietly())
 
 
+class Unread(Exception):
+    """The reader of our output has seen enough."""
+
+
+@contextmanager
+def _while_read() -> Iterator[None]:
+    """click and rich leave with 1 where nobody reads what they print, as after a failure; this comes before that."""
+    try:
+        yield
+    except BrokenPipeError as gone:
+        raise Unread from gone
+    except SystemExit as left:
+        if isinstance(left.__context__, BrokenPipeError):
+            raise Unread from left
+        raise
+
+
 class Commands(click.Group):
     """Commands in the order a newcomer meets them, each with ``--quiet``."""
+
+    def make_context(self, *args: Any, **extra: Any) -> click.Context:
+        """As usual, but for a help that nobody reads."""
+        with _while_read():
+            return super().make_context(*args, **extra)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """As usual, but for output that nobody reads."""
+        with _while_read():
+            return super().invoke(ctx)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """As they were added."""

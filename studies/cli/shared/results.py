@@ -118,8 +118,8 @@ def begin_results(target: Path) -> None:
 def _held(path: Path) -> str:
     """The command line that a folder is marked with, or nothing."""
     try:
-        line = (path / MADE_BY).read_text(encoding="utf-8").strip()
-    except (OSError, UnicodeDecodeError):
+        line = (path / MADE_BY).read_text(encoding="utf-8", errors="surrogateescape").strip()
+    except OSError:
         return ""
     return line if line.startswith("hoop ") else ""
 

@@ -64,6 +64,19 @@ def test_a_folder_with_other_files_is_taken_and_they_stay(hoop, tmp_path):
     assert (tmp_path / "notes.md").read_text() == (tmp_path / "my-pulse.png").read_text() == "mine"
 
 
+def test_a_folder_whose_name_is_no_utf_8_is_known_again(hoop, tmp_path, scene):
+    """As an archive of other times has them; the command line that it is marked with has the same bytes."""
+    out = tmp_path / "caf\udce9"
+    try:
+        out.mkdir()
+    except OSError:
+        pytest.skip("names are UTF-8 here")
+    file = scene()
+    for _ in range(2):
+        assert hoop("rigid", file, "--out", out)[0] == 0
+    assert os.fsencode(out) in (out / results.MADE_BY).read_bytes()
+
+
 def test_overwrite_takes_a_strangers_folder(hoop, tmp_path):
     (tmp_path / "history.csv").write_text("mydata")
     assert hoop("rigid", "paper-3.1", "--out", tmp_path, "--overwrite")[0] == 0
