@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, pi, radians, sin, sqrt
+from math import copysign, cos, pi, radians, sin, sqrt
 
 import numpy as np
 import pytest
@@ -102,7 +102,8 @@ def test_smooth_landing(restitution):
 def test_landing_against_its_differential_equation():
     """The impact in the impulse variable, with slip reversal, against scipy on the regularised law.
 
-    Coulomb's sign(v) is smoothed to tanh(v/1e-7), which moves the result by about that much.
+    Coulomb's sign(v) is smoothed to tanh(v/1e-7), which moves the result by about that much, once v has come to zero:
+    until then friction is what it was, as a step across the jump would be in error by luck of its length.
     """
     rng = np.random.default_rng(7)
     reversed_or_stuck = 0
@@ -114,22 +115,31 @@ def test_landing_against_its_differential_equation():
         omega, v0, un0 = state[OMEGA], state[SLIP], state[UN]
         e, gyr, s, arm = par[0], par[2], sin(phi), 1 + par[0] * cos(phi)
 
-        def slope(_, y, mu=mu, s=s, e=e, arm=arm, gyr=gyr):
-            f = -mu * np.tanh(y[0] / 1e-7)
+        def slope(_, y, way, mu=mu, s=s, e=e, arm=arm, gyr=gyr):
+            f = -mu * (way or np.tanh(y[0] / 1e-7))
             return [
                 f * (1 + arm**2 / gyr) - e * s * arm / gyr,
                 1 + (e * s) ** 2 / gyr - f * e * s * arm / gyr,
                 (e * s - f * arm) / gyr,
             ]
 
-        def compression_over(_, y):
+        def compression_over(_, y, way):
             return y[1]
 
-        compression_over.terminal = True
-        run = solve_ivp(slope, (0, 50), [v0, un0, omega], "Radau", events=compression_over, rtol=1e-9, atol=1e-11)
+        def slip_over(_, y, way):
+            return y[0]
+
+        compression_over.terminal = slip_over.terminal = True
+        close = {"method": "Radau", "rtol": 1e-9, "atol": 1e-11}
+        ends = (compression_over, slip_over)
+        run = solve_ivp(slope, (0, 50), [v0, un0, omega], events=ends, args=(copysign(1, v0),), **close)
+        if not run.t_events[0].size:
+            at_rest = [0.0, *run.y[1:, -1]]
+            close["first_step"] = 1e-8  # over a slope that is of the order of 1, within the layer
+            run = solve_ivp(slope, (run.t[-1], 50), at_rest, events=compression_over, args=(0.0,), **close)
         strike(par, state, 0.0)
-        assert state[SLIP] == pytest.approx(run.y[0, -1], abs=2e-5)
-        assert state[OMEGA] == pytest.approx(run.y[2, -1], abs=2e-5 / sqrt(gyr))
+        assert state[SLIP] == pytest.approx(run.y[0, -1], abs=1e-6)
+        assert state[OMEGA] == pytest.approx(run.y[2, -1], abs=1e-6 / sqrt(gyr))
         reversed_or_stuck += v0 * state[SLIP] <= 0
     assert reversed_or_stuck > 5
 
