@@ -21,9 +21,10 @@ from .contact.laws.law import Rolling
 from .contact.laws.listing import sticks
 from .contact.points.data import NOTHING, no_bristles
 from .contact.points.rim import lift, sideways, upward
-from .models.equilibrium import Patch, settle
+from .models.equilibrium import Patch
 from .models.select import Hoop
 from .models.state import State, Touching, in_motion
+from .settling import settle
 from .time.adaptive import MarchError, compile_steps, restart
 from .time.course import Stop
 

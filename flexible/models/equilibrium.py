@@ -6,16 +6,11 @@ them, exactly for a linear ring, near its present shape for the exact one, which
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from contextlib import suppress
-from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
-
-from rigid.kernel.interrupts import answer
 
 from ..contact.forces import contact_forces
 from ..contact.laws.listing import sharing
@@ -27,8 +22,6 @@ from .state import State
 
 Array = NDArray[np.float64]
 Window = tuple[int, int]
-
-LONG = 0.1  # half-width of a patch, in R, that no ring at rest carries along the rim by many times its length
 
 
 class RestingRing(Protocol):
@@ -107,8 +100,14 @@ class Patch:
         self.low, self.high = -self.half, self.half
         self.height = -(self.half**2) / 2
         self.window: Window = (0, 0)
-        self.u: Array = np.zeros((0, 2))
+        self.u: Array = np.zeros((1, 2))
+        self.nodal: Array = np.zeros((1, 2))
         self.res, self.bristles = NOTHING, no_bristles()
+        self.ahead = 0.0  # along the rim, of where its forces stand
+
+    def roll(self, angle: float) -> None:
+        """Take the patch to be so much farther along the rim."""
+        self.low, self.high, self.ahead = self.low + angle, self.high + angle, angle
 
     def start_from(self, state: State) -> None:
         """Begin with the patch of a state like the one that is looked for."""
@@ -128,14 +127,18 @@ class Patch:
 
     def solve(self, ring: RestingRing, share: float) -> bool:
         """Newton on height and rim for ``share`` of the forces; whether it converged."""
-        s, c = np.sin(self.phi), np.cos(self.phi)
         wanted = share * self.normal
-        margin = self.half + self.hoop.element
-        last = np.inf
+        margin, lost, last = self.half + self.hoop.element, False, np.inf
         for iteration in range(60):
             window = self.hoop.window(self.phi, self.low, self.high, margin)
             if 2 * window[1] > len(self.hoop.vertex):
                 return False
+            if lost and self.res.normal > 0:
+                angle, lost = self._lowest(window, ring, wanted), False
+                if abs(angle) > 2 * self.half:  # it touches elsewhere than where it is pressed
+                    self.roll(angle)
+                    margin = self.half + self.hoop.element
+                    window = self.hoop.window(self.phi, self.low, self.high, margin)
             if window != self.window or iteration == 0:
                 self._foresee(window, ring, wanted)
             offset, compliance = ring.response(window)
@@ -145,7 +148,7 @@ class Patch:
             force, tangent = contact.force, contact.tangent
             self.nodal, self.res, self.bristles = contact.nodal, contact.res, contact.bristles
             if contact.outside:
-                margin = 2 * margin + self.hoop.element
+                margin, lost = 2 * margin + self.hoop.element, True
                 continue
             flat = self.nodal.ravel()
             misfit = self.u.ravel() - offset - compliance @ flat
@@ -159,8 +162,7 @@ class Patch:
                 self.low, self.high = self.res.low - self.law.spacing, self.res.high + self.law.spacing
                 return True
             if self.res.normal == 0:
-                self.u = offset.reshape(-1, 2).copy()
-                self.height = -self._rise(self.u, s, c) - self.half**2 / 2
+                self._stand(offset)
                 continue
             height, moved = self._step(contact.tangent, compliance, force[1] - wanted, misfit, scale)
             damping = 0.5 if iteration > 5 and error > last else 1.0
@@ -187,103 +189,47 @@ class Patch:
     def _foresee(self, window: Window, ring: RestingRing, wanted: float) -> None:
         """Where Newton starts in a window: the forces found so far, scaled to the wanted N, as deep as before."""
         offset, compliance = ring.response(window)
-        force = np.zeros_like(offset)
-        s, c = np.sin(self.phi), np.cos(self.phi)
-        if self.window[1] and self.res.normal > 0:
-            count = len(self.hoop.vertex)
-            place = {n % (2 * count): i for i, n in enumerate(self._nodes(window))}
-            pairs = force.reshape(-1, 2)
-            before = np.zeros_like(pairs)
-            for i, n in enumerate(self._nodes(self.window)):
-                if n % (2 * count) in place:
-                    pairs[place[n % (2 * count)]] = self.nodal[i]
-                    before[place[n % (2 * count)]] = self.u[i]
-        self.window = window
-        load = force.reshape(-1, 2) @ [c, -s]
-        if load.sum() > 0:
-            self.u = (offset + compliance @ force * (wanted / load.sum())).reshape(-1, 2)
-            self.height -= float(load @ ((self.u - before) @ [c, -s]) / load.sum())
-        else:  # as deep as the force asks for, on the shape that the ring has without it
-            self.u = offset.reshape(-1, 2).copy()
-            self.height = -self._rise(self.u, s, c) - self.half**2 / 2
+        up = [np.cos(self.phi), -np.sin(self.phi)]
+        before, loads, gaps = self._angles(self.window) + self.ahead, self.nodal @ up, self._gaps(self.window, self.u)
+        self.window, self.ahead = window, 0.0
+        if self.res.normal > 0:
+            angles = self._angles(window)
+            before += 2 * np.pi * np.round((angles.mean() - before.mean()) / (2 * np.pi))
+            force = np.column_stack([np.interp(angles, before, one, 0.0, 0.0) for one in self.nodal.T])
+            load = force @ up
+            if load.sum() > 0:
+                self.u = (offset + compliance @ force.ravel() * (wanted / load.sum())).reshape(-1, 2)
+                self.height += loads @ gaps / loads.sum() - load @ self._gaps(window, self.u) / load.sum()
+                return
+        self._stand(offset)
 
-    def _nodes(self, window: Window) -> NDArray[np.int64]:
-        return np.arange(2 * window[0], 2 * (window[0] + window[1]) + 1)
+    def _stand(self, offset: Array) -> None:
+        """Take the shape that the ring has without forces, as deep as the wanted one asks for."""
+        self.u = offset.reshape(-1, 2).copy()
+        self.height = -self._gaps(self.window, self.u).min() - self.half**2 / 2
 
-    def _rise(self, u: Array, s: float, c: float) -> float:
-        """Height of the lowest rim node of the window above where the undeformed rim would touch, at h = 0."""
-        theta = self.hoop.rim_angle(self._nodes(self.window))
-        psi = self.phi + theta - np.pi
-        return float(gap_at(0.0, psi, upward(u[:, 0], u[:, 1], s, c)).min())
+    def _lowest(self, window: Window, ring: RestingRing, wanted: float) -> float:
+        """How far along the rim its nearest node is that the wanted forces, put there, make lowest; 0 if none is."""
+        up = np.array([np.cos(self.phi), -np.sin(self.phi)])
+        loads, force = self.nodal @ up, self.nodal.sum(axis=0)
+        here = loads @ self._angles(self.window) / loads.sum()
+        offset, compliance = ring.response(window)
+        moved = np.einsum("a,iajb,b->ij", up, compliance.reshape(len(offset) // 2, 2, -1, 2), force)
+        gaps = self._gaps(window, offset.reshape(-1, 2))[:, None] + moved * (wanted / loads.sum())
+        slope = np.diagonal(gaps, -1)[1:] - np.diagonal(gaps, 1)[:-1]  # of the rim at each node that is pressed
+        lowest = np.flatnonzero(slope[:-1] * slope[1:] < 0)
+        if len(lowest) == 0:
+            return 0.0
+        ways = self._angles(window)[1 + lowest] - here
+        ways -= 2 * np.pi * np.round(ways / (2 * np.pi))
+        return float(ways[np.abs(ways).argmin()])
 
+    def _angles(self, window: Window) -> Array:
+        """Of a window's nodes."""
+        angles: Array = self.hoop.rim_angle(np.arange(2 * window[0], 2 * sum(window) + 1))
+        return angles
 
-def settle(ring: RestingRing, patch: Patch) -> float:
-    """Bring ring and patch to rest together; the share of all loads that was reached.
-
-    A soft ring turns under the load where the floor touches it. If that carries a short patch along the rim by many
-    times its length, Newton loses it whatever the load: then it is found on a soft foundation, where it is long, and
-    followed to its own.
-    """
-    begins, known = ring.coordinates, dict(patch.__dict__)
-    reached = _in_shares(ring, patch)
-    if reached == 1 or patch.half >= LONG:
-        return reached
-    ring.coordinates, patch.__dict__ = begins, known
-    return 1.0 if _from_soft(ring, patch) else reached
-
-
-def _in_shares(ring: RestingRing, patch: Patch) -> float:
-    """In steps of all loads if one is too much."""
-    share, step = 0.0, 1.0
-    while share < 1:
-        if _try(ring, patch, share + step):
-            share += step
-            step = min(2 * step, 1 - share)
-        else:
-            step /= 2
-            if step < 1 / 256:
-                return share
-    return 1.0
-
-
-def _from_soft(ring: RestingRing, patch: Patch) -> bool:
-    """Find the patch on a soft foundation and follow it to its own; whether that was reached."""
-    law, softness, step = patch.law, (LONG / patch.half) ** 3, 10.0
-    patch.lie_on(law, softness)
-    if _in_shares(ring, patch) < 1:
-        return False
-    while softness > 1:
-        less = max(softness / step, 1.0)
-        if _try(ring, patch, 1.0, partial(patch.lie_on, law, less)):
-            softness = less
-        else:
-            step **= 0.5
-            if step < 1.02:
-                return False
-    return True
-
-
-def _try(ring: RestingRing, patch: Patch, share: float, change: Callable[[], None] = lambda: None) -> bool:
-    """Whether ring and patch come to rest under a share of the loads; if not they stay what they were."""
-    start, known = ring.coordinates, dict(patch.__dict__)
-    with suppress(np.linalg.LinAlgError):
-        change()
-        if _settled(ring, patch, share):
-            return True
-    ring.coordinates, patch.__dict__ = start, known
-    return False
-
-
-def _settled(ring: RestingRing, patch: Patch, share: float) -> bool:
-    change = np.inf
-    for _ in range(15):
-        answer()  # of all nodes of an exact ring one of these takes seconds
-        ring.linearise(share)
-        if not patch.solve(ring, share):
-            return False
-        last, change = change, ring.move(patch.window, patch.nodal.ravel())
-        if change < 1e-11 or (change < 1e-7 and change > last / 4):
-            return True
-        if not change < 10:
-            return False
-    return False
+    def _gaps(self, window: Window, u: Array) -> Array:
+        """Heights of a window's nodes above where the undeformed rim would touch, at h = 0."""
+        up = upward(u[:, 0], u[:, 1], np.sin(self.phi), np.cos(self.phi))
+        return np.asarray(gap_at(0.0, self.phi + self._angles(window) - np.pi, up))
