@@ -122,7 +122,8 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
     """
     s, c = sin(pose.phi), cos(pose.phi)
     a_x, angular = pose.accelerations(hoop)
-    lost = f": no equilibrium of the ring under N = {pose.normal_force:.4g} was found"
+    weight = pose.normal_force / (1 + hoop.scene.hoop.mass_ratio)
+    lost = f": no equilibrium of the ring was found under N = {weight:.4g} of the weight of disk and hoop"
     zero = np.zeros(3 + hoop.coordinates)
     mode = hoop.law.start(pose.kind)
     try:
@@ -145,8 +146,7 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
         patch.start_from(near)
     reached = settle(ring, patch)
     if reached < 1:
-        share = reached * pose.normal_force / (1 + hoop.scene.hoop.mass_ratio)
-        lost += f": from no load on, it is lost at N = {share:.3g} of the weight of disk and hoop"
+        lost += f": from no load on, it is lost at {reached * weight:.3g} of it"
         raise MarchError(Stop(lost, phi=pose.phi, what="no start"))
     pos = np.concatenate([[0.0, patch.height, pose.phi], ring.coordinates])
     rim = Touching(patch.window, patch.u, patch.nodal, patch.res, patch.bristles)

@@ -15,7 +15,7 @@ from .kernel.spectral import compiled_workspace, workspace
 from .lists import Deferred
 from .motion import Array, Motion
 from .output.file import Stored, read
-from .output.units import without_units
+from .output.units import Unit, without_units
 from .phases.choice import MOST_STALLS, entry_run, release_from
 from .phases.reasons import reason
 from .record.pulse import cut_pulse
@@ -148,7 +148,7 @@ def _motion(scene: Scene, log: Log) -> Motion:
         Deferred(lambda: sample.listing.phases),
         Deferred(lambda: sample.listing.turns),
         Deferred(lambda: sample.listing.pulses),
-        _ended(log, scene.run, scene.time_unit),
+        _ended(log, scene.run, scene),
         sample,
         _period(log, scene.time_unit),
         log.code != at.WORK_BOUND,
@@ -160,22 +160,23 @@ def _period(log: Log, unit: float) -> float | None:
     return period * unit if 0 < period < inf else None
 
 
-def _ended(log: Log, run: Run, unit: float) -> str:
-    """The reason, with the numbers of this motion."""
+def _ended(log: Log, run: Run, scene: Scene) -> str:
+    """The reason, with the numbers of this motion in the units of a scene."""
     code, _, final = log
-    words, period = reason(code), _period(log, unit)
+    words, period = reason(code), _period(log, scene.time_unit)
+    unit = "" if scene.dimensionless else f" {Unit.TIME.label(scene)}"
     if code == at.TURNS_REACHED:
         return f"{words}: number {run.turns}"
     if code == at.WORK_BOUND:
-        return f"{words} after {final[at.T] * unit:.6g}: the motion goes on"
+        return f"{words} after {final[at.T] * scene.time_unit:.6g}{unit}: the motion goes on"
     if period is None or code not in (at.ROLLS, at.WHIRLS, at.ROLLS_ON):
         return words
-    return f"{words}; period {period:.12g}"
+    return f"{words}; period {period:.12g}{unit}"
 
 
-def ended_in(motion: Motion, unit: float) -> str:
-    """Why a motion of this solver ends, as ``motion.ended`` says it, with sqrt(R/g) = ``unit`` in its times."""
-    return _ended(motion.sample.log, motion.scene.run, unit)  # type: ignore[attr-defined]
+def ended_in(motion: Motion, scene: Scene) -> str:
+    """Why a motion of this solver ends, as ``motion.ended`` says it, with its times in the units of another scene."""
+    return _ended(motion.sample.log, motion.scene.run, scene)  # type: ignore[attr-defined]
 
 
 def unstored(told: Stored, scene: Scene) -> Motion:

@@ -114,6 +114,6 @@ class Range:
             return ""
         _, furthest, phi = self.records[-1]
         return (
-            f"the rim at the floor turned by {furthest:.2g} at phi = {phi:.4g}, too far for a linear ring"
-            " (solve.level = 'chain' has no such limit)"
+            f"the rim at the floor turned by {furthest:.2g} rad at phi = {phi:.4g} rad, too far for a linear ring"
+            " (solve.level = 'chain', or of a wall too thick for one 'exact', has no such limit)"
         )

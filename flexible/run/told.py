@@ -57,7 +57,7 @@ def pulse_over(back: bool) -> str:
 def in_words(ending: Ending, scene: Scene) -> str:
     """The sentence, with its times in the units of ``scene``."""
     if isinstance(ending, Motion):
-        return ended_in(ending, scene.time_unit)
+        return ended_in(ending, scene)
     if isinstance(ending, str):
         return ending
     told = ending.told() if scene.dimensionless else ending.told(Unit.TIME.of(scene), Unit.TIME.label(scene))

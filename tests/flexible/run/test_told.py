@@ -9,6 +9,7 @@ from flexible import simulate
 from flexible.run.told import in_words
 from flexible.time.course import Stop
 from rigid import load_scene
+from rigid import simulate as rigid_motion
 
 
 def test_a_sentence_has_the_times_of_its_scene():
@@ -33,7 +34,12 @@ def test_a_period_is_in_the_unit_of_its_scene(resolve):
     )  # fmt: skip
     seconds, numbers = (simulate(each).ended.split("; period ") for each in (scene, scene.to_dimensionless()))
     assert seconds[0] == numbers[0] == "rolls for ever: |F| < mu_s N over the whole swing"
-    assert float(seconds[1]) == pytest.approx((0.1 / 9.81) ** 0.5 * float(numbers[1]), rel=1e-11)
+    period, unit = seconds[1].split()
+    assert unit == "s"
+    assert float(period) == pytest.approx((0.1 / 9.81) ** 0.5 * float(numbers[1]), rel=1e-11)
+    rigid = rigid_motion(scene)  # which swings as so stiff a hoop does, to the patch's share of R
+    assert rigid.ended == f"{seconds[0]}; period {rigid.period:.12g} s"
+    assert float(period) == pytest.approx(rigid.period, rel=1e-2)
 
 
 def test_a_run_that_is_stopped_says_when_in_its_own_unit():
