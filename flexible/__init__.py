@@ -17,8 +17,8 @@ In the order in which they build on each other:
 ``models``    a hoop that can be moved in time: reduced, all nodes, geometrically exact, chain
 ``time``      one implicit step; adaptive steps with located events
 ``handover``  where a flexible segment begins: in the equilibrium of a rigid motion, brought there by ``settling``
-``builder``   what a motion is put together from, ``segment`` records read as phases and pulses, ``motion`` what comes
-              back, ``saved`` from a file and ``packed`` into one
+``builder``   puts a motion together: ``segment`` has records read as phases and pulses, ``pieces`` what it is made of,
+              ``motion`` is what comes back, ``saved`` from a file and ``packed`` into one
 ``run``       simulate(scene): pulse by pulse or flexible throughout, which pulses it has, how it ends
 ``output``    displacement and stress, all fields as a series on disk, the hoop as a whole (not loaded here)
 """

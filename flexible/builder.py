@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Hoop, Kind, Motion, Phase, Scene, Side, States, Turn, scene_to_dict
-from rigid.output.file import Stored
+from rigid import Hoop, Kind, Motion, Phase, Scene, States, Turn
 from rigid.output.units import in_units
 
 from .models.select import Hoop as FlexibleHoop
 from .models.select import Range
 from .models.state import State, momentum
 from .motion import FlexibleMotion, FlexiblePulse, Kept, Ledger, March
-from .packed import pack
+from .pieces import Piece, Sampler
 from .segment import Segment, history_of
 from .time.adaptive import LIMITS, Limits, march
 from .time.course import Course, Marched, Stop
@@ -27,85 +24,6 @@ from .time.events import Ends
 from .time.methods import METHODS
 
 Array = NDArray[np.float64]
-
-COURSE = ("step", "pace", "attempts", "turns", "stalls")  # what of where a march stands a file keeps as it is
-
-
-@dataclass(frozen=True)
-class Piece:
-    """A part of the motion, rigid or flexible, between two times."""
-
-    t_start: float
-    t_end: float
-    segment: Segment | None = None
-    motion: Motion | None = None  # its clock starts at ``origin``
-    origin: float = 0.0
-    x_C: float = 0.0  # where the hoop's centre stands at the start of ``motion``
-
-    def states(self, t: Array, side: Side) -> States:
-        """At times of the whole motion, (n,)."""
-        if self.segment is not None:
-            return self.segment.states(t, side)
-        assert self.motion is not None
-        states = self.motion.at(np.clip(t - self.origin, 0.0, self.motion.t_end), side)
-        return replace(states, t=t, x_C=states.x_C + self.x_C)
-
-
-@dataclass(frozen=True)
-class Sampler:
-    """States of a motion made of pieces, in the units of its scene."""
-
-    pieces: tuple[Piece, ...]
-    scene: Scene
-
-    def stored(self, motion: FlexibleMotion) -> Stored:
-        """What a file keeps of the motion: the records of its flexible segments and the rigid motions between them,
-        where each march stands, and the states of the ring if the motion has them."""
-        arrays: dict[str, NDArray[Any]] = {}
-        pieces = []
-        for number, piece in enumerate(self.pieces):
-            told: dict[str, Any] = {name: getattr(piece, name) for name in ("t_start", "t_end", "origin", "x_C")}
-            if piece.segment is not None:
-                found, told["rise"] = piece.segment.columns, piece.segment.rise
-                told["columns"] = list(found)
-            else:
-                assert piece.motion is not None
-                rigid = piece.motion.sample.stored(piece.motion)  # type: ignore[attr-defined]
-                found, told["rigid"], told["scene"] = rigid.arrays, rigid.told, scene_to_dict(piece.motion.scene)
-            arrays |= {f"{number}.{name}": column for name, column in found.items()}
-            pieces.append(told)
-        marches = []
-        for number, (marched, turned) in enumerate(motion.marches):
-            course = marched.course
-            arrays |= {f"march{number}.{name}": a for name, a in pack([marched.state, course.now.state]).items()}
-            if motion.kept:
-                arrays |= {f"kept{number}.{name}": a for name, a in pack(motion.kept[number].states).items()}
-            marches.append({
-                "attempts": marched.attempts, "turned": turned,
-                "course": {name: getattr(course.now, name) for name in COURSE}, "length": course.length,
-                "books": course.now.books._asdict(),
-            })  # fmt: skip
-        lists = {name: [dataclasses.asdict(item) for item in getattr(motion, name)] for name in ("phases", "turns")}
-        pulses = [dataclasses.asdict(replace(pulse, sample=None)) for pulse in motion.pulses]
-        told = {
-            **lists, "pulses": pulses, "pieces": pieces, "ledger": dataclasses.asdict(motion.ledger),
-            "ended": motion.ended, "completed": motion.completed, "steps": motion.steps,
-            "history": motion.history is not None,
-            "marches": marches, "kept": bool(motion.kept),
-        }  # fmt: skip
-        return Stored("flexible", told, arrays)
-
-    def __call__(self, t: Array, side: Side) -> States:
-        flat = np.atleast_1d(np.asarray(t, dtype=float)).ravel() / self.scene.time_unit
-        starts = np.array([piece.t_start for piece in self.pieces])
-        owner = np.clip(np.searchsorted(starts, flat, side) - 1, 0, len(starts) - 1)
-        columns = {field.name: np.empty_like(flat) for field in dataclasses.fields(States)}
-        for i in np.unique(owner):
-            mask = owner == i
-            states = self.pieces[i].states(flat[mask], side)
-            for name, column in columns.items():
-                column[mask] = getattr(states, name)
-        return in_units(States(**{name: c.reshape(np.shape(t)) for name, c in columns.items()}), self.scene)
 
 
 def _lost_in_landings(motion: Motion, until: float) -> float:
@@ -120,22 +38,45 @@ def _lost_in_landings(motion: Motion, until: float) -> float:
 
 
 class Builder:
-    """Collects the pieces of a motion, in the solver's units."""
+    """Collects the pieces of a motion, in the solver's units.
 
-    def __init__(self, scene: Scene) -> None:
+    Parameters
+    ----------
+    scene : Scene
+    within : Range
+        In which the hoop's model holds, told of all that is run.
+    keeps : bool
+        Whether the ring's states are kept.
+    most_steps : int, optional
+        Of all marches together.
+    stop : callable, optional
+        Asked every few steps; where it says so a march stops.
+    earlier : FlexibleMotion, optional
+        From which to go on.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        within: Range,
+        keeps: bool = False,
+        most_steps: int | None = None,
+        stop: Callable[[], bool] | None = None,
+        earlier: FlexibleMotion | None = None,
+    ) -> None:
         self.scene = scene
         self.hoop: Hoop = scene.hoop
+        self.range = within
+        self.kept: list[Kept] | None = [] if keeps else None
+        self.most_steps = most_steps
+        self.stop = stop
+        self.earlier = earlier
         self.pieces: list[Piece] = []
         self.phases: list[Phase] = []
         self.turns: list[Turn] = []
         self.pulses: list[FlexiblePulse] = []
         self.steps = 0
-        self.most_steps: int | None = None
-        self.range: Range
-        self.kept: list[Kept] | None = None
         self.marches: list[March] = []
-        self.earlier: FlexibleMotion | None = None
-        self.stop: Callable[[], bool] | None = None
         self.t = 0.0
         self.x_C = 0.0
         self.initial: float | None = None

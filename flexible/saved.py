@@ -10,11 +10,11 @@ from rigid.output.file import Stored, read
 from rigid.output.units import in_units
 from rigid.solve import unstored
 
-from .builder import Piece, Sampler
 from .models.select import hoop_of
 from .models.state import Books
 from .motion import FlexibleMotion, FlexiblePulse, Kept, Ledger, March
 from .packed import unpack
+from .pieces import Piece, Sampler
 from .segment import Segment, history_of
 from .time.control import Pace
 from .time.course import Course, Marched, Standing

@@ -56,13 +56,14 @@ class _Way:
 def _in_shares(ring: RestingRing, patch: Patch) -> float:
     """In steps of all loads if one is too much."""
     share, step, way = 0.0, 1.0, _Way(ring, patch)
+    lost = False  # by the step before: twice the length that was found is then one that was not
     while share < 1:
         if _try(ring, patch, share + step, partial(way.ahead, share + step)):
             share += step
             way.reached(share)
-            step = min(2 * step, 1 - share)
+            step, lost = min(step if lost else 2 * step, 1 - share), False
         else:
-            step /= 2
+            step, lost = step / 2, True
             if step < 1 / 256:
                 return share
     return 1.0

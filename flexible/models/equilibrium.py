@@ -135,7 +135,7 @@ class Patch:
                 return False
             if lost and self.res.normal > 0:
                 angle, lost = self._lowest(window, ring, wanted), False
-                if abs(angle) > 2 * self.half:  # it touches elsewhere than where it is pressed
+                if abs(angle) > max(2 * self.half, self.hoop.element):  # it touches elsewhere than where it is pressed
                     self.roll(angle)
                     margin = self.half + self.hoop.element
                     window = self.hoop.window(self.phi, self.low, self.high, margin)

@@ -43,6 +43,11 @@ def slips_no_more(motion: Motion) -> bool:
 
 
 def whirls(motion: Motion) -> bool:
-    """Whether a run to turns has none to wait for: this rigid motion has none, and slips no more."""
-    waits = motion.scene.run.turns is not None
-    return waits and motion.period is not None and not motion.turns and slips_no_more(motion)
+    """Whether a run to turns has none to wait for: this rigid motion has none, and has done with slipping but for what
+    a patch creeps.
+    """
+    if motion.scene.run.turns is None or motion.period is None or motion.turns:
+        return False
+    slipped = max((phase.t_end for phase in motion.phases if phase.kind != Kind.ROLL), default=0.0)
+    before, after = motion.at(np.array([0.0, slipped])).energy
+    return bool(before - after <= LEAST_LOSS * after)

@@ -75,11 +75,8 @@ def simulate(
     ensure_possible(scene)
     inner = scene.to_dimensionless()
     hoop = hoop_of(inner)
-    builder = Builder(inner)
-    builder.range = Range(hoop)
-    builder.kept = [] if history and states else None
-    builder.most_steps, builder.stop = most_steps, stop
-    builder.earlier = None if resume is None else _resumable(resume, scene, history and states)
+    earlier = None if resume is None else _resumable(resume, scene, history and states)
+    builder = Builder(inner, Range(hoop), history and states, most_steps, stop, earlier)
     run = through_pulses if scene.solve.resolve == "pulses" else throughout
     ending = run(inner, hoop, builder, Progress(progress))
     ended, complaint = in_words(ending, scene), builder.range.complaint()

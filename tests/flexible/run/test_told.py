@@ -64,3 +64,15 @@ def test_a_stop_that_was_asked_for_gets_no_advice():
     assert in_words(Stop(" after 5 steps", 1.0), soft).endswith("well above 1.3/k = 130")
     assert in_words(Stop(" as asked", 1.0, by_ring=False), soft) == "stopped at t = 1 as asked"
     assert simulate(soft, stop=lambda: True).ended.endswith(" as asked")
+
+
+def test_a_motion_that_is_not_started_says_why_and_has_no_states():
+    """No ring as soft as this one carries the disk on top of it; the share it does is told in any units."""
+    scene = load_scene("printed").replace(ring={"bending_stiffness": 0.05}, solve={"resolve": "all", "elements": 60})
+    motion = simulate(scene)
+    assert (motion.completed, motion.t_end, motion.phases) == (False, 0.0, ())
+    assert motion.ended.startswith("no start at phi = ")
+    assert "of the weight of disk and hoop" in motion.ended
+    assert motion.ended == simulate(scene.to_dimensionless()).ended
+    with pytest.raises(ValueError, match="was not started"):
+        motion.at(0.0)

@@ -1,0 +1,101 @@
+"""The pieces of a motion, rigid and flexible: its state at any time, and what a file keeps of it."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rigid import Motion, Scene, Side, States, scene_to_dict
+from rigid.output.file import Stored
+from rigid.output.units import in_units
+
+from .motion import FlexibleMotion
+from .packed import pack
+from .segment import Segment
+
+Array = NDArray[np.float64]
+
+COURSE = ("step", "pace", "attempts", "turns", "stalls")  # what of where a march stands a file keeps as it is
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A part of the motion, rigid or flexible, between two times."""
+
+    t_start: float
+    t_end: float
+    segment: Segment | None = None
+    motion: Motion | None = None  # its clock starts at ``origin``
+    origin: float = 0.0
+    x_C: float = 0.0  # where the hoop's centre stands at the start of ``motion``
+
+    def states(self, t: Array, side: Side) -> States:
+        """At times of the whole motion, (n,)."""
+        if self.segment is not None:
+            return self.segment.states(t, side)
+        assert self.motion is not None
+        states = self.motion.at(np.clip(t - self.origin, 0.0, self.motion.t_end), side)
+        return replace(states, t=t, x_C=states.x_C + self.x_C)
+
+
+@dataclass(frozen=True)
+class Sampler:
+    """States of a motion made of pieces, in the units of its scene."""
+
+    pieces: tuple[Piece, ...]
+    scene: Scene
+
+    def stored(self, motion: FlexibleMotion) -> Stored:
+        """What a file keeps of the motion: the records of its flexible segments and the rigid motions between them,
+        where each march stands, and the states of the ring if the motion has them."""
+        arrays: dict[str, NDArray[Any]] = {}
+        pieces = []
+        for number, piece in enumerate(self.pieces):
+            told: dict[str, Any] = {name: getattr(piece, name) for name in ("t_start", "t_end", "origin", "x_C")}
+            if piece.segment is not None:
+                found, told["rise"] = piece.segment.columns, piece.segment.rise
+                told["columns"] = list(found)
+            else:
+                assert piece.motion is not None
+                rigid = piece.motion.sample.stored(piece.motion)  # type: ignore[attr-defined]
+                found, told["rigid"], told["scene"] = rigid.arrays, rigid.told, scene_to_dict(piece.motion.scene)
+            arrays |= {f"{number}.{name}": column for name, column in found.items()}
+            pieces.append(told)
+        marches = []
+        for number, (marched, turned) in enumerate(motion.marches):
+            course = marched.course
+            arrays |= {f"march{number}.{name}": a for name, a in pack([marched.state, course.now.state]).items()}
+            if motion.kept:
+                arrays |= {f"kept{number}.{name}": a for name, a in pack(motion.kept[number].states).items()}
+            marches.append({
+                "attempts": marched.attempts, "turned": turned,
+                "course": {name: getattr(course.now, name) for name in COURSE}, "length": course.length,
+                "books": course.now.books._asdict(),
+            })  # fmt: skip
+        lists = {name: [dataclasses.asdict(item) for item in getattr(motion, name)] for name in ("phases", "turns")}
+        pulses = [dataclasses.asdict(replace(pulse, sample=None)) for pulse in motion.pulses]
+        told = {
+            **lists, "pulses": pulses, "pieces": pieces, "ledger": dataclasses.asdict(motion.ledger),
+            "ended": motion.ended, "completed": motion.completed, "steps": motion.steps,
+            "history": motion.history is not None,
+            "marches": marches, "kept": bool(motion.kept),
+        }  # fmt: skip
+        return Stored("flexible", told, arrays)
+
+    def __call__(self, t: Array, side: Side) -> States:
+        if not self.pieces:
+            raise ValueError("The motion has no states: it was not started, as its ``ended`` says.")
+        flat = np.atleast_1d(np.asarray(t, dtype=float)).ravel() / self.scene.time_unit
+        starts = np.array([piece.t_start for piece in self.pieces])
+        owner = np.clip(np.searchsorted(starts, flat, side) - 1, 0, len(starts) - 1)
+        columns = {field.name: np.empty_like(flat) for field in dataclasses.fields(States)}
+        for i in np.unique(owner):
+            mask = owner == i
+            states = self.pieces[i].states(flat[mask], side)
+            for name, column in columns.items():
+                column[mask] = getattr(states, name)
+        return in_units(States(**{name: c.reshape(np.shape(t)) for name, c in columns.items()}), self.scene)
