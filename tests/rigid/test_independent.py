@@ -81,7 +81,8 @@ def test_slip_against_its_closed_form(k):
         kk = mp.mpf(k)
         e, gyr, mu = 1 - kk, kk * kk / 2, -mp.mpf(0.3)
         roots = mpmath.polyroots(
-            [gyr, 2 * e * mu * (1 - e), 2 * gyr + 4 * e * e, 2 * e * mu * (1 + e), gyr],
+            [gyr, 2 * e * mu * (1 + e), 2 * gyr + 4 * e * e, 2 * e * mu * (1 - e), gyr],
+            asc=True,
             maxsteps=500,
             extraprec=400,
         )

@@ -20,7 +20,7 @@ def scene(stiffness, mass=0.05):
 
 @pytest.mark.parametrize(("stiffness", "pose"), [
     (10.0, Pose(3.0, 3.0, 0.0, 20.0, 2.0, Kind.ROLL)),
-    (1.0, Pose(2.6, 3.0, 0.0, 3.0, 0.3, Kind.ROLL)),
+    pytest.param(1.0, Pose(2.6, 3.0, 0.0, 3.0, 0.3, Kind.ROLL), marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_a_soft_ring_against_all_nodes(stiffness, pose):
     """Equilibria in which the rim moves by R/10 to R/3: displacement, hoop stress and energy.

@@ -74,7 +74,7 @@ THICK = rigid.Scene(
 )
 
 
-@pytest.mark.parametrize("damping", [0.13, 1.0])
+@pytest.mark.parametrize("damping", [pytest.param(0.13, marks=pytest.mark.slow), 1.0])
 def test_a_creeping_patch_is_followed_by_steps_as_long_as_any(damping):
     """Rolling along with v_s/5 on a ring without inertia, whose guessed slip is hundreds of times as large.
 

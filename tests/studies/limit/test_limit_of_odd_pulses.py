@@ -24,7 +24,8 @@ def mirrored(scene: Scene) -> Scene:
 @pytest.mark.parametrize(
     ("k", "friction", "phi0", "way"),
     [(0.1288514653360209, (1.1575017687454352, 0.826786977675311), 10, -1),
-     (0.12605168725554625, (0.8581989965296009, 0.6129992832354292), 30, 1)],
+     pytest.param(
+         0.12605168725554625, (0.8581989965296009, 0.6129992832354292), 30, 1, marks=pytest.mark.slow)],
 )  # fmt: skip
 def test_a_pulse_that_begins_with_an_event(k, friction, phi0, way):
     """N jumps over the weight as the spin ends or turns round: what is gained counts from before that."""
