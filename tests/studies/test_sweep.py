@@ -417,6 +417,7 @@ def test_an_unreachable_scheduler_is_one_sentence(hoop, tmp_path):
         assert address in err
 
 
+@pytest.mark.slow
 def test_a_cluster_that_loses_a_worker_gives_the_same_table(tmp_path, monkeypatch):
     """A real cluster of two worker processes; the first that gets k = 0.3 is killed under it."""
     distributed = pytest.importorskip("distributed")

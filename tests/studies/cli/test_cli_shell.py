@@ -231,6 +231,7 @@ def test_every_module_imports_without_posix():
     assert done.returncode == 0, done.stderr[-2000:]
 
 
+@pytest.mark.slow
 def test_motions_run_and_are_written_without_posix(tmp_path):
     program = "from studies.cli import run; sys.exit(run(sys.argv[1:]))"
     for words in (("rigid", "paper-3.1"), ("flexible", "paper-3.3-massless", "--json")):

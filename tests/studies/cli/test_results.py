@@ -139,6 +139,7 @@ def test_the_earlier_motion_stays_until_the_next_one_is_whole(hoop, tmp_path, sc
     assert (out / "motion.npz").read_bytes() == before
 
 
+@pytest.mark.slow
 def test_what_a_command_writes_is_known(hoop, tmp_path, scene):
     """Or it would stay behind beside the next run's."""
     sweep = tmp_path / "two.toml"

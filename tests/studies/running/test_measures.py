@@ -13,6 +13,7 @@ from studies.running.files import to_json
 from studies.running.measures import phase_sequence
 
 
+@pytest.mark.slow
 def test_the_phases_of_a_pulse_are_those_that_a_batch_has():
     """A landing with which a pulse begins is not part of it, whoever tells."""
     rng = np.random.default_rng(5)
