@@ -56,6 +56,7 @@ def test_rate_of_the_patch(k, place):
     assert state.vel[1] == pytest.approx(2 / 3 * state.pos[1] * rate / n[0], rel=1e-2)
 
 
+@pytest.mark.slow
 def test_a_soft_ring_rests_on_a_foundation_however_stiff():
     """The ring, a massless one at E I = 1.13, bends to that of a rigid floor as the foundation's compliance goes to 0.
 
