@@ -16,6 +16,8 @@ from .models.equilibrium import Patch, RestingRing
 Array = NDArray[np.float64]
 
 LONG = 0.1  # half-width of a patch, in R, that no ring at rest carries along the rim by many times its length
+SHORTEST = 1 / 256  # of all loads, a step too short to go on
+CLOSEST = 1.02  # times as stiff, a step from a softer foundation too short to go on
 
 
 def settle(ring: RestingRing, patch: Patch) -> float:
@@ -64,7 +66,7 @@ def _in_shares(ring: RestingRing, patch: Patch) -> float:
             step, lost = min(step if lost else 2 * step, 1 - share), False
         else:
             step, lost = step / 2, True
-            if step < 1 / 256:
+            if step < SHORTEST:
                 return share
     return 1.0
 
@@ -81,7 +83,7 @@ def _from_soft(ring: RestingRing, patch: Patch) -> bool:
             softness = less
         else:
             step **= 0.5
-            if step < 1.02:
+            if step < CLOSEST:
                 return False
     return True
 

@@ -38,7 +38,12 @@ def slips_no_more(motion: Motion) -> bool:
         return True
     if len(slips) < SLIPS:
         return False
-    before, after = motion.at(np.array([0.0, slips[int(SLIPS) - 1]])).energy
+    return _takes_next_to_nothing(motion, slips[int(SLIPS) - 1])
+
+
+def _takes_next_to_nothing(motion: Motion, t: float) -> bool:
+    """Whether a rigid motion has lost as little by then as ends a run to rest."""
+    before, after = motion.at(np.array([0.0, t])).energy
     return bool(before - after <= LEAST_LOSS * after)
 
 
@@ -49,5 +54,4 @@ def whirls(motion: Motion) -> bool:
     if motion.scene.run.turns is None or motion.period is None or motion.turns:
         return False
     slipped = max((phase.t_end for phase in motion.phases if phase.kind != Kind.ROLL), default=0.0)
-    before, after = motion.at(np.array([0.0, slipped])).energy
-    return bool(before - after <= LEAST_LOSS * after)
+    return _takes_next_to_nothing(motion, slipped)

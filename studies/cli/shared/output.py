@@ -25,13 +25,18 @@ def write_motion(motion: Motion, out: Path) -> None:
         return
     from ...plots import pulse as figures
 
-    first = next((pulse for pulse in motion.pulses if not pulse.cut), motion.pulses[0])
+    first = motion.pulses[_shown(motion)]
     whole = "The first whole pulse" if motion.pulses[0].cut else "The first pulse"
     title = "A pulse cut by the run" if first.cut else whole
     through = history.dimensionless(history.through(motion, first), motion.scene)
     figures.save(figures.pulse([("", through, figures.RIGID)], title), out / "pulse.png")
     if (ledger := figures.energy(through, "Where the energy is during the first pulse")) is not None:
         figures.save(ledger, out / "energy.png")
+
+
+def _shown(motion: Motion) -> int:
+    """Number of the pulse that pictures and fields show: the first whole one, if there is one."""
+    return next((number for number, pulse in enumerate(motion.pulses) if not pulse.cut), 0)
 
 
 def write_frame(table: pandas.DataFrame, path: Path) -> Path:
@@ -89,7 +94,7 @@ def write_fields(motion: Motion, out: Path, progress: Callable[[float], None] | 
     progress : callable, optional
         Told the fraction done.
     **wishes
-        From :func:`field_wishes`; by default all fields through the first pulse.
+        From :func:`field_wishes`; by default all fields through the first whole pulse.
 
     Raises
     ------
@@ -103,7 +108,7 @@ def write_fields(motion: Motion, out: Path, progress: Callable[[float], None] | 
     if not isinstance(motion, FlexibleMotion):
         raise StudyError("Only a flexible motion has fields.")
     try:
-        write(motion, out, progress=progress, **wishes)
+        write(motion, out, progress=progress, pulse=_shown(motion), **wishes)
     except SeriesError as error:
         raise StudyError(str(error)) from None
     except OSError as error:
@@ -111,11 +116,11 @@ def write_fields(motion: Motion, out: Path, progress: Callable[[float], None] | 
 
 
 def write_first_pulse(scene: Scene, out: Path) -> None:
-    """Run the scene's first pulse, at the scene's own stiffness, and write its fields."""
+    """Run the scene to its first whole pulse, at the scene's own stiffness, and write its fields."""
     from flexible import simulate
 
     motion = simulate(scene.replace(run=Run(until="pulse")), history=True)
-    write_fields(motion, out, pulse=max(len(motion.pulses) - 1, 0))  # the whole one, behind what the release cuts
+    write_fields(motion, out)
 
 
 def write_mesh(scene: Scene, path: Path) -> str:

@@ -324,3 +324,18 @@ def test_a_cut_pulse_is_marked_on_the_screen_and_in_json(tmp_path, hoop):
     (pulse,) = json.loads(hoop("rigid", file, "--json")[1])["pulses"]
     assert pulse["cut"] is True
     assert pulse["newton_restitution"] is None
+
+
+def test_fields_and_picture_are_of_the_first_whole_pulse(hoop, tmp_path):
+    """Of a hoop released inside a pulse, that is not the first which is listed."""
+    scene = tmp_path / "inside.toml"
+    scene.write_text(
+        "[hoop]\nk = 0.1\nr = 1.02\n[friction]\nmu_s = 0.35\nmu = 0.3\n[release]\nphi0_deg = 175\nomega0 = 2\n"
+        '[run]\nuntil = "pulse"\n[solve]\nrtol = 1e-2\n'
+    )
+    assert hoop("flexible", scene, "--out", tmp_path / "out", "--fields", "--frames", 2)[0] == 0
+    cut, whole = json.loads((tmp_path / "out" / "motion.json").read_text(encoding="utf-8"))["pulses"]
+    assert (cut["cut"], whole["cut"]) == (True, False)
+    first, last = (frame.time for frame in read(tmp_path / "out" / "fields.pvd"))
+    assert cut["t_end"] < first <= whole["t_start"]
+    assert last == pytest.approx(whole["t_end"], abs=1e-9)
