@@ -15,6 +15,7 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
+from scipy.sparse import csr_array
 
 from rigid import Scene
 
@@ -85,16 +86,20 @@ def mass_matrix(rod: Rod, ends: EndMass) -> Array:
     return matrix
 
 
-def rim_matrix(rod: Rod, q: Array, nodes: RimNodes) -> tuple[Array, Array]:
-    """Displacement of nodes of the rim, (m, 2), and its derivatives by the free sections, (2 m, 3 n)."""
-    moved, by, _ = follow(rod, q, nodes)
-    matrix = np.zeros((len(moved), 2, len(rod.theta) + 2, 3))
-    for k, part in enumerate(nodes.part):
-        if part >= 0:
-            matrix[k, :, part : part + 4] = by[k, :, :12].reshape(2, 4, 3)
-        matrix[k, :, 2] += by[k, :, 12:15]
-        matrix[k, :, -3] += by[k, :, 15:]
-    return moved, matrix[:, :, 2:-2].reshape(2 * len(moved), -1)
+def rim_matrix(rod: Rod, q: Array, nodes: RimNodes) -> tuple[Array, csr_array, Array]:
+    """Displacement of nodes of the rim, (m, 2), its derivatives by the free sections, (2 m, 3 n), rotation there, (m,).
+
+    A node follows the four sections around it and those beside the weld.
+    """
+    moved, by, turn = follow(rod, q, nodes)
+    free = 3 * (len(rod.theta) - 2)
+    around = 3 * (nodes.part[:, None] - 2) + np.arange(12)  # the first of them is two before the part's
+    beside = np.broadcast_to([0, 1, 2, *range(free - 3, free)], (len(moved), 6))
+    column = np.repeat(np.concatenate([around, beside], axis=1)[:, None], 2, axis=1)
+    row = np.broadcast_to(np.arange(2 * len(moved)).reshape(-1, 2, 1), column.shape)
+    known = (column >= 0) & (column < free) & ((nodes.part[:, None, None] >= 0) | (np.arange(18) >= 12))
+    place = row[known], column[known]
+    return moved, csr_array((by[known], place), shape=(2 * len(moved), free)), turn
 
 
 def _end_without_a_step(root: Array, theta: Array, begin: float, end: float) -> None:
@@ -160,7 +165,7 @@ class _Shape:
             self.nodes = self.nodes._replace(bow=bow_of_rim(self.rod, self.compliance, self.nodes, theta))
 
     @cached_property
-    def rim(self) -> Array:
+    def rim(self) -> csr_array:
         """Displacement of the rim's nodes by the sections that are free, (2 n_rim, 3 n)."""
         return rim_matrix(self.rod, self.still, self.nodes)[1]
 

@@ -6,13 +6,12 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csc_matrix
+from scipy.sparse import csc_matrix, csr_array
 from scipy.sparse.linalg import splu
 
 from rigid import Scene
 
 from ..chain.bordered import Factors
-from ..chain.rim import follow
 from ..chain.ring import ChainRing, beside_weld, dense_stiffness, mass_matrix, rim_matrix
 from ..chain.rod.corotated import elastic
 from ..chain.stage import Arrays, solved
@@ -153,28 +152,38 @@ class RestingChain:
         self._solve = splu(csc_matrix(matrix)).solve
         pull = force[1:-1].ravel() + share * (self.inertia @ self.coordinates + self.load)
         self.base = self.coordinates - self._solve(pull)
-        self._known: dict[Window, tuple[Array, Array, Array, Array]] = {}
+        self._known: dict[Window, tuple[Array, csr_array, Array]] = {}
+        self._answers: dict[int, Array] = {}
 
-    def _window(self, window: Window) -> tuple[Array, Array, Array, Array]:
-        """Of the nodes: displacement, derivatives by the sections, these' answer to forces, and their own."""
+    def _inverse(self, coordinates: NDArray[np.int64]) -> Array:
+        """Rows and columns of these coordinates of the sections' compliance, each solved for once."""
+        missing = [i for i in coordinates.tolist() if i not in self._answers]
+        if missing:
+            unit = np.zeros((len(self.coordinates), len(missing)), order="F")
+            unit[missing, np.arange(len(missing))] = 1.0
+            self._answers.update(zip(missing, self._solve(unit).T, strict=True))
+        return np.stack([self._answers[i] for i in coordinates.tolist()], axis=1)[coordinates]
+
+    def _window(self, window: Window) -> tuple[Array, csr_array, Array]:
+        """Of the nodes: displacement, derivatives by the sections, and compliance."""
         if window not in self._known:
             ring, q = self.ring, self._padded()
             number, nodes = ring.window(*window)
-            moved, rows = rim_matrix(ring.chain.rod, q, nodes)
-            turn = follow(ring.chain.rod, q, nodes)[2]
+            moved, rows, turn = rim_matrix(ring.chain.rod, q, nodes)
             yields = turned(ring.missing(number, number), turn, turn)
-            answer = self._solve(rows.T.copy())
-            self._known[window] = moved.ravel(), rows, answer, yields + rows @ answer
+            near = np.unique(rows.indices)
+            few = rows[:, near]
+            self._known[window] = moved.ravel(), rows, yields + few @ (few @ self._inverse(near).T).T
         return self._known[window]
 
     def response(self, window: Window) -> tuple[Array, Array]:
         """See :class:`flexible.models.equilibrium.RestingRing`."""
-        moved, rows, _, compliance = self._window(window)
+        moved, rows, compliance = self._window(window)
         return moved + rows @ (self.base - self.coordinates), compliance
 
     def move(self, window: Window, force: Array) -> float:
         """See :class:`flexible.models.equilibrium.RestingRing`."""
-        moved = self.base + self._window(window)[2] @ force
+        moved = self.base + self._solve(self._window(window)[1].T @ force)
         change = float(np.abs(moved - self.coordinates).max() / max(np.abs(moved).max(), 1e-300))
         self.coordinates = moved
         return change

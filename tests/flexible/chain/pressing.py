@@ -22,7 +22,7 @@ def pressed(shape, force, loaded, steps=1):
         for _ in range(60):  # without what the force's own turning adds to the tangent, a hundredth of it
             forces = np.zeros_like(q)
             elastic(shape.rod, q, forces)
-            moved, by = rim_matrix(shape.rod, q, shape.nodes)
+            moved, by, _ = rim_matrix(shape.rod, q, shape.nodes)
             short = forces[1:-1].ravel() - part * by[2 * loaded : 2 * loaded + 2].T @ force
             q[1:-1] -= np.linalg.solve(dense_stiffness(shape.rod, q)[3:-3, 3:-3], short).reshape(-1, 3)
     size = np.abs(force).max()
