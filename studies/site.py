@@ -107,6 +107,8 @@ def build(out: Path) -> Path:
 @click.argument("folder", type=click.Path(file_okay=False, path_type=Path), default=ROOT / "build" / "site")
 def main(folder: Path) -> None:
     """The documentation as one static site in FOLDER, by default build/site of the checkout."""
+    if not (ROOT / "README.md").is_file():
+        raise click.UsageError("The site is made of a checkout's pages, and this is an installed package.")
     try:
         click.echo(build(folder))
     except ModuleNotFoundError as error:

@@ -147,7 +147,17 @@ def apart(example: Callable[[], tuple[tuple[Any, ...], Any]]) -> Callable[[F], F
     """Mark a function that is compiled by itself and called by its address, see :mod:`rigid.kernel.insides.address`.
 
     ``example`` returns arguments and a result of the types that compiled code calls it with.
+
+    Raises
+    ------
+    ImportError
+        Nothing is to be compiled: without that there is no address.
     """
+    import numba
+
+    options: Any = numba.config
+    if options.DISABLE_JIT:
+        raise ImportError("the flexible solver runs compiled alone, which NUMBA_DISABLE_JIT forbids")
 
     def mark(function: F) -> F:
         marked: F = called_by_address(_compiler(_at_home(function, "", {}), keep=True), example)

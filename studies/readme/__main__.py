@@ -37,6 +37,8 @@ def main(pictures: bool, checking: bool, only: tuple[str, ...], folder: Path | N
         for table in dict.fromkeys((stated.table, stated.command) for stated in numbers):
             click.echo("{:20} {}".format(*table))
         return
+    if not (ROOT / "README.md").is_file():
+        raise click.UsageError("There is no README to compare or to make pictures for: this is an installed package.")
     with tempfile.TemporaryDirectory(prefix="readme-") as temporary:
         place = folder or Path(temporary)
         place.mkdir(parents=True, exist_ok=True)

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from studies import site as pages
 from studies.site import PACKAGES, main
 
 pytest.importorskip("pdoc")
@@ -36,6 +37,14 @@ def test_what_is_no_folder_is_not_written_to(tmp_path: Path, monkeypatch, line: 
     assert told.exit_code == status
     assert "Usage: " in told.output
     assert [path.name for path in tmp_path.iterdir()] == ["a.md"]
+
+
+def test_an_installed_package_has_no_pages_to_make_a_site_of(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setattr(pages, "ROOT", tmp_path)
+    told = CliRunner().invoke(main, [str(tmp_path / "site")])
+    assert told.exit_code == 2
+    assert "installed package" in told.output
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("package", PACKAGES)

@@ -7,8 +7,10 @@ import re
 from pathlib import Path
 
 import pytest
+from click.testing import CliRunner
 
 from studies import StudyError
+from studies.readme import __main__ as command
 from studies.readme import again
 from studies.readme import stated as readme
 
@@ -59,3 +61,13 @@ def test_a_picture_is_made_by_its_command(tmp_path):
         again.make([readme.Picture("a", ("hoop scenes",), "here/nothing")], again.Bench(tmp_path), tmp_path)
     with pytest.raises(StudyError, match="ended with 2"):
         again.make([readme.Picture("a", ("hoop rigid nothing",), "a")], again.Bench(tmp_path), tmp_path)
+
+
+@pytest.mark.parametrize("wish", ["--check", "--pictures"])
+def test_an_installed_package_has_no_readme_to_compare_or_illustrate(tmp_path: Path, monkeypatch, wish: str):
+    """Pictures would be written beside the packages."""
+    monkeypatch.setattr(command, "ROOT", tmp_path)
+    told = CliRunner().invoke(command.main, [wish, "--only", "no such", "--only", readme.NUMBERS[0].table])
+    assert told.exit_code == 2
+    assert "installed package" in told.output
+    assert not list(tmp_path.iterdir())
