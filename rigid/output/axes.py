@@ -39,11 +39,11 @@ Span = tuple[str, float, float]
 
 
 def label(name: str, dimensionless: bool) -> str:
-    """What an axis is called; in the units of a scene that has its own, it says no unit."""
+    """What an axis is called, and its unit: the paper's scaling, or SI units."""
     words, symbol, unit = _WORDS[name]
     if name == "phi":
         return f"{words} {symbol} (rad)"
-    return f"{words} {symbol[:-1]}/{_grouped(unit.formula)}$" if dimensionless else f"{words} {symbol}"
+    return f"{words} {symbol[:-1]}/{_grouped(unit.formula)}$" if dimensionless else f"{words} {symbol} ({unit.si})"
 
 
 def _grouped(unit: str) -> str:

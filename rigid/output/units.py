@@ -74,10 +74,14 @@ class Unit(Enum):
         """In the paper's scaling, for a label between dollar signs."""
         return self.value[1]
 
+    @property
+    def si(self) -> str:
+        """In SI units."""
+        return self.value[2]
+
     def label(self, scene: Measured) -> str:
         """What to print behind a number in the units of ``scene``."""
-        paper, _, si = self.value
-        return paper if scene.dimensionless else si
+        return self.value[0] if scene.dimensionless else self.si
 
     def of(self, scene: Measured) -> float:
         """How much it is in a scene; 1 in the paper's scaling."""

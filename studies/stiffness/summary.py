@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import isfinite
+from math import floor, isfinite, log10
 from typing import TYPE_CHECKING
 
 from ..plots.sheet import number, power_of
@@ -15,6 +15,12 @@ if TYPE_CHECKING:
 
 REST = ("normal_impulse", "peak_normal_force", "time_off_floor")
 """Measures of a rung beside the tied ones that one looks at first."""
+
+
+def fixed(study: StiffnessStudy, name: str, value: float, decimals: int) -> str:
+    """A measure with so many decimals in the paper's scaling, and in the units of the scene with as many digits."""
+    places = min(max(decimals - floor(log10(MEASURES[name].unit.of(study.scene))), 0), 300)
+    return f"{round(value, places) + 0.0:.{places}f}"  # the other zero has no sign
 
 
 def case_heading(study: StiffnessStudy) -> list[str]:
@@ -31,7 +37,10 @@ def case_cells(study: StiffnessStudy, rung: Rung) -> list[str]:
         return stiffness
     cells, loose = [], study.loose(rung)
     for name in ("impulse_ratio", "friction_loss"):
-        cells += [f"{rung.measure(name):.5f}", number(rung.error(name), 2) + ("*" if name in loose else "")]
+        cells += [
+            fixed(study, name, rung.measure(name), 5),
+            number(rung.error(name), 2) + ("*" if name in loose else ""),
+        ]
     rest = [number(rung.measure(name), 5) for name in REST]
     return [*stiffness, *cells, *rest, f"{rung.outcome.seconds:.2f}"]
 
@@ -43,9 +52,9 @@ def rigid_cells(study: StiffnessStudy) -> list[str]:
     return [
         "rigid",
         "",
-        f"{p['impulse_ratio']:.5f}",
+        fixed(study, "impulse_ratio", p["impulse_ratio"], 5),
         "",
-        f"{p['friction_loss']:.5f}",
+        fixed(study, "friction_loss", p["friction_loss"], 5),
         "",
         *rest,
         f"{study.reference.seconds:.2f}",
@@ -73,9 +82,9 @@ def limit_rows(study: StiffnessStudy) -> list[list[str]]:
         rows.append(
             [
                 MEASURES[name].heading(study.scene).replace("\n", " "),
-                f"{limit.value:.6f}",
+                fixed(study, name, limit.value, 6),
                 number(limit.uncertainty, 2),
-                f"{limit.rigid:.6f}",
+                fixed(study, name, limit.rigid, 6),
                 number(limit.error, 2),
                 {True: "yes", False: "no", None: "-"}[limit.rigid_inside],
                 number(limit.rate, 3),
@@ -135,29 +144,34 @@ def verdict(study: StiffnessStudy) -> str:
     said = [f"{answer}: {'; '.join(told)}."]
     other = study.limits["normal_impulse"]
     if other.rigid_inside is False:
-        said.append(
-            f"J_N (normal impulse) tends to {other.value:.6f} ± {number(other.uncertainty, 2)}, and the rigid hoop has "
-            f"{other.rigid:.6f}, outside that interval by {number(abs(other.error) - other.uncertainty, 2)}."
-        )
+        off = number(abs(other.error) - other.uncertainty, 2)
+        said.append(f"J_N (normal impulse) {_tends(study, 'normal_impulse', other)}, outside that interval by {off}.")
     if study.failures:
         said.append(f"{len(study.failures)} of {len(study.rungs)} cases failed.")
     return " ".join(said)
 
 
 def _told(study: StiffnessStudy, name: str, limit: Limit) -> str:
-    unit = MEASURES[name].unit.label(study.scene)
-    unit = f" {unit}" if unit else ""
     if limit.rigid_inside is None:
-        last = study.rungs_through[-1].measure(name)
+        last, rigid = (fixed(study, name, value, 5) for value in (study.rungs_through[-1].measure(name), limit.rigid))
         return (
-            f"{_MEANING[name]} is {last:.5f}{unit} at the stiffest rung and {limit.rigid:.5f} for the rigid hoop, "
+            f"{_MEANING[name]} is {last}{_unit(study, name)} at the stiffest rung and {rigid} for the rigid hoop, "
             "too few rungs for an interval"
         )
-    where = "inside" if limit.rigid_inside else "outside"
     return (
-        f"{_MEANING[name]} tends to {limit.value:.6f} ± {number(limit.uncertainty, 2)}{unit}, and the rigid hoop has "
-        f"{limit.rigid:.6f}, {where} that interval"
+        f"{_MEANING[name]} {_tends(study, name, limit)}, {'inside' if limit.rigid_inside else 'outside'} that interval"
     )
+
+
+def _tends(study: StiffnessStudy, name: str, limit: Limit) -> str:
+    value, rigid = (fixed(study, name, value, 6) for value in (limit.value, limit.rigid))
+    uncertainty = number(limit.uncertainty, 2)
+    return f"tends to {value} ± {uncertainty}{_unit(study, name)}, and the rigid hoop has {rigid}"
+
+
+def _unit(study: StiffnessStudy, name: str) -> str:
+    unit = MEASURES[name].unit.label(study.scene)
+    return f" {unit}" if unit else ""
 
 
 def ladder_sentence(study: StiffnessStudy) -> str:
@@ -201,10 +215,10 @@ def law_sentence(study: StiffnessStudy) -> str:
     explained = LAWS[study.scene.contact.law].explanation(friction)
     if study.reference_mu_s == friction.mu_s:
         return explained
-    paper = study.rigid.pulses[0]
+    ratio, loss = (fixed(study, name, study.rigid.pulses[0][name], 5) for name in ("impulse_ratio", "friction_loss"))
     return (
         f"{explained} The paper's law, mu_s = {friction.mu_s:g}, would give "
-        f"J_F/J_N = {paper['impulse_ratio']:.5f} and a friction loss of {paper['friction_loss']:.5f}."
+        f"J_F/J_N = {ratio} and a friction loss of {loss}{_unit(study, 'friction_loss')}."
     )
 
 
@@ -231,7 +245,8 @@ def prediction_sentence(study: StiffnessStudy) -> str:
         term = study.prediction.terms[name]
         powers = " ".join(f"{c:+.4g} {power_of('ε', p)}" for p, c in term.powers if c) or "at any stiffness"
         seen = study.coefficient(name)
-        words = f"{MEASURES[name].symbol} = {number(term.limit)} {powers}"
+        heading = MEASURES[name].heading(study.scene).replace("\n", " ")
+        words = f"{heading} = {number(term.limit)} {powers}"
         if seen is not None and term.coefficient:
             beside = f"{seen.observed:.4g} ± {seen.uncertainty:.2g} observed, {seen.predicted:.4g} predicted"
             words += f" (at the stiffest case, over {power_of('ε', term.exponent)}: {beside})"

@@ -7,6 +7,7 @@ from math import floor, log10
 from typing import TYPE_CHECKING
 
 from rigid import Kind
+from rigid.output.units import Unit
 
 if TYPE_CHECKING:
     from flexible import FlexibleMotion
@@ -57,9 +58,9 @@ def _chatter(motion: FlexibleMotion) -> str:
     hops = sum(phase.kind == Kind.FLIGHT and phase.t_end - phase.t_start < period for phase in flexible)
     if not hops:
         return ""
-    damping = scene.contact.damping
+    damping, told = scene.contact.damping, f"{period:.3g} {Unit.TIME.label(scene)}"
     how = f"The contact, damped at {damping:g}," if damping > 0 else "The undamped contact"
     return (
         f"{how} chatters in the pulses: {hops} of their {len(flexible)} phases are hops shorter than a period of the "
-        f"patch's own vibration, {period:.3g}; a {'larger ' if damping > 0 else ''}contact.damping ends that."
+        f"patch's own vibration, {told}; a {'larger ' if damping > 0 else ''}contact.damping ends that."
     )

@@ -1,5 +1,8 @@
 """The energy ledger as it is printed, and what is said of it."""
 
+import re
+from math import sqrt
+
 import pytest
 
 import flexible
@@ -40,6 +43,12 @@ def test_chatter_is_told_and_that_damping_ends_it(chattering):
     (sentence,) = [text for text in remarks(chattering) if "chatter" in text]
     assert f"{hops} of their {len(chattering.pulses[0].phases)} phases" in sentence
     assert "contact.damping" in sentence
+    period = re.search(r"vibration, (\S+) sqrt\(R/g\);", sentence)
+    si = flexible.simulate(chattering.scene.replace(hoop={"R": 0.3, "m": 2e-3, "g": 9.81}))
+    (sentence,) = [text for text in remarks(si) if "chatter" in text]
+    seconds = re.search(r"vibration, (\S+) s;", sentence)
+    # both are told to three digits
+    assert float(seconds[1]) == pytest.approx(float(period[1]) * sqrt(0.3 / 9.81), rel=1e-2)
     assert not any("chatter" in text for text in remarks(flexible.simulate(SCENE)))
 
 

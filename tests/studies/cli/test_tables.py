@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from math import sqrt
 
 import pytest
 
@@ -11,6 +12,7 @@ from studies import MEASURES, Ladder, run_sweep, stiffness_study, sweep_from_dic
 from studies.cli.shared.tables import motion_tables, show, study_tables, sweep_tables
 from studies.plots.sheet import Column, Sheet
 from studies.running.workers import Here
+from studies.stiffness.summary import case_cells, law_sentence, limit_rows, rigid_cells, verdict
 
 WIDTHS = (60, 80, 200)
 NUMBER = r"-|-?\d+(\.\d+)?(e[-+]\d+)?"
@@ -74,6 +76,26 @@ def test_the_ladder_keeps_every_number(study, scene, screen, width):
     assert all(re.fullmatch(r"[\d.e-]+( \*)?", cell) for cell in found["run [s]"])
     # the first table holds the name, the ratio and its uncertainty side by side
     assert re.search(r"│ +1e\+07 │.* \d\.\d{5} │ +[\d.e-]+ │", out)
+
+
+@pytest.mark.parametrize(("R", "m"), [(0.02, 0.005), (2.0, 50.0)])
+def test_in_joules_a_study_says_as_many_digits(R, m):
+    """Five of m g R and six of a limit, be that a millijoule or a kilojoule; the sentences have the unit too."""
+    scene = load_scene("paper-3.2-k0.25").replace(contact={"law": "brush"}, solve={"rtol": 1e-9})  # off in joules too
+    scene = scene.replace(hoop={"R": R, "m": m, "g": 9.81})
+    found = stiffness_study(scene, Ladder("contact", 1e7, 1e13, 5), solver="third_solver:softened")
+    energy, impulse = m * 9.81 * R, m * sqrt(9.81 * R)
+    for rung in found.rungs:
+        assert float(case_cells(found, rung)[4]) == pytest.approx(rung.measure("friction_loss"), abs=5e-6 * energy)
+    assert float(rigid_cells(found)[4]) == pytest.approx(found.reference.pulses[0]["friction_loss"], abs=5e-6 * energy)
+    size = {"J_F/J_N": 1, "friction loss [J]": energy, "J_N [N s]": impulse}
+    for row, limit in zip(limit_rows(found), found.limits.values(), strict=True):
+        assert float(row[1]) == pytest.approx(limit.value, abs=5e-7 * size[row[0]])
+        assert float(row[3]) == pytest.approx(limit.rigid, abs=5e-7 * size[row[0]])
+        if row[0].endswith("[J]"):
+            assert f"tends to {row[1]} ± {row[2]} J, and the rigid hoop has {row[3]}," in verdict(found)
+    loss = re.search(r"friction loss of (\S+) J\.", law_sentence(found))
+    assert float(loss[1]) == pytest.approx(found.rigid.pulses[0]["friction_loss"], abs=5e-6 * energy)
 
 
 @pytest.mark.parametrize("width", WIDTHS)
