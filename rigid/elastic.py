@@ -99,7 +99,8 @@ class Contact:
         "brush": it acts at every point of the patch; "regularised": no static coefficient at all,
         F = -mu N v/sqrt(v^2 + v_s^2) with v the slip velocity of the patch.
     stiffness : float
-        Normal foundation eps_n R^2/(m g): force per area of rim and unit penetration, dimensionless.
+        Normal foundation eps_n R^2/(m g), dimensionless: eps_n is the force per length of rim and unit penetration, of
+        a floor known by its pressure per unit penetration that times the width on which the hoop stands.
     tangential_ratio : float
         Tangential over normal foundation.
     damping : float
