@@ -177,7 +177,7 @@ class _Painter:
             after = [i.after for i in instants if i.after is not None]
             found["rate"] = interior.rate(states, before, after)
         if self.asked & {"stress", "von_mises", "hoop_stress", "bending_stress", "energy_density"}:
-            found["stress"], found["density"] = interior.stress(u)
+            found["stress"], found["density"] = interior.stress(interior.strained(states))
             if "energy_density" in self.asked:
                 found["energy"] = interior.element_energy(u)
         for number in range(len(instants)):
