@@ -11,6 +11,8 @@ from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
 from flexible.models.state import Touching, in_motion
 from flexible.output.body import lowest, outline, whole
+from flexible.output.interior import interior_of
+from meshes import Placement
 from rigid import Friction, Hoop, Release, Scene
 
 LEVELS = [ReducedHoop, FullHoop, ChainHoop]
@@ -77,6 +79,28 @@ def test_the_lowest_point_of_a_circle(level, height):
     assert lowest(hoop, state) == pytest.approx(height, abs=1.5e-6)
     centre = np.array([0.0, 1 + height])
     assert np.hypot(*(outline(hoop, state) - centre).T) == pytest.approx(1.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("level", LEVELS)
+@pytest.mark.parametrize("phi", [-0.02, 0.02, 2 * np.pi])
+def test_the_lowest_point_with_the_disk_on_top(level, phi):
+    """There the first of the rim's nodes is as low as the last one."""
+    hoop = level(scene_of(0.4))
+    assert lowest(hoop, state_of(hoop, phi, height=0.01)) == pytest.approx(0.01, abs=1.5e-6)
+
+
+@pytest.mark.parametrize("level", [ReducedHoop, FullHoop])
+def test_the_outline_is_the_bent_ring_where_the_hoop_is(level):
+    """The rim's nodes of the mesh, moved as the interior has it, placed in the world: two ways to one place."""
+    hoop = level(scene_of(0.4))
+    state = state_of(hoop, phi=2.1, height=0.25)._replace(x_C=3.0)
+    state.pos[3:] = 1e-3 * np.random.default_rng(2).normal(size=hoop.coordinates)
+    inside = interior_of(hoop)
+    mesh = inside.mesh
+    moved = mesh.points + inside.displacement([state])[..., 0]
+    placed = Placement(2.1, 3.0, 1.25).points(moved[mesh.rim_nodes])
+    bent = np.abs(moved - mesh.points).max()
+    assert outline(hoop, state) == pytest.approx(placed, abs=1e-9 * bent)
 
 
 @pytest.mark.parametrize("phi", [0.3, 2.1, 3.0, 5.0])
