@@ -25,10 +25,12 @@ import pytest
 from command_line import HANGS, SCENE, command, environment, is_one_sentence, process
 
 from rigid import SceneError, load_scene, scene_from_dict, scene_to_dict
+from rigid import simulate as rigid_motion
 from rigid.output import whole
 from studies import StudyError, load_sweep, pool, run_sweep, sweep_from_dict
 from studies.machine.processes import Processes, WorkerDied
 from studies.running.case import Case, run_case
+from studies.running.measures import phase_sequence
 from studies.running.runs import Estimate, run_cases
 from studies.running.solvers import build
 from studies.running.store import Store
@@ -94,6 +96,29 @@ def test_the_table_is_a_data_frame_and_a_csv_of_the_same_numbers(tmp_path):
     (tmp_path / "table.csv").write_text(table.to_csv())
     read = pandas.read_csv(tmp_path / "table.csv", dtype={"friction_loss": str})
     assert [float(text) for text in read["friction_loss"]] == list(frame["friction_loss"])
+
+
+def test_each_pulse_is_a_record_with_its_own_number_measures_and_phases():
+    """As the motion itself has them; of a run that ends before its first pulse there is one, of no number."""
+    scenes = {"turns": 3}, {"t_end": 0.1}
+    for run in scenes:
+        data = {"sweep": {"scene": "paper-3.3-light", "solvers": "rigid"}, "friction": {"mu": [0.1, 0.3]}, "run": run}
+        records = run_sweep(data).records()
+        expected = []
+        for mu in (0.1, 0.3):
+            motion = rigid_motion(load_scene("paper-3.3-light").replace(friction={"mu": mu}, run=run))
+            whole_ones = [pulse for pulse in motion.pulses if not pulse.cut]
+            for number, pulse in enumerate(whole_ones, 1):
+                phases = " ".join(phase_sequence(motion, pulse))
+                expected.append((mu, number, phases, pulse.normal_impulse, pulse.friction_loss))
+            if not whole_ones:
+                expected.append((mu, 0, "", None, None))
+        names = ("friction.mu", "pulse", "phases", "normal_impulse", "friction_loss")
+        found = [tuple(None if record[n] != record[n] else record[n] for n in names) for record in records]
+        assert found == expected
+        if "turns" in run:
+            assert len({phases for _, _, phases, _, _ in expected}) > 1
+            assert len(expected) > 2
 
 
 def test_a_base_scene_by_name():
