@@ -73,6 +73,63 @@ def test_the_scene_is_shown_as_it_was_run(page):
     assert (shown.contact.damping, shown.contact.law, shown.run.until) == (0.5, "brush", "pulse")
 
 
+def tables(text):
+    """Those of a page, each a list of rows of cells, the heading first."""
+    return [
+        [
+            [html.unescape(cell) for cell in re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row, re.S)]
+            for row in re.findall(r"<tr[^>]*>(.*?)</tr>", table, re.S)
+        ]
+        for table in re.findall(r"<table>(.*?)</table>", text, re.S)
+    ]
+
+
+def column(table, heading):
+    """The numbers under a heading; NaN where there is none."""
+    at = table[0].index(heading)
+    return [float("nan" if row[at] == "-" else row[at]) for row in table[1:]]
+
+
+def test_every_number_stands_under_its_heading(study, tmp_path):
+    """The limits, the cases from soft to stiff with the rigid hoop last, and measures, as the study holds them."""
+    path = report.stiffness_report(study, {}, "hoop", tmp_path / "page.html")
+    limits, cases, side = tables(path.read_text(encoding="utf-8"))
+    held = list(study.limits.values())
+    assert column(limits, "value") == pytest.approx([limit.value for limit in held], abs=1e-6)
+    assert column(limits, "rigid") == pytest.approx([limit.rigid for limit in held], abs=1e-6)
+    assert column(limits, "rate") == pytest.approx([limit.rate for limit in held], rel=1e-2, nan_ok=True)
+    pulses = [rung.outcome.pulses[0] for rung in study.rungs]
+    stiffness = [rung.contact_stiffness for rung in study.rungs]
+    assert stiffness == sorted(stiffness)
+    assert [float(row[0]) for row in cases[1:-1]] == pytest.approx(stiffness, rel=1e-2)
+    assert cases[-1][0] == "rigid"
+    every = [*pulses, study.reference.pulses[0]]
+    assert [float(row[2]) for row in cases[1:]] == pytest.approx([p["impulse_ratio"] for p in every], abs=1e-5)
+    assert [float(row[4]) for row in cases[1:]] == pytest.approx([p["friction_loss"] for p in every], abs=1e-5)
+    assert all(len(row) == len(cases[0]) for row in cases)
+    assert [cases[0][at].split("\n")[0] for at in (2, 4)] == ["J_F/J_N", "friction loss"]
+    rows = {row[0].partition(", ")[0]: row[1:] for row in side[1:]}
+    for symbol, name in (("J_N", "normal_impulse"), ("duration", "duration"), ("peak N", "peak_normal_force")):
+        told = [study.reference.pulses[0][name], *(pulse[name] for pulse in pulses)]
+        assert [float(cell) for cell in rows[symbol]] == pytest.approx(told, rel=1e-4)
+
+
+def test_a_page_holds_its_pictures_and_says_how_it_was_made(study, tmp_path):
+    """Markup in a command is no markup of the page."""
+    drawn = {"pulse": tmp_path / "pulse.svg", "energy": tmp_path / "energy.png"}
+    for name, file in drawn.items():
+        file.write_bytes(name.encode())
+    line = "hoop study stiffness 'a <b> & c'"
+    text = report.stiffness_report(study, drawn, line, tmp_path / "page.html").read_text(encoding="utf-8")
+    assert html.unescape(re.search(r"How this page was made</h2>\s*<pre>(.*?)</pre>", text, re.S)[1]) == line
+    assert "<b>" not in text
+    found = re.findall(r'<img alt="([^"]*)"\s*src="data:image/([^;]*);base64,([^"]*)"', text)
+    kinds = {"pulse": "svg+xml", "energy": "png"}
+    assert [(alt, kind, base64.b64decode(data).decode()) for alt, kind, data in found] == [
+        (html.escape(report.CAPTIONS[name], quote=True), kinds[name], name) for name in drawn
+    ]
+
+
 def test_the_numbers_lie_beside_the_page_and_in_it(page):
     text, out = page
     frame = pandas.read_csv(out / "study.csv", dtype=str)  # not every pandas reads numbers to the last bit
