@@ -147,7 +147,9 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
     reached = settle(ring, patch)
     if reached < 1:
         lost += f": from no load on, it is lost at {reached * weight:.3g} of it"
-        raise MarchError(Stop(lost, phi=pose.phi, what="no start"))
+        if reached > 0:  # as much stiffer it bends as it does under that share, but for the foundation's part
+            lost += f"; a ring {1 / reached:.3g} times as stiff would carry it"
+        raise MarchError(Stop(lost, phi=pose.phi, what="no start", by_ring=reached == 0))
     pos = np.concatenate([[0.0, patch.height, pose.phi], ring.coordinates])
     rim = Touching(patch.window, patch.u, patch.nodal, patch.res, patch.bristles)
     return in_motion(t, x_C, (pos, zero, zero), mode, rim, pose.slip_velocity)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from scenes import HOOP
 
@@ -73,6 +75,5 @@ def test_a_motion_that_is_not_started_says_why_and_has_no_states():
     assert (motion.completed, motion.t_end, motion.phases) == (False, 0.0, ())
     assert motion.ended.startswith("no start at phi = ")
     assert "of the weight of disk and hoop" in motion.ended
-    assert motion.ended == simulate(scene.to_dimensionless()).ended
-    with pytest.raises(ValueError, match="was not started"):
-        motion.at(0.0)
+    times = float(re.search(r"a ring (\S+) times as stiff would carry it$", motion.ended)[1])
+    assert simulate(scene.replace(ring={"bending_stiffness": 0.05 * times}, run={"t_end": 1e-3})).completed
