@@ -10,7 +10,7 @@ import pytest
 from rigid import Friction, Hoop, Kind, Landing, Release, Run, Scene, simulate, simulate_batch
 from studies import measures
 from studies.running.files import to_json
-from studies.running.measures import phase_sequence
+from studies.running.measures import inside, phase_sequence
 
 
 @pytest.mark.slow
@@ -32,6 +32,30 @@ def test_the_phases_of_a_pulse_are_those_that_a_batch_has():
             assert phase_sequence(motion, pulse) == [str(kind.value) for kind in batch.phases(i, j)]
             landings += any(p.kind == Kind.IMPACT and p.t_start == pulse.t_start for p in motion.phases)
     assert landings > 5  # enough of them to tell
+
+
+def test_a_landing_with_which_a_pulse_begins_comes_before_it():
+    """As the batch has it, whose kernel writes down the kinds while it runs."""
+    hoop, friction = Hoop(0.5204732812939288, 1.5), Friction(1.085, 0.904)
+    scene = Scene(hoop, friction, Release(-1.16, -2.97, -2.38), Run(turns=2), Landing(0.0))
+    motion, batch = simulate(scene), simulate_batch([scene], turns=2, pulses=4)
+    first = motion.pulses[:4]
+    assert any(p.kind is Kind.IMPACT and p.t_start == pulse.t_start for pulse in first for p in motion.phases)
+    for i, pulse in enumerate(first):
+        assert phase_sequence(motion, pulse) == [str(kind.value) for kind in batch.phases(0, i)]
+
+
+def test_the_phases_of_a_pulse_begin_and_end_with_it():
+    """In time and in angle, none overlaps; the motion's own go on beyond both ends, where N is M g and no more."""
+    motion = simulate(Scene(Hoop(0.1, 1.02, 0.1), Friction(0.35, 0.3), Release(phi0_deg=10), run=Run(turns=1)))
+    pulse = motion.pulses[0]
+    phases = inside(motion, pulse)
+    assert len(phases) > 1
+    assert max(p.t_end for p in motion.phases) > pulse.t_end
+    assert min(p.t_start for p in motion.phases) < pulse.t_start
+    starts, ends = ([(getattr(p, f"t_{at}"), getattr(p, f"phi_{at}")) for p in phases] for at in ("start", "end"))
+    assert starts == [(pulse.t_start, pulse.phi_start), *ends[:-1]]
+    assert ends[-1] == (pulse.t_end, pulse.phi_end)
 
 
 def test_the_three_restitutions_of_a_pulse_are_told_apart():
