@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from math import sqrt
 
+import numpy as np
 import pytest
 
 from rigid import Run, load_scene, simulate
@@ -109,6 +111,21 @@ def test_a_motion_has_units_everywhere(scene, screen, width):
     assert all(re.fullmatch(NUMBER, cell) for cell in found["pulse 4"])
 
 
+def test_what_stands_at_a_turn_is_the_motion_there(scene, screen):
+    """To the six digits of the screen; phidot is nought in it."""
+    motion = simulate(scene[1].replace(run=Run(turns=4)))
+    found = table_of(screen(200, motion_tables(motion)))
+    time, speed, energy = ("s", "m/s", "J") if scene[0] else ("sqrt(R/g)", "sqrt(gR)", "mgR")
+    states = motion.at([turn.t for turn in motion.turns])
+    assert len(states.t) == 4
+    assert np.abs(states.omega).max() < 1e-6 * np.abs(motion.at(motion.times()).omega).max()
+    shown = {f"energy [{energy}]": states.energy, f"slip velocity [{speed}]": states.slip_velocity}
+    shown |= {f"t [{time}]": states.t, "phi [deg]": np.degrees(states.phi)}
+    for heading, values in shown.items():
+        cells = [float(cell) for cell in found[heading]]
+        assert cells == pytest.approx(values, rel=1e-5, abs=1e-9), heading
+
+
 def test_a_phase_begins_where_the_one_before_it_ends(scene, screen):
     """In time and in angle; and none of these ends where it began."""
     found = table_of(screen(200, motion_tables(simulate(scene[1]))))
@@ -147,6 +164,22 @@ def test_a_sweep_over_many_keys_keeps_its_numbers(sweep, screen, width):
     assert "friction loss [mgR]" in found
     assert found["contact. stiffness"] == ["100000000.0", "1000000000.0"] * 12
     assert "friction.mu = 0.5" in " ".join(out.split())
+
+
+def test_a_long_sweep_shows_its_first_rows_and_says_that_there_are_more(sweep, screen):
+    out = screen(200, sweep_tables(sweep, 5))
+    impulses = [f"{record['normal_impulse']:.6g}" for record in sweep.records()]
+    assert len(set(impulses)) > 5
+    assert table_of(out)["J_N [m sqrt(gR)]"] == [cell.replace("nan", "-") for cell in impulses[:5]]
+    assert "the first 5 rows" in out
+
+
+@pytest.mark.parametrize("times", [1, 2])
+def test_ten_reasons_are_told_and_how_many_more_there_are(sweep, screen, times):
+    """Of 8 failed cases all, of 16 the first ten."""
+    out = " ".join(screen(200, sweep_tables(replace(sweep, rows=sweep.rows * times))).split())
+    assert out.count("rigid at ") == min(8 * times, 10)
+    assert re.findall(r"(\S+) more failed", out) == [[], ["6"]][times - 1]
 
 
 @pytest.mark.parametrize("width", [24, 40, 60, 80, 200])
