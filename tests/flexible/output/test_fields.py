@@ -104,6 +104,25 @@ def test_stick_says_what_the_phase_says(motion, at_steps):
     assert {"roll", "spin", "skid"} <= seen
 
 
+def test_the_rim_sticks_or_slips_where_the_floor_presses_and_nowhere_else(at_steps):
+    """At the contact's points and at the mesh's nodes among and beside them."""
+    for frame in at_steps[0]:
+        rim = frame.blocks["rim"].point_data
+        np.testing.assert_array_equal(rim["stick"] != 0, rim["pressure"] > 0)
+
+
+def test_the_line_of_the_rim_is_closed(at_steps):
+    """From every point to the next, and from the last to the first; chords of 2 pi."""
+    for frame in at_steps[0]:
+        rim = frame.blocks["rim"]
+        for end in rim.cells.T:
+            np.testing.assert_array_equal(np.sort(end), np.arange(len(rim.points)))
+        ends = np.asarray(rim.points, dtype=float)[rim.cells]
+        length = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        # a chord lacks a 24th of its square
+        assert length.sum() == pytest.approx(2 * np.pi, rel=length.max() ** 2 / 24)
+
+
 def test_velocity_is_the_rate_of_the_position(motion, tmp_path):
     """Central differences of the deformed points over 2e-6 of time, in the middle of a smooth stretch."""
     pulse = motion.pulses[0]
@@ -213,6 +232,16 @@ def test_the_velocity_of_a_flight_is_the_rate_of_the_position(tmp_path, now):
     rate = (after.points.astype(float) - before.points) / 2e-3
     # points are floats of four bytes: 1e-7 of some R over 2e-3
     np.testing.assert_allclose(at.point_data["velocity"], rate, atol=5e-4)
+
+
+def test_the_velocity_just_before_a_landing_is_that_of_the_fall(tmp_path):
+    """One-sided differences, which see nothing of what comes after it: 3 x - 4 x_1 + x_2 over 2 h."""
+    thrown = simulate(scene(release={"phi0": 0.1, "omega0": 3.0}, run={"t_end": 1.4}), history=True)
+    end = next(phase.t_end for phase in thrown.phases if phase.kind is Kind.FLIGHT)
+    write_fields(thrown, tmp_path, times=end - 2e-4 - 1e-3 * np.array([2, 1, 0]), fields=("velocity",))
+    second, first, last = (frame.blocks["ring"] for frame in read(tmp_path))
+    rate = (3 * last.points.astype(float) - 4 * first.points.astype(float) + second.points) / 2e-3
+    np.testing.assert_allclose(last.point_data["velocity"], rate, atol=2e-3)
 
 
 def test_si_units(motion, tmp_path):
