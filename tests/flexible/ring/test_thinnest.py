@@ -41,3 +41,12 @@ def test_a_thinner_one_is_refused(level):
     with pytest.raises(SceneError, match="too thin for the quads"):
         flexible.simulate(scene)
     assert ring_of(scene.replace(hoop={"r": 1.0}, ring={"thickness": 0.001})).mesh.grid.shape[1] > 0, "as it says"
+
+
+def test_a_point_mass_needs_a_hoop_with_a_mass():
+    """Without either nothing resists a turn about it."""
+    heavy = Scene(Hoop(k=0.0, r=1.02, mass_ratio=0.1), Friction(0.35, 0.3), Release(1.0))
+    flexible.ensure_possible(heavy)
+    flexible.ensure_possible(heavy.replace(hoop={"k": 0.1, "mass_ratio": 0.0}))
+    with pytest.raises(SceneError, match=r"hoop\.k = 0"):
+        flexible.ensure_possible(heavy.replace(hoop={"r": 1.0, "mass_ratio": 0.0}))
