@@ -1,22 +1,25 @@
 """The elasticity of the chain: its section, closed forms of rings, large deflections, and the mesh it comes from."""
 
 from math import asin, cos, log, pi, sin, sqrt
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
 import pytest
+from scenes import HOOP
 from scipy.integrate import solve_bvp
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc
 
 from flexible.chain.bordered import FRAME, Blocks, factor, no_blocks, solve
 from flexible.chain.rim import RimNodes, follow, rim_curvature
-from flexible.chain.ring import _Shape, dense_stiffness, rim_matrix
-from flexible.chain.rod.corotated import Rod, elastic
+from flexible.chain.ring import ChainRing, _Shape, dense_stiffness, rim_matrix
+from flexible.chain.rod.corotated import Rod, elastic, strain_energy
 from flexible.chain.rod.ends import bow_of, chord_strains, in_strains
 from flexible.chain.rod.parts import curve_weights
 from flexible.chain.rod.section import RodCompliance, radial, rod_compliance
 from flexible.contact.vectors import eliminate, solved_by
+from flexible.ring.choice import ring_of
 from flexible.ring.fem import Ring
 from meshes import ring_mesh
 
@@ -232,6 +235,17 @@ def bent(shape, size=0.3, seed=0):
     for n in (1, 2, 3):
         q += size * rng.standard_normal(3) * np.sin(n * (theta - theta[0]) * pi / (theta[-1] - theta[0]))[:, None]
     return q
+
+
+@pytest.mark.parametrize("r", [1.02, 1.12])
+def test_the_energy_of_a_bent_chain_goes_like_its_stiffness(r):
+    """Of one shape, however far it is bent: geometry has no stiffness of its own."""
+    made = HOOP.replace(hoop={"r": r}, solve={"elements": 240})
+    soft, stiff = (made.replace(ring={"bending_stiffness": bending}) for bending in (3.0, 300.0))
+    rods = [ChainRing(one, ring_of(one, 2, linear=False), 60).chain.rod for one in (soft, stiff)]
+    q = bent(SimpleNamespace(rod=rods[0]))
+    low, high = (strain_energy(rod, q) for rod in rods)
+    assert high == pytest.approx(100 * low, rel=1e-12)
 
 
 def test_forces_and_tangent_of_the_chain(thin):

@@ -2,10 +2,14 @@
 
 from math import cos
 
+import numpy as np
 import pytest
 from scenes import HOOP
 
 import flexible
+from flexible.chain.ring import _Shape
+from flexible.ring.fem import Ring
+from meshes import ring_mesh
 from rigid import Run
 
 #: a first pulse at E I = 10, which hangs on how the wall bends beside the weld
@@ -45,6 +49,19 @@ def test_a_wall_becomes_a_line(damping):
     found = [measures(thin.replace(hoop={"r": r}))[0] for r in (1.004, 1.002, 1.001)]
     for (a, b, c), known in zip(zip(*found, strict=True), (0.0, 0.0, 0.02), strict=True):
         assert abs(b - c) < 0.6 * abs(a - b) + known * c
+
+
+@pytest.mark.parametrize("r", [1.003, 1.001])
+def test_a_thin_wall_is_dented_as_a_beam_is(r):
+    """A pressure p on all of the rim: 13/32 of the wall times p/E beside a beam's middle, (1 + nu)/4 along the beam.
+
+    Between the two, which plane stress allows, it is the same in any wall: the dent goes like the wall.
+    """
+    shape = _Shape(Ring(ring_mesh(1 / r, 1.0, 240, 2), 0.3), 120)
+    assert shape.slender
+    pressure = shape.ring.rim_products @ np.ones(480)
+    dent = shape.missing[::2, ::2] @ pressure / (1 - 1 / r)
+    assert np.all((dent > 1.3 / 4) & (dent < 13 / 32))
 
 
 @pytest.mark.slow

@@ -141,3 +141,13 @@ def test_rotating_ring():
     errors = [hoop_stress_error(int(n), int(n) // 24) for n in counts]
     assert errors[-1] < 3e-4
     assert order(1 / counts, errors) == pytest.approx(2, abs=0.3)
+
+
+def test_products_along_the_rim_integrate_what_its_elements_hold():
+    """1, the circle's 2 pi; a wave's square, pi: what quadratic shapes of length d leave falls as (n d)^4/180, 1e-6."""
+    made = ring(1.02, 240, 1)
+    theta = made.mesh.rim_theta
+    ones, wave = np.ones(len(theta)), np.cos(3 * theta)
+    assert ones @ made.rim_products @ ones == pytest.approx(2 * pi, rel=1e-12)
+    assert wave @ made.rim_products @ wave == pytest.approx(pi, rel=1e-6)
+    assert ones @ made.rim_products @ wave == pytest.approx(0, abs=1e-9)
