@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
-from math import cos, inf, pi, sin, sqrt
+from math import ceil, cos, inf, pi, sin, sqrt
 from typing import get_args
 
 import numpy as np
@@ -148,7 +148,7 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
     if reached < 1:
         lost += f": from no load on, it is lost at {reached * weight:.3g} of it"
         if reached > 0:  # as much stiffer it bends as it does under that share, but for the foundation's part
-            lost += f"; a ring {1 / reached:.3g} times as stiff would carry it"
+            lost += f"; a ring {ceil(100 / reached) / 100:g} times as stiff would carry it"
         raise MarchError(Stop(lost, phi=pose.phi, what="no start", by_ring=reached == 0))
     pos = np.concatenate([[0.0, patch.height, pose.phi], ring.coordinates])
     rim = Touching(patch.window, patch.u, patch.nodal, patch.res, patch.bristles)

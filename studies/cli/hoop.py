@@ -230,7 +230,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         kept = "; ".join(["Interrupted", *map(str, (interrupt.__cause__ or interrupt).args)])
         return _say(f"{kept}.", 130)
     except ImportError as error:
-        return _say(f"A part of the installation is missing or broken: {error}.", 2)
+        return _say(f"A part of hoop cannot be loaded: {error}.", 2)
     except (Unread, OSError) as error:
         _forget_stdout()
         if isinstance(error, Unread | BrokenPipeError):
