@@ -94,6 +94,7 @@ class Apart:
         files: dict[Any, list[pytest.Item]] = {}
         for item in session.items:
             files.setdefault(item.path, []).append(item)
+        session.config._tmp_path_factory.getbasetemp()  # one for all: a child that ends does not clear up after itself
         outer_first = sorted(files, key=lambda path: len(path.parts))  # they take longest
         waiting = [files[path] for path in outer_first]
         try:
