@@ -32,9 +32,8 @@ _SPARE = 2
 t-distribution is 12.7 wide at 95 % and its own shape unknown."""
 
 _MISFIT = 0.02
-"""How much the distance to the limit may miss the law, relative to itself: sets the weight of soft against
-stiff points and of misfit against numerical error; the width of an interval follows from the scatter that is
-found."""
+"""How much the distance to the limit may miss the law, relative to itself: sets the weight of soft against stiff points
+and of misfit against numerical error; the width of an interval follows from the scatter that is found."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,8 +113,7 @@ def observed_rate(s: ArrayLike, distance: ArrayLike, error: ArrayLike | None = N
 
 
 def _slope(x: Array, y: Array, error: Array) -> tuple[float, float]:
-    """p and the half width of its interval in y = a - p x + b exp(-p x): a power law and the next term of its
-    series.
+    """p and the half width of its interval in y = a - p x + b exp(-p x): a power law and its series' next term.
 
     Without that term the soft points would bend the line by more than their scatter about it shows.
     """
@@ -134,8 +132,7 @@ def _slope(x: Array, y: Array, error: Array) -> tuple[float, float]:
 
 
 def _carried(weights: Array, error: Array) -> float:
-    """What the cases' own errors make of a weighted sum: those that they have in common, and those that each has for
-    itself."""
+    """What the cases' own errors make of a weighted sum: those in common, and those that each has for itself."""
     return sqrt(float(weights @ error) ** 2 + float(weights**2 @ error**2))
 
 
@@ -176,8 +173,7 @@ def richardson(
 
 
 def narrowest(fits: dict[int, tuple[float, float]]) -> tuple[int, float]:
-    """Of fits ``{points: (value, half width)}`` the one of the narrowest interval, and that interval's half
-    width.
+    """Of fits ``{points: (value, half width)}`` the one of the narrowest interval, and half that interval's width.
 
     The value's change when up to two points more or fewer are fitted counts into the interval: softer points
     follow the law less well, and the scatter about one fit does not show that.
@@ -197,24 +193,28 @@ def _fit(s: Array, y: Array, error: Array, exponent: float | None) -> tuple[floa
     if spread == 0:
         return float(y[-1]), float(error.max()), nan if exponent is None else exponent
 
-    def solve(p: float) -> tuple[Array, Array, Array]:
+    def solve(p: ArrayLike) -> tuple[Array, Array, Array, Array]:
+        """L, c, residuals and sigma for each p: the line through y over x^-p, about its centre of weight."""
+        power = x ** -np.asarray(p, float)[..., None]
         # a residual counts relative to the distance still to go, as softer points miss the law by more
-        sigma = np.sqrt(error**2 + (_MISFIT * spread * x**-p / (x[0] ** -p - 1)) ** 2)
-        design = np.column_stack([np.ones_like(x), x**-p]) / sigma[:, None]
-        found = np.linalg.lstsq(design, y / sigma, rcond=None)[0]
-        return found, y / sigma - design @ found, sigma
+        sigma = np.sqrt(error**2 + (_MISFIT * spread * power / (power[..., :1] - 1)) ** 2)
+        weight = sigma**-2 / (sigma**-2).sum(-1, keepdims=True)
+        from_centre = power - (weight * power).sum(-1, keepdims=True)
+        height = (weight * y).sum(-1, keepdims=True)
+        c = (weight * from_centre * (y - height)).sum(-1) / (weight * from_centre**2).sum(-1)
+        residual = (y - height - c[..., None] * from_centre) / sigma
+        return (height + c[..., None] * (from_centre - power))[..., 0], c, residual, sigma
 
     if exponent is None:
-        grid = np.linspace(*_RATES, 60)
         from scipy.optimize import minimize_scalar
 
-        costs = [_cost(solve(p)) for p in grid]
-        i = int(np.argmin(costs))
+        grid = np.linspace(*_RATES, 60)
+        i = int(np.argmin(_cost(solve(grid))))
         bounds = (grid[max(i - 1, 0)], grid[min(i + 1, grid.size - 1)])
         p = float(minimize_scalar(lambda q: _cost(solve(q)), bounds=bounds, method="bounded").x)
     else:
         p = exponent
-    (limit, c), residual, sigma = solve(p)
+    limit, c, residual, sigma = solve(p)
     columns = [np.ones_like(x), x**-p] + ([-c * np.log(x) * x**-p] if exponent is None else [])
     jacobian = np.column_stack(columns) / sigma[:, None]
     free = y.size - jacobian.shape[1]
@@ -228,10 +228,10 @@ def _fit(s: Array, y: Array, error: Array, exponent: float | None) -> tuple[floa
     return float(limit), half if isfinite(half) else inf, p
 
 
-def _cost(solved: tuple[Array, Array, Array]) -> float:
+def _cost(solved: tuple[Array, Array, Array, Array]) -> Array:
     """Minus twice the log-likelihood, the scale of the scatter left free."""
-    _, residual, sigma = solved
-    return residual.size * float(np.log(residual @ residual + 1e-300)) + 2 * float(np.log(sigma).sum())
+    *_, residual, sigma = solved
+    return residual.shape[-1] * np.log((residual**2).sum(-1) + 1e-300) + 2 * np.log(sigma).sum(-1)
 
 
 def _t(free: int) -> float:
