@@ -81,6 +81,10 @@ class FlexiblePulse(Pulse):
     numerical_loss: Energy[float]
     phases: tuple[Phase, ...]
 
+    def to_dict(self) -> dict[str, Any]:
+        """All measures by name, the ratio among them, and the phases inside."""
+        return Pulse.to_dict(self) | {"phases": [dataclasses.asdict(phase) for phase in self.phases]}
+
     def marked_cut(self) -> FlexiblePulse:
         """The same as one in which the run begins or ends: it has no restitution."""
         return dataclasses.replace(

@@ -96,8 +96,7 @@ class Pulse(Same):
 
     def to_dict(self) -> dict[str, Any]:
         """All measures by name, the ratio among them."""
-        told = dataclasses.asdict(dataclasses.replace(self, sample=None))
-        del told["sample"]
+        told = {field.name: getattr(self, field.name) for field in dataclasses.fields(self) if field.name != "sample"}
         return {**told, "impulse_ratio": self.impulse_ratio}
 
     def plot(self, *quantities: str, over: str = "t", axes: Any = None) -> NDArray[np.object_]:

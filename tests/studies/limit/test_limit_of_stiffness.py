@@ -43,7 +43,11 @@ def limits_hold(study) -> None:
         assert uncertainty < 0.2 * abs(predicted)  # one that is off by as much would be seen
 
 
-@pytest.fixture(scope="module", params=LAWS, ids="{0[0]}-{0[1]}".format)
+# with a patch it takes ten seconds, with a brush two
+PARAMS = [pytest.param(law, marks=pytest.mark.slow) if law[0] == "patch" else law for law in LAWS]
+
+
+@pytest.fixture(scope="module", params=PARAMS, ids="{0[0]}-{0[1]}".format)
 def study(request):
     """k = 0.25, m_h = 0, six rungs over five decades."""
     return stiffness_study(scene_of(0.25, 0.0, *request.param), Ladder("both", 1e8, 1e13, 6))
