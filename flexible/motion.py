@@ -21,6 +21,7 @@ from rigid.output.units import (
     Number,
     Time,
     Velocity,
+    unit_names,
 )
 
 if TYPE_CHECKING:
@@ -181,8 +182,10 @@ class FlexibleMotion(Motion):
 
     def to_dict(self) -> dict[str, Any]:
         """The common keys and ``energy_ledger``."""
+        common = Motion.to_dict(self)
         return {
-            **Motion.to_dict(self),
+            **common,
+            "units": common["units"] | unit_names(self.scene, FlexiblePulse, Ledger, History),
             "energy_ledger": dataclasses.asdict(self.ledger),
             "steps": self.steps,
         }

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .output import sampling, summary
+from .output import sampling, summary, units
 from .output.same import Same
 from .output.units import AngularAcceleration, AngularVelocity, Energy, Force, Impulse, Length, Number, Time, Velocity
 from .scene import Scene
@@ -279,6 +279,7 @@ class Motion(summary.Summarised):
         """The motion as the command line's JSON prints it."""
         return {
             "scene": scene_to_dict(self.scene),
+            "units": units.unit_names(self.scene, Phase, Turn, Pulse, States),
             "phases": [dataclasses.asdict(phase) for phase in self.phases],
             "turns": [dataclasses.asdict(turn) for turn in self.turns],
             "pulses": [pulse.to_dict() for pulse in self.pulses],

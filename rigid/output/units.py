@@ -145,6 +145,11 @@ def _hints(record: type[Any]) -> dict[str, Any]:
     return {field.name: hints[field.name] for field in dataclasses.fields(record)}
 
 
+def unit_names(scene: Measured, *records: type) -> dict[str, str]:
+    """What the numbers of these records are measured in, by field; "1" for angles in radians, shares and ratios."""
+    return {name: unit.label(scene) or "1" for record in records for name, unit in units_of(record).items()}
+
+
 def in_units(record: T, scene: Measured) -> T:
     """A record of the solver's numbers (R = m = g = 1), and the records in it, in the units of a scene."""
     return record if scene.dimensionless else _scaled(record, scene, mul)
