@@ -180,12 +180,16 @@ class FlexibleMotion(Motion):
             ("steps", f"{self.steps}{', all kept' if self.history is not None else ''}"),
         ]  # fmt: skip
 
+    @property
+    def units(self) -> dict[str, str]:
+        """What each number of this motion, its ledger and its history is measured in, by its name."""
+        common = super().units
+        return common | unit_names(self.scene, FlexiblePulse, Ledger, History)
+
     def to_dict(self) -> dict[str, Any]:
         """The common keys and ``energy_ledger``."""
-        common = Motion.to_dict(self)
         return {
-            **common,
-            "units": common["units"] | unit_names(self.scene, FlexiblePulse, Ledger, History),
+            **Motion.to_dict(self),
             "energy_ledger": dataclasses.asdict(self.ledger),
             "steps": self.steps,
         }

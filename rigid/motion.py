@@ -275,11 +275,15 @@ class Motion(summary.Summarised):
                                     len(self.pulses))),
         ]  # fmt: skip
 
+    @property
+    def units(self) -> dict[str, str]:
+        """What each number of this motion is measured in, by its name; "1" for angles in radians and shares."""
+        return units.unit_names(self.scene, Phase, Turn, Pulse, States)
+
     def to_dict(self) -> dict[str, Any]:
         """The motion as the command line's JSON prints it."""
         return {
             "scene": scene_to_dict(self.scene),
-            "units": units.unit_names(self.scene, Phase, Turn, Pulse, States),
             "phases": [dataclasses.asdict(phase) for phase in self.phases],
             "turns": [dataclasses.asdict(turn) for turn in self.turns],
             "pulses": [pulse.to_dict() for pulse in self.pulses],

@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 
 
 def write_motion(motion: Motion, out: Path) -> None:
-    """``motion.json``, ``motion.npz`` (which ``load_motion`` reads), ``history.csv``; of a pulse, ``pulse.png`` too."""
+    """``motion.json``, ``motion.npz`` (``load_motion``), ``history.csv``, ``units.json``; ``pulse.png`` of a pulse."""
     write_text(out / "motion.json", to_json(motion.to_dict()))
+    write_text(out / "units.json", to_json(motion.units))
     motion.save(out / "motion.npz")
     write_text(out / "history.csv", history.to_csv(history.whole(motion)))
     if not motion.pulses:

@@ -22,7 +22,7 @@ def _drawn(*names: str) -> tuple[str, ...]:
     return tuple(f"{name}.{suffix}" for name in names for suffix in ("png", "svg"))
 
 
-_MOTION = ("motion.json", "motion.npz", "history.csv", "pulse.png", "energy.png")
+_MOTION = ("motion.json", "motion.npz", "history.csv", "units.json", "pulse.png", "energy.png")
 _FIELDS = ("fields.pvd", "fields/*-*.vtu", "fields/history.npz", "fields/about.json", "fields")
 _PAPER = ("figure-[01][0-9]", "extra-inception", "extra-energy")
 

@@ -289,6 +289,7 @@ def test_a_flexible_run_leaves_motion_ledger_and_fields(hoop, tmp_path):
     assert {"motion.json", "motion.npz", "history.csv", "pulse.png", "energy.png", "fields.pvd"} <= names
     again = load_motion(tmp_path / "out" / "motion.npz")
     assert json.loads(to_json(again.to_dict())) == found
+    assert json.loads((tmp_path / "out" / "units.json").read_text()) == again.units
     assert len(read(tmp_path / "out")) > 10
 
 

@@ -103,7 +103,7 @@ def test_a_folder_holds_one_run(hoop, tmp_path, scene):
     short.write_text(scene(0.2).read_text().replace('until = "pulse"', "t_end = 0.5"))
     status, _, err = hoop("flexible", short, "--out", out)
     assert status == 0, err
-    assert names(out) == {"command.txt", "motion.json", "motion.npz", "history.csv", "fields/my notes"}
+    assert names(out) == {"command.txt", "motion.json", "motion.npz", "history.csv", "units.json", "fields/my notes"}
     assert "short.toml" in (out / "command.txt").read_text()
 
 

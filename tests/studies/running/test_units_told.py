@@ -1,4 +1,4 @@
-"""A motion as JSON says what each number in it, and each column of its history, is measured in."""
+"""A motion says what each number in it, and each column of its history, is measured in."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def numbers_of(told) -> dict[str, list[float]]:
 def test_each_number_is_in_the_unit_that_is_told(simulate):
     """The same hoop in the paper's scaling and in SI differs by that unit's size, number for number."""
     plain, heavy = simulate(SCENE), simulate(HEAVY)
-    units = heavy.to_dict()["units"]
+    units = heavy.units
     one, other = numbers_of(plain.to_dict()), numbers_of(heavy.to_dict())
     assert set(one) == set(other) <= {*units, "impulse_ratio"}
     assert {"t", "energy", "t_start", "friction_loss", "normal_impulse", "peak_normal_force"} <= set(one)
@@ -49,6 +49,6 @@ def test_each_number_is_in_the_unit_that_is_told(simulate):
 @pytest.mark.parametrize("simulate", [rigid.simulate, flexible.simulate])
 def test_every_column_of_a_history_has_its_unit(simulate):
     motion = simulate(SCENE)
-    units = motion.to_dict()["units"]
+    units = motion.units
     assert set(history.whole(motion)) <= set(units)
     assert (units["t"], units["normal_force"], units["phi"]) == ("sqrt(R/g)", "mg", "1")
