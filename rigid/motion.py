@@ -278,7 +278,7 @@ class Motion(summary.Summarised):
     @property
     def units(self) -> dict[str, str]:
         """What each number of this motion is measured in, by its name; "1" for angles in radians and shares."""
-        return units.unit_names(self.scene, Phase, Turn, Pulse, States)
+        return {**units.unit_names(self.scene, Phase, Turn, Pulse, States), "impulse_ratio": "1"}
 
     def to_dict(self) -> dict[str, Any]:
         """The motion as the command line's JSON prints it."""

@@ -13,16 +13,12 @@ from apart import can_fork
 HERE = Path(__file__).parent
 
 CONFTEST = """
-import os
 from apart import Apart
 
 def pytest_configure(config):
     config.pluginmanager.register(Apart())
 """
 FIRST = """
-import os
-import signal
-
 def test_that_passes(tmp_path):
     (tmp_path / "much.bin").write_bytes(bytes(1000))
 
@@ -38,10 +34,10 @@ def test_that_passes(tmp_path):
 
 def test_that_fails(tmp_path):
     (tmp_path / "evidence.txt").touch()
-    assert "NAME" not in os.environ
+    assert "OF_APART" not in os.environ
 
 def test_whose_process_dies(tmp_path):
-    if "NAME" in os.environ:
+    if "OF_APART" in os.environ:
         os.kill(os.getpid(), signal.SIGKILL)
 
 def test_behind_it(tmp_path):
@@ -51,7 +47,7 @@ def test_behind_it(tmp_path):
 
 @pytest.fixture(name="run")
 def run_of_two_files(tmp_path, request):
-    """Run two small files of tests, some variables more in its environment: what it prints, its temporary folder."""
+    """Run two small files of tests, more in its environment: what it prints, its temporary folder."""
     if not can_fork(request.config):
         pytest.skip("no safe fork here: one process for all")
     files, temporary = tmp_path / "files", tmp_path / "temporary"
@@ -61,7 +57,8 @@ def run_of_two_files(tmp_path, request):
         (files / name).write_text(text)
 
     def run(**more: str) -> tuple[str, Path]:
-        environment = os.environ | {"PYTHONPATH": str(HERE), "TMPDIR": str(temporary)} | more
+        of_others = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST")}
+        environment = of_others | {"PYTHONPATH": str(HERE), "TMPDIR": str(temporary)} | more
         line = [sys.executable, "-m", "pytest", "-c", str(HERE.parent / "pyproject.toml"), "--rootdir", str(files), "."]
         done = subprocess.run(line, cwd=files, env=environment, capture_output=True, text=True, check=False)
         return done.stdout, temporary
@@ -77,7 +74,7 @@ def test_tests_that_pass_leave_nothing_behind(run):
 
 
 def test_a_failure_and_a_process_that_dies_are_told_and_leave_their_files(run):
-    told, temporary = run(NAME="here")
+    told, temporary = run(OF_APART="fails")
     assert "2 failed, 4 passed" in told
     assert "the process of this file ended: status 9" in told
     assert len(list(temporary.rglob("evidence.txt"))) == 1

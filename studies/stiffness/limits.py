@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import stdtrit
 
-from .series import extrapolated, fewest, inferred_series, settled
+from .series import extrapolated, fewest, finite, inferred_series, settled
 
 Array = NDArray[np.float64]
 
@@ -160,10 +160,7 @@ def richardson(
         more or fewer is fitted, and the numerical error carried into the limit. With too few points it is infinite,
         and the limit is the last value.
     """
-    x, v = np.asarray(s, float), np.asarray(y, float)
-    e = np.zeros_like(v) if error is None else np.nan_to_num(np.abs(np.asarray(error, float)))
-    use = np.isfinite(v)
-    x, v, e = x[use], v[use], e[use]
+    x, v, e = finite(s, y, np.zeros(np.shape(y)) if error is None else error)
     unknowns = 2 if exponent is not None else 3
     fits = {n: _fit(x[-n:], v[-n:], e[-n:], exponent) for n in range(unknowns + _SPARE, v.size + 1)}
     if not fits:
@@ -197,7 +194,7 @@ def _fit(s: Array, y: Array, error: Array, exponent: float | None) -> tuple[floa
         """L, c, residuals and sigma for each p: the line through y over x^-p, about its centre of weight."""
         power = x ** -np.asarray(p, float)[..., None]
         # a residual counts relative to the distance still to go, as softer points miss the law by more
-        sigma = np.sqrt(error**2 + (_MISFIT * spread * power / (power[..., :1] - 1)) ** 2)
+        sigma = np.hypot(error, _MISFIT * spread * power / (power[..., :1] - 1))
         weight = sigma**-2 / (sigma**-2).sum(-1, keepdims=True)
         from_centre = power - (weight * power).sum(-1, keepdims=True)
         height = (weight * y).sum(-1, keepdims=True)
@@ -230,7 +227,7 @@ def _fit(s: Array, y: Array, error: Array, exponent: float | None) -> tuple[floa
 
 def _cost(solved: tuple[Array, Array, Array, Array]) -> Array:
     """Minus twice the log-likelihood, the scale of the scatter left free."""
-    *_, residual, sigma = solved
+    _, _, residual, sigma = solved
     return residual.shape[-1] * np.log((residual**2).sum(-1) + 1e-300) + 2 * np.log(sigma).sum(-1)
 
 

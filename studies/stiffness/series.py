@@ -88,7 +88,7 @@ def extrapolated(
     Parameters
     ----------
     s, y : (n,) array_like
-        Stiffness, growing, and the measure there; cases whose measure is not finite are left out.
+        Stiffness, growing, and the measure there; cases of no finite measure, or an infinite error, are left out.
     error : (n,) array_like
         Numerical error of each ``y``, of which one part is taken to be common to all cases and one each case's own.
     exponents : sequence of float
@@ -103,7 +103,7 @@ def extrapolated(
     Extrapolated
         With fewer than ``FEWEST`` cases its uncertainty is infinite and the value the last one.
     """
-    x, v, e = _finite(s, y, error)
+    x, v, e = finite(s, y, error)
     if v.size < FEWEST:
         return Extrapolated(float(v[-1]) if v.size else nan, inf)
     span = float(np.ptp(v))
@@ -115,7 +115,7 @@ def extrapolated(
 
 def inferred_series(s: ArrayLike, y: ArrayLike, error: ArrayLike, exponents: Sequence[float], to: Array) -> Array:
     """The values of :func:`extrapolated` at many s (n,), without their uncertainty."""
-    x, v, e = _finite(s, y, error)
+    x, v, e = finite(s, y, error)
     span = float(np.ptp(v)) if v.size else 0.0
     if v.size < FEWEST or span == 0:
         return np.full(len(to), v[-1] if v.size else nan)
@@ -125,11 +125,11 @@ def inferred_series(s: ArrayLike, y: ArrayLike, error: ArrayLike, exponents: Seq
     return found
 
 
-def _finite(s: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[Array, Array, Array]:
-    """The cases whose measure is finite."""
-    x, v, e = np.asarray(s, float), np.asarray(y, float), np.nan_to_num(np.abs(np.asarray(error, float)))
-    use = np.isfinite(v)
-    return x[use], v[use], e[use]
+def finite(s: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[Array, Array, Array]:
+    """The cases that say something: their measure is finite, and so is its error, or not known and taken for none."""
+    x, v, e = np.asarray(s, float), np.asarray(y, float), np.abs(np.asarray(error, float))
+    use = np.isfinite(v) & ~np.isinf(e)
+    return x[use], v[use], np.nan_to_num(e[use])
 
 
 def leading_part(
@@ -140,7 +140,7 @@ def leading_part(
     The powers behind them, which a distance divided by its leading power has in it too, are inferred with them and left
     out. Parameters as of :func:`extrapolated`; with fewer than ``FEWEST`` - 1 cases the uncertainty is infinite.
     """
-    x, d, e = _finite(s, distance, error)
+    x, d, e = finite(s, distance, error)
     span = float(np.max(np.abs(d), initial=0.0))
     if d.size < FEWEST - 1 or span == 0:
         return Extrapolated(float(d[-1]) if d.size else nan, inf)

@@ -25,6 +25,17 @@ def test_a_pure_power_gives_its_rate_and_limit(p):
     assert limit == pytest.approx(0.17, abs=1e-12)
 
 
+@pytest.mark.parametrize("exponents", [None, (1 / 3, 2 / 3)])
+def test_cases_of_which_nothing_is_known_say_nothing(exponents):
+    """An infinite error is as good as no case, and of such cases alone no limit is claimed."""
+    y = 0.17 + 0.02 * (S / S[0]) ** (-1 / 3)
+    none, one = np.full(S.size, np.inf), np.where(np.arange(S.size) == 4, np.inf, 1e-6)
+    assert limit_of(S, y, 0.17, none, exponents).uncertainty == np.inf
+    known = limit_of(S, y, 0.17, one, exponents)
+    without = limit_of(np.delete(S, 4), np.delete(y, 4), 0.17, np.full(S.size - 1, 1e-6), exponents)
+    assert (known.value, known.uncertainty) == pytest.approx((without.value, without.uncertainty), rel=1e-12)
+
+
 def test_intervals_hold_the_truth_as_often_as_they_say():
     """Sequences with a next term (rate 2/3) as large as a third of the first at the soft end, and noise of 1
     %."""
