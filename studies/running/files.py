@@ -38,6 +38,8 @@ _TROUBLES = {
 def trouble(error: OSError, path: str | Path | None = None) -> str:
     """An operating system error as one sentence that names the file."""
     name = path if path is not None else error.filename
+    if name is not None and os.path.islink(name) and not os.path.exists(name):
+        return f"{name} cannot be used: it is a link that leads nowhere."
     reason = _TROUBLES.get(error.errno or 0, (error.strerror or str(error)).lower())
     return f"{name} cannot be used: {reason}." if name is not None else f"Output cannot be written: {reason}."
 

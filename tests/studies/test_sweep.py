@@ -451,7 +451,9 @@ def test_a_cluster_that_loses_a_worker_gives_the_same_table(tmp_path, monkeypatc
     for name, value in environment().items():
         monkeypatch.setenv(name, value)
     file, solvers = sweep_file(tmp_path), by("third_solver:deadly_once")
-    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None)
+    cluster = distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=tmp_path
+    )
     with cluster:
         line = ("study", "sweep", file, "--out", tmp_path / "out", "--scheduler", cluster.scheduler_address, *solvers)
         done = process(*line, env=environment(HOOP_TEST_MARK=str(mark)))

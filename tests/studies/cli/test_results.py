@@ -93,6 +93,16 @@ def test_an_empty_name_is_no_folder(hoop, tmp_path, monkeypatch, line):
     assert os.listdir(tmp_path) == []
 
 
+def test_a_link_that_leads_nowhere_is_called_that(hoop, tmp_path):
+    """It was said to be a file in the way, which nobody finds."""
+    (tmp_path / "out").symlink_to(tmp_path / "gone")
+    status, out, err = hoop("rigid", "paper-3.1", "--out", tmp_path / "out")
+    assert (status, out) == (2, "")
+    assert is_one_sentence(err)
+    assert "a link that leads nowhere" in err
+    assert not (tmp_path / "gone").exists()
+
+
 def test_a_folder_holds_one_run(hoop, tmp_path, scene):
     """Fields and figures of the first do not stay beside the second, which has no pulse; somebody's notes do."""
     out = tmp_path / "p"
