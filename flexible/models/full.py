@@ -32,7 +32,7 @@ Window = tuple[int, int]
 
 _WINDOWS = 8  # of which the columns are kept: a patch that moves on comes to others
 _LARGEST_LAG = 1e-3  # of beta times the change of omega since the ring's matrix was factored
-_STALE = 0.05  # of a misfit, what a step of Newton leaves at most with a matrix that is kept
+_STALE = 0.05  # of a misfit, what a step of Newton leaves off the contact at most with a matrix that is kept
 
 
 class _Factored:
@@ -74,16 +74,19 @@ class NewtonMatrix:
 
     def solve(self, frame: Array, ring: Array) -> tuple[Array, Array]:
         """Increments of frame and ring for a right-hand side."""
-        dofs = self.factored.ring.dofs(*self.window)
-        t = self.contact
-        ring_by_frame = self.inertia.ring_by_frame.copy()
-        ring_by_frame[dofs] -= t[3:, :3]
+        dofs, t = self.factored.ring.dofs(*self.window), self.contact
+        columns = self.factored.columns(self.window)
         frame_by_ring = self.inertia.frame_by_ring.copy()
         frame_by_ring[:, dofs] -= t[:3, 3:]
-        z = self.factored.solve(np.column_stack([ring, ring_by_frame]))
-        base, by_frame = z[:, 0], z[:, 1:]
+        by_frame = columns @ -t[3:, :3]
+        if self.factored.ring.massless:
+            base = self.factored.solve(ring)
+        else:
+            z = self.factored.solve(np.column_stack([ring, self.inertia.ring_by_frame]))
+            base = z[:, 0]
+            by_frame += z[:, 1:]
         # du = base - by_frame dx + columns t_uu w, with w = du on the window
-        by_window = self.factored.columns(self.window) @ t[3:, 3:]
+        by_window = columns @ t[3:, 3:]
         n = len(dofs)
         small = np.empty((3 + n, 3 + n))
         small[:3, :3] = self.inertia.frame_by_frame - t[:3, :3] - frame_by_ring @ by_frame
@@ -172,7 +175,7 @@ class FullHoop(RimContact):
         rim = Rim(window[0], self.vertex)
         before = Before(old.pos[:3], self.displacement(old, window), old.bristles)
         d = guess.copy()
-        last, lags = np.inf, True
+        last = np.inf
         way, ok = nan, False
         damper = pulling(damper, True)
         for iteration in range(MOST_ITERATIONS):
@@ -194,6 +197,7 @@ class FullHoop(RimContact):
             frame, ring = own.frame - contact.force, own.ring.copy()
             ring[dofs] -= contact.nodal.ravel()
             worst = max(largest(frame), largest(ring))
+            off = largest(np.delete(ring, dofs))  # the contact's part of the matrix is always new
             if not isfinite(worst):
                 return Stage(False), False
             small = known * (1 + abs(res.normal))
@@ -201,7 +205,7 @@ class FullHoop(RimContact):
                 scale = (law.eps_n + law.eps_t) * res.length
                 small += round_off(contact, pos[1], u, scale, damper) + self.ring.round_off(pos[3:])
                 small += 4e-16 * np.abs(acc[3:]).max(initial=0.0) * self.ring.body.ring_mass
-            factored = self._factor(pos, vel, acc, beta, lags and iteration > 1 and worst > _STALE * last)
+            factored = self._factor(pos, vel, acc, beta, iteration > 1 and off > _STALE * last)
             matrix = NewtonMatrix(factored, own, contact.tangent, window)
             if worst <= small and iteration > 0:
                 if damper.pulls and res.eta < 0:

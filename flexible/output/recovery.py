@@ -117,16 +117,16 @@ class Interior:
         density = (strain * self._elastic(strain)).sum(axis=1) / 2
         energy = (density.reshape(*area.shape, -1) * area[:, :, None]).sum(axis=1)
         by_element = strain.reshape(*area.shape, *strain.shape[1:])
-        for elements, form in self._corners:
-            here = by_element[elements].reshape(len(form), -1)
-            besides = self.young / 2 * (here * (form @ here)).sum(axis=0)
+        for elements, root in self._corners:
+            here = by_element[elements].reshape(root.shape[1], -1)
+            besides = -self.young / 2 * ((root @ here) ** 2).sum(axis=0)
             whole = energy[elements].sum(axis=0)
             energy[elements] *= 1 + np.divide(besides, whole, out=np.zeros_like(whole), where=whole > 0)
         return energy
 
     @cached_property
     def _corners(self) -> list[tuple[NDArray[np.int64], Array]]:
-        """Elements about either corner of the weld, and the form of their strains at the Gauss points."""
+        """Elements about either corner of the weld, and the root of what it makes of their strains at Gauss points."""
         corners, (by_y1, by_y2, area) = self.ring.corners, self._at_gauss
         found = []
         for which, (elements, dofs) in enumerate(zip(corners.elements, corners.dofs, strict=True)):

@@ -50,16 +50,23 @@ class Corners:
         return sp.csr_matrix((self.blocks.ravel(), (rows.ravel(), columns.ravel())), shape=(size, size))
 
     def by_strain(self, which: int, strains: Array) -> Array:
-        """The symmetric form of some strains whose value is that of ``blocks[which]``.
+        """A root of what ``blocks[which]`` makes of some strains: minus the sum of squares of ``root @ strain``.
 
         Parameters
         ----------
         which : int
         strains : (k, n) array
             What these are of small displacements of ``dofs[which]``; zero of none but rigid motions.
+
+        Returns
+        -------
+        (m, k) array
+            m is n less what of rigid motions and round-off.
         """
-        back = np.linalg.pinv(strains, rcond=1e-10)
-        return np.asarray(back.T @ self.blocks[which] @ back)
+        values, vectors = np.linalg.eigh(self.blocks[which])
+        yields = values < -1e-14 * np.abs(values).max()
+        roots = np.sqrt(-values[yields])[:, None] * vectors[:, yields].T
+        return np.asarray(roots @ np.linalg.pinv(strains, rcond=1e-10))
 
 
 def corners(ring: RingMesh, stiffness: BilinearForm) -> Corners:

@@ -4,7 +4,8 @@ In the disk's frame, with H = grad u, the strain energy is that of E = (H + H^T 
 the strain itself: no digit is lost to a rigid motion. What the corners of the weld yield besides is the linear ring's
 form of the strains, with these strains in it.
 
-Forces and tangent are batched products over elements and integration points, summed into a fixed sparse pattern.
+Strains at all integration points, and forces from stresses, are products with one sparse matrix; the tangent is batched
+products over elements, summed into a fixed sparse pattern.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ class _Corner(NamedTuple):
     elements: NDArray[np.int64]  # (m,)
     dofs: NDArray[np.int64]  # (n,)
     place: NDArray[np.int64]  # (m, 18) of the elements' dofs among these
-    form: Array  # (3 points m, 3 points m) of the strains
+    root: Array  # (k, m, 3 points) of what it makes of their strains
 
 
 class _Pattern(NamedTuple):
@@ -52,15 +53,16 @@ class ExactElasticity:
 
     def __init__(self, ring: Ring) -> None:
         basis = Basis(ring.mesh.mesh, ElementQuad2(), intorder=4)
-        # (elements, points, 9 nodes, 2 directions)
-        self.gradients = np.stack([np.moveaxis(field[0].grad, 0, -1) for field in basis.basis], axis=2)
+        # (elements, points, 2 directions, 9 nodes)
+        self.gradients = np.stack([np.moveaxis(field[0].grad, 0, -1) for field in basis.basis], axis=3)
         self.weights: Array = basis.dx
         nu = ring.poisson
         plane = 1 / (1 - nu**2)
         #: of (E11, E22, 2 E12)
         self.stiffness = plane * np.array([[1, nu, 0], [nu, 1, 0], [0, 0, (1 - nu) / 2]])
         nodes = basis.element_dofs.T
-        self.dofs = ring.mesh.node_dofs[nodes].reshape(len(nodes), 18)
+        self.nodes, self.node_dofs = nodes, ring.mesh.node_dofs
+        self.dofs = self.node_dofs[nodes].swapaxes(1, 2).reshape(len(nodes), 18)  # all along X_1, then all along X_2
         self.free, self.size = ring.free, ring.basis.N
         self.corners = [self._corner(ring.corners, which) for which in (0, 1)]
 
@@ -76,40 +78,56 @@ class ExactElasticity:
         starts = np.concatenate([[0], np.cumsum(np.bincount(entries // count, minlength=count))])
         return _Pattern(kept, entry, (entries % count).astype(np.int32), starts.astype(np.int32))
 
+    @cached_property
+    def _gradient(self) -> tuple[sp.csr_matrix, sp.csr_matrix]:
+        """Derivatives of what nodes have by X_1, then by X_2, (2 elements points, nodes); and the transpose of it."""
+        elements, points = self.weights.shape
+        values = np.ascontiguousarray(np.moveaxis(self.gradients, 2, 0)).ravel()
+        nodes = np.broadcast_to(self.nodes[:, None, :], (2, elements, points, 9)).ravel()
+        shape = 2 * elements * points, len(self.node_dofs)
+        matrix = sp.csr_matrix((values, nodes, np.arange(0, 9 * shape[0] + 1, 9)), shape=shape)
+        return matrix, matrix.T.tocsr()
+
     def _corner(self, corners: Corners, which: int) -> _Corner:
         elements, dofs = corners.elements[which], corners.dofs[which]
         order = np.argsort(dofs)
         place = order[np.searchsorted(dofs, self.dofs[elements], sorter=order)]
-        still = np.broadcast_to(np.eye(2), (*self.gradients[elements].shape[:2], 2, 2))
-        strains = _gathered(_by_nodes(still, self.gradients[elements]), place, len(dofs))
-        return _Corner(elements, dofs, place, corners.by_strain(which, strains))
+        still = np.broadcast_to(np.eye(2)[:, None, None], (2, *self.gradients[elements].shape[:2], 2))
+        by_nodes = _by_nodes(still, self.gradients[elements]).reshape(len(elements), -1, 18)
+        strains = np.zeros((*by_nodes.shape[:2], len(dofs)))
+        np.put_along_axis(strains, np.broadcast_to(place[:, None, :], by_nodes.shape), by_nodes, axis=-1)
+        root = corners.by_strain(which, strains.reshape(-1, len(dofs)))
+        return _Corner(elements, dofs, place, root.reshape(len(root), len(elements), -1))
 
     def of(self, elements: NDArray[np.int64]) -> ExactElasticity:
         """That of some elements alone, ascending, those at the corners among them."""
         some = copy(self)
-        some.__dict__.pop("_pattern", None)
-        some.gradients, some.weights, some.dofs = self.gradients[elements], self.weights[elements], self.dofs[elements]
+        for made in ("_pattern", "_gradient"):
+            some.__dict__.pop(made, None)
+        some.gradients, some.weights = self.gradients[elements], self.weights[elements]
+        some.nodes, some.dofs = self.nodes[elements], self.dofs[elements]
         some.corners = [one._replace(elements=np.searchsorted(elements, one.elements)) for one in self.corners]
         return some
 
     def _strain(self, u: Array) -> tuple[Array, Array]:
-        """F and E = (E11, E22, 2 E12) at the integration points of a displacement of the free dofs."""
+        """Columns of F, (2, elements, points, 2), and E = (E11, E22, 2 E12) of a displacement of the free dofs."""
         full = np.zeros(self.size)
         full[self.free] = u
-        nodal = full[self.dofs].reshape(-1, 1, 9, 2)
-        h = nodal.swapaxes(-1, -2) @ self.gradients
-        square = h.swapaxes(-1, -2) @ h
-        e11 = h[..., 0, 0] + square[..., 0, 0] / 2
-        e22 = h[..., 1, 1] + square[..., 1, 1] / 2
-        e12 = h[..., 0, 1] + h[..., 1, 0] + square[..., 0, 1]
-        return h + np.eye(2), np.stack([e11, e22, e12], axis=-1)
+        first, second = columns = (self._gradient[0] @ full[self.node_dofs]).reshape(2, *self.weights.shape, 2)
+        strain = np.empty((*self.weights.shape, 3))
+        strain[..., 0] = first[..., 0] + (first[..., 0] ** 2 + first[..., 1] ** 2) / 2
+        strain[..., 1] = second[..., 1] + (second[..., 0] ** 2 + second[..., 1] ** 2) / 2
+        strain[..., 2] = first[..., 1] + second[..., 0] + (first * second).sum(axis=-1)
+        first[..., 0] += 1.0
+        second[..., 1] += 1.0
+        return columns, strain
 
     def _stress(self, strain: Array) -> Array:
         """Derivative of the energy by the strain at the points: the stress (S11, S22, S12) times their areas."""
         stress = strain @ self.stiffness * self.weights[..., None]
         for corner in self.corners:
-            here = strain[corner.elements]
-            stress[corner.elements] += (corner.form @ here.ravel()).reshape(here.shape)
+            here, root = strain[corner.elements], corner.root.reshape(len(corner.root), -1)
+            stress[corner.elements] -= (root.T @ (root @ here.ravel())).reshape(here.shape)
         return np.asarray(stress)
 
     def strain_energy(self, u: Array) -> float:
@@ -119,48 +137,57 @@ class ExactElasticity:
 
     def forces(self, u: Array) -> Array:
         """Derivative of the energy, (n_free,)."""
-        deformation, strain = self._strain(u)
-        tensor = self._stress(strain)[..., [[0, 2], [2, 1]]]
+        (first, second), strain = self._strain(u)
+        s11, s22, s12 = np.moveaxis(self._stress(strain), -1, 0)[..., None]
         # P = F S; the force on a node is P times the gradient of its shape function
-        nodal = (self.gradients @ (deformation @ tensor).swapaxes(-1, -2)).sum(axis=1)
-        total = np.asarray(np.bincount(self.dofs.ravel(), nodal.ravel(), self.size), dtype=float)
+        columns = np.stack([first * s11 + second * s12, first * s12 + second * s22])
+        total = np.empty(self.size)
+        total[self.node_dofs] = self._gradient[1] @ columns.reshape(-1, 2)
         return total[self.free]
 
     def tangent(self, u: Array) -> sp.csc_matrix:
         """Second derivative of the energy, (n_free, n_free)."""
         deformation, strain = self._strain(u)
-        elements = len(self.weights)
-        g = self.gradients
-        b = _by_nodes(deformation, g)
-        weighted = (self.weights[..., None, None] * self.stiffness) @ b
-        matrix = b.reshape(elements, -1, 18).swapaxes(1, 2) @ weighted.reshape(elements, -1, 18)
-        tensor = self._stress(strain)[..., [[0, 2], [2, 1]]]
-        initial = (g @ tensor @ g.swapaxes(-1, -2)).sum(axis=1)
-        matrix[:, 0::2, 0::2] += initial
-        matrix[:, 1::2, 1::2] += initial
+        b = _by_nodes(deformation, self.gradients)
+        matrix = _squares(b, self.stiffness, self.weights)
+        s11, s22, s12 = np.moveaxis(self._stress(strain), -1, 0)
+        initial = _squares(self.gradients, np.array([[s11, s12], [s12, s22]]), np.ones_like(s11))
+        matrix[:, :9, :9] += initial
+        matrix[:, 9:, 9:] += initial
         parts = [matrix.ravel()]
         for corner in self.corners:
-            strains = _gathered(b[corner.elements], corner.place, len(corner.dofs))
-            parts.append((strains.T @ corner.form @ strains).ravel())
+            root = np.zeros((len(corner.dofs), len(corner.root)))
+            by_elements = corner.root.swapaxes(0, 1) @ b[corner.elements].reshape(len(corner.elements), -1, 18)
+            for place, by_element in zip(corner.place, by_elements, strict=True):
+                root[place] += by_element.T
+            parts.append(-(root @ root.T).ravel())
         kept, entry, rows, starts = self._pattern
         data = np.bincount(entry, np.concatenate(parts)[kept], len(rows))
         return sp.csc_matrix((data, rows, starts), shape=(len(self.free), len(self.free)))
 
 
+def _squares(factor: Array, middle: Array, weights: Array) -> Array:
+    """Sum of factor^T middle factor over an element's points, (elements, n, n); factor (elements, points, k, n)."""
+    elements, _, count, size = factor.shape
+    product = np.zeros_like(factor)
+    for i in range(count):
+        for j in range(count):
+            if np.any(middle[i, j]):
+                product[:, :, i] += (middle[i, j] * weights)[..., None] * factor[:, :, j]
+    of_points = elements, -1, size
+    return np.asarray(factor.reshape(of_points).swapaxes(1, 2) @ product.reshape(of_points))
+
+
 def _by_nodes(deformation: Array, g: Array) -> Array:
     """Derivative of E by the nodes, (elements, points, 3, 18): F_i1 g_1, F_i2 g_2, F_i1 g_2 + F_i2 g_1."""
-    first, second = (deformation[..., None, :, j] for j in (0, 1))
-    rows = [g[..., 0:1] * first, g[..., 1:2] * second, g[..., 1:2] * first + g[..., 0:1] * second]
-    return np.stack(rows, axis=2).reshape(*g.shape[:2], 3, 18)
-
-
-def _gathered(by_nodes: Array, place: NDArray[np.int64], count: int) -> Array:
-    """The same as one matrix, (3 points elements, count), of dofs that are at some places of each element's."""
-    elements, points = by_nodes.shape[:2]
-    matrix = np.zeros((elements, 3 * points, count))
-    rows = np.arange(3 * points)[None, :, None]
-    matrix[np.arange(elements)[:, None, None], rows, place[:, None, :]] = by_nodes.reshape(elements, 3 * points, 18)
-    return matrix.reshape(-1, count)
+    first, second = deformation[..., None]
+    g1, g2 = g[:, :, 0, None], g[:, :, 1, None]
+    by = np.empty((*g.shape[:2], 3, 2, 9))
+    np.multiply(g1, first, out=by[:, :, 0])
+    np.multiply(g2, second, out=by[:, :, 1])
+    np.multiply(g2, first, out=by[:, :, 2])
+    by[:, :, 2] += g1 * second
+    return by.reshape(*g.shape[:2], 3, 18)
 
 
 def elasticity_of(ring: Ring) -> ExactElasticity:

@@ -80,6 +80,7 @@ class NodalRing:
         self.gyro: sp.csc_matrix = (self.mass @ turn).tocsc()
         self.vertex = np.ascontiguousarray(ring.mesh.rim_theta[::2])
         self._linear: sp.csc_matrix = (ring.free_stiffness * self.stiffness).tocsc()
+        self._sizes = abs(self._linear)
 
     @property
     def size(self) -> int:
@@ -105,7 +106,7 @@ class NodalRing:
 
     def round_off(self, u: Array) -> float:
         """Size of the rounding errors in ``elastic``."""
-        return 4e-16 * float((abs(self._linear) @ abs(u)).max())
+        return 4e-16 * float((self._sizes @ abs(u)).max())
 
 
 def turned(field: Array) -> Array:
