@@ -136,6 +136,15 @@ def test_reduced_against_all_nodes_in_a_pulse():
         assert np.abs(a - b).max() < 3e-3 * a[0]
 
 
+def test_a_linear_ring_without_mass_is_factored_once(monkeypatch):
+    """Its matrix never changes: where Newton goes slowly the contact bends, and a new one would be the old one."""
+    made = []
+    monkeypatch.setattr("flexible.models.full._Factored", lambda *given: made.append(_Factored(*given)) or made[-1])
+    scene = HOOP.replace(hoop={"mass_ratio": 0.0}, solve={"level": "full", "rtol": 1e-2}, run={"until": "pulse"})
+    flexible.simulate(scene, states=False)
+    assert len(made) == 1
+
+
 @pytest.mark.slow
 def test_scene_b_reduced_against_all_nodes():
     """J_N, J_F and loss within 1e-3 of J_N, R0 = g = m = 1; three codes give J_N = 2.149 +- 0.003."""
