@@ -109,8 +109,12 @@ def test_a_spot_that_breaks_loose_where_friction_drives_it_on_snaps_off(beside, 
     before, behind = snapped_off(records, side)
     most = max(record.normal_force for record in records)
     assert behind < before < 0.01 * most
-    # an event at which forces jump is located in time alone; as in the stress test
-    assert all(abs(r.friction_force) <= 0.6 * r.normal_force + 1e-6 * most for r in records)
+    for earlier, record, later in zip(records, records[1:], records[2:], strict=False):
+        beyond = abs(record.friction_force) - 0.6 * record.normal_force
+        if later.t == record.t:  # an event at which forces jump is located in time alone: by its step, however short
+            beyond -= 0.6 * abs(record.normal_force - earlier.normal_force)
+            beyond -= abs(record.friction_force - earlier.friction_force)
+        assert beyond <= 1e-6 * most  # as in the stress test
     assert ledger_closes(scene, records)
 
 
@@ -133,14 +137,16 @@ def test_stick_and_slip_that_would_follow_each_other_without_end_are_few(beside,
         normal = np.array([record.normal_force for record in loose])
         assert 5 < len(normal) < 20  # 50 and more with every one of them down to round-off
         q = (normal[-1] / normal[1]) ** (1 / (len(normal) - 2))
-        assert normal[2:] / normal[1:-1] == pytest.approx(q, rel=5e-3)
+        # an event is located to some 1e-6 of the largest force, which shows where N has all but gone
+        most = max(record.normal_force for record in records)
+        assert (np.abs(normal[2:] / normal[1:-1] - q) < 5e-3 * q + 1e-6 * most / normal[1:-1]).all()
         found.append((mu - q * mu_s) / (1 - q))
         _, across, along = compliance(ReducedHoop(scene), -side * beside)
         first, last = loose[1], loose[-1]
         went = last.x_C - first.x_C - (last.phi - first.phi)
         stated.append(abs(across / along + went / (last.normal_force - first.normal_force) / along))
         # what was left of the friction impulse, mu N over the time of a few of the last ones, is nothing
-        assert snapped_off(records, side)[1] < 1e-3 * max(record.normal_force for record in records)
+        assert snapped_off(records, side)[1] < 1e-3 * most
         assert ledger_closes(scene, records)
     assert found[0] == pytest.approx(found[1], rel=0.02)  # q to 1e-3 of 1 - q, a tenth and more
     assert found == pytest.approx(stated, rel=0.04)
