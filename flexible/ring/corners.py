@@ -93,12 +93,12 @@ def _condensed(fine: Corner, stiffness: BilinearForm) -> Array:
     free = np.flatnonzero(np.repeat(~(own | fine.bound), 2))
     pushed = matrix @ followed
     within = matrix[free][:, free].tocsc()
-    found = _left(within, pushed[free].tocsc(), followed.T @ pushed) - shapes.T @ (matrix @ shapes)
+    found = _schur_complement(within, pushed[free].tocsc(), followed.T @ pushed) - shapes.T @ (matrix @ shapes)
     return np.asarray((found + found.T) / 2)
 
 
-def _left(within: sp.csc_matrix, beside: sp.csc_matrix, kept: sp.csc_matrix) -> Array:
-    """``kept - beside.T inverse(within) beside``, which Gauss leaves of ``kept`` when all of ``within`` is eliminated.
+def _schur_complement(within: sp.csc_matrix, beside: sp.csc_matrix, kept: sp.csc_matrix) -> Array:
+    """``kept - beside.T inverse(within) beside``: what elimination leaves of ``kept`` when all of ``within`` is gone.
 
     A column of ``beside`` at a time, solved for and multiplied, takes four times as long where the wall is thick.
     """

@@ -149,9 +149,9 @@ class ExactElasticity:
         """Second derivative of the energy, (n_free, n_free)."""
         deformation, strain = self._strain(u)
         b = _by_nodes(deformation, self.gradients)
-        matrix = _squares(b, self.stiffness, self.weights)
+        matrix = _squares(b, self.stiffness[:, :, None, None] * self.weights)
         s11, s22, s12 = np.moveaxis(self._stress(strain), -1, 0)
-        initial = _squares(self.gradients, np.array([[s11, s12], [s12, s22]]), np.ones_like(s11))
+        initial = _squares(self.gradients, np.array([[s11, s12], [s12, s22]]))
         matrix[:, :9, :9] += initial
         matrix[:, 9:, 9:] += initial
         parts = [matrix.ravel()]
@@ -166,14 +166,17 @@ class ExactElasticity:
         return sp.csc_matrix((data, rows, starts), shape=(len(self.free), len(self.free)))
 
 
-def _squares(factor: Array, middle: Array, weights: Array) -> Array:
-    """Sum of factor^T middle factor over an element's points, (elements, n, n); factor (elements, points, k, n)."""
+def _squares(factor: Array, middle: Array) -> Array:
+    """Sum of factor^T middle factor over an element's points, (elements, n, n).
+
+    ``factor`` is (elements, points, k, n), ``middle`` (k, k, elements, points).
+    """
     elements, _, count, size = factor.shape
     product = np.zeros_like(factor)
     for i in range(count):
         for j in range(count):
             if np.any(middle[i, j]):
-                product[:, :, i] += (middle[i, j] * weights)[..., None] * factor[:, :, j]
+                product[:, :, i] += middle[i, j][..., None] * factor[:, :, j]
     of_points = elements, -1, size
     return np.asarray(factor.reshape(of_points).swapaxes(1, 2) @ product.reshape(of_points))
 
