@@ -104,8 +104,12 @@ def is_lost(search: Search) -> bool:
 
 @loop
 def chosen(search: Search) -> float:
-    """Length of the step at the end of a search: at the event, or the last one before it; 0 if there is none."""
-    return search.low if is_lost(search) else search.high
+    """Length of the step at the end of a search: at the event, or the last one before it; 0 if there is none.
+
+    Where the patch's forces jump, at no instant they are at their bound: the mode ends before they are beyond it.
+    """
+    jumps = search.event == MODE_ENDS and search.past > 1 and search.low > 0
+    return search.low if jumps or is_lost(search) else search.high
 
 
 @loop

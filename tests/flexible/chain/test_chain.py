@@ -257,14 +257,15 @@ def test_a_thick_soft_pulse_against_all_nodes():
     """A wall of a tenth of R, the disk over it a quarter of the hoop: the floor pushes where the weld's own field is.
 
     The chain's rim misses the mesh's by some thousandths of what loads move it there, and the largest force is that of
-    a vibration: a twentieth of it, a thirtieth of friction and its loss, a two-hundredth of J_N.
+    a vibration: a fiftieth of it, a hundredth of friction and its loss, a thousandth of J_N. Both have the same mesh,
+    which is coarse: what it leaves is the same for both.
     """
     thick = HOOP.replace(
         hoop={"k": 0.2, "r": 1.12, "mass_ratio": 0.1}, ring={"bending_stiffness": 10.0},
-        contact={"stiffness": 1e7, "damping": 1.0}, solve={"rtol": 1e-3},
+        contact={"stiffness": 1e7, "damping": 1.0}, solve={"rtol": 1e-3, "elements": 120, "through": 2},
     )  # fmt: skip
     chain, exact = (flexible.simulate(thick.replace(solve={"level": kind})).pulses[0] for kind in ("chain", "exact"))
-    assert chain.normal_impulse == pytest.approx(exact.normal_impulse, rel=0.005)
-    assert chain.friction_impulse == pytest.approx(exact.friction_impulse, rel=1 / 30)
-    assert chain.friction_loss == pytest.approx(exact.friction_loss, rel=1 / 30)
-    assert chain.peak_normal_force == pytest.approx(exact.peak_normal_force, rel=0.05)
+    assert chain.normal_impulse == pytest.approx(exact.normal_impulse, rel=1e-3)
+    assert chain.friction_impulse == pytest.approx(exact.friction_impulse, rel=0.01)
+    assert chain.friction_loss == pytest.approx(exact.friction_loss, rel=0.01)
+    assert chain.peak_normal_force == pytest.approx(exact.peak_normal_force, rel=0.02)

@@ -258,12 +258,12 @@ def test_the_softest_ring():
 def test_a_thick_pulse_against_all_nodes():
     """A wall of a tenth of R, linear, on one mesh: a percent of the largest force, a thousandth of J_N.
 
-    The largest force of all nodes is known no better: 0.6 % of it changes from rtol 3e-4 to 1e-4, 0.3 % with 480
-    elements around and 0.7 % with 4 through the wall.
+    The mesh is coarse, and leaves the same to both. The largest force of all nodes is known no better: with twice as
+    many elements 0.6 % of it changes from rtol 3e-4 to 1e-4, and 0.7 % with 4 through the wall.
     """
     scene = HOOP.replace(
         hoop={"k": 0.2, "r": 1.1}, ring={"bending_stiffness": 20.0}, contact={"stiffness": 1e7, "damping": 1.0},
-        solve={"rtol": 3e-4, "elements": 240},
+        solve={"rtol": 3e-4, "elements": 120},
     )  # fmt: skip
     reduced, full = (flexible.simulate(scene.replace(solve={"level": kind})).pulses[0] for kind in ("reduced", "full"))
     assert reduced.normal_impulse == pytest.approx(full.normal_impulse, rel=1e-3)

@@ -16,7 +16,7 @@ from flexible.handover import Pose, equilibrium, hand_over
 from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
 from flexible.time.adaptive import Limits, MarchError, attempt, march, restart
-from flexible.time.events import Ends, chosen, is_lost, is_open, search_of, told, unsolved
+from flexible.time.events import HIGH_END, MODE_ENDS, Ends, chosen, is_lost, is_open, search_of, told, unsolved
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
 
 #: slips out of rolling a moment after its release
@@ -43,9 +43,9 @@ def numbered(root, unsolved=(2.0, 3.0)):
     return step, (lambda h: (h - root) / 1e-9), tried
 
 
-def located(step, past):
+def located(step, past, event=MODE_ENDS):
     """The end of the search in a step of length 1, None if there is none, and whether it is at the event."""
-    search = search_of(0, 1.0, past(0.0), past(1.0))
+    search = search_of(event, 1.0, past(0.0), past(1.0))
     while is_open(search):
         found = step(search.length)
         search = unsolved(search) if found is None else told(search, past(found))
@@ -72,11 +72,15 @@ def test_an_event_among_lengths_that_cannot_be_solved_is_not_taken_for_located()
     assert located(step, past)[0] is None
 
 
-def test_a_jump_is_located_in_time():
-    """A function without a zero, -1 before 0.3 and 1e12 after: the bracket tells, to its share 1e-10 of the step."""
-    found, at_event = located(lambda h: h, lambda h: 1e12 if h > 0.3 else -1.0)
+@pytest.mark.parametrize("event", [MODE_ENDS, HIGH_END])
+def test_a_jump_is_located_in_time(event):
+    """A function without a zero, -1 before 0.3 and 1e12 after: the bracket tells, to its share 1e-10 of the step.
+
+    A mode of the patch ends before it is past its bound, a march when it is past its end.
+    """
+    found, at_event = located(lambda h: h, lambda h: 1e12 if h > 0.3 else -1.0, event)
     assert at_event
-    assert 0.3 < found < 0.3 + 1e-10
+    assert 0 < (0.3 - found if event == MODE_ENDS else found - 0.3) < 1e-10
 
 
 @pytest.mark.parametrize("failing", [0.5, 1.0])
