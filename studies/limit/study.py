@@ -136,7 +136,7 @@ class LimitStudy(summary.Summarised):
                 mine = [sight for sight in self.sights if sight.solver == solver and name in sight.values]
                 pairs = np.array([(sight.foundation, self.distance(name, sight)[0]) for sight in mine]).reshape(-1, 2)
                 seen[solver] = pairs[:, 0], pairs[:, 1]
-            drawn[MEASURES[name].symbol] = Approach((along, away), seen)
+            drawn[MEASURES[name].named(self.scene)] = Approach((along, away), seen)
         return draw(drawn, "foundation εR²/(mg)", axes)
 
     def to_dataframe(self) -> pandas.DataFrame:

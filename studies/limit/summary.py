@@ -45,7 +45,7 @@ def term_sheet(study: LimitStudy) -> Sheet:
     powers = [
         " ".join(f"{c:+.5g} {power_of(_symbol(study), p)}" for p, c in term.powers) or "0" for term in terms.values()
     ]
-    names = [MEASURES[name].heading(study.scene).replace("\n", " ") for name in terms]
+    names = [MEASURES[name].named(study.scene) for name in terms]
     return Sheet(
         "Prediction: limit and approach",
         [Column("measure", names, words=True)],

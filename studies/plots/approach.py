@@ -23,16 +23,16 @@ class Approach(NamedTuple):
 
 
 def draw(approaches: Mapping[str, Approach], label: str, axes: Any = None) -> NDArray[np.object_]:
-    """A panel for each measure by its symbol, on ``axes`` or in a new figure; ``label`` is of the abscissa."""
+    """A panel for each measure by its name, on ``axes`` or in a new figure; ``label`` is of the abscissa."""
     panels = panels_on(axes, len(approaches), (3.7, 4.0))
-    for axis, (symbol, approach) in zip(panels, approaches.items(), strict=True):
+    for axis, (name, approach) in zip(panels, approaches.items(), strict=True):
         stiffness, away = approach.predicted
         axis.plot(stiffness, np.abs(away), color=RIGID, label="predicted")
         for (solver, (stiffness, away)), (mark, fill) in zip(approach.seen.items(), MARKS, strict=False):
             if stiffness.size:
                 look: Any = {"color": OKABE_ITO["kinetic"], "markerfacecolor": fill}
                 axis.plot(stiffness, np.abs(away), mark, label=solver, **look)
-        axis.set(xscale="log", yscale="log", xlabel=label, title=symbol)
+        axis.set(xscale="log", yscale="log", xlabel=label, title=name)
         axis.legend()
     panels[0].set_ylabel("distance to the limit")
     return panels

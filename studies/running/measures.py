@@ -31,6 +31,10 @@ class Measure:
         unit = self.unit.label(scene)
         return f"{self.symbol}\n[{unit}]" if unit else self.symbol
 
+    def named(self, scene: Scene) -> str:
+        """The same on one line."""
+        return self.heading(scene).replace("\n", " ")
+
 
 MEASURES: dict[str, Measure] = {}
 
