@@ -15,6 +15,7 @@ from __future__ import annotations
 import json
 import math
 import zipfile
+import zlib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -214,7 +215,7 @@ class Series:
         try:
             with np.load(path, allow_pickle=False) as kept:
                 return dict(kept)
-        except (OSError, ValueError, zipfile.BadZipFile, EOFError):
+        except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile, zlib.error, EOFError):
             raise SeriesError(f"{path} is damaged: its curves do not decode.") from None
 
     @cached_property

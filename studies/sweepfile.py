@@ -92,7 +92,7 @@ def load_sweep(path: str | PathLike[str], solvers: Sequence[str] = (), max_cases
         data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise SceneError(trouble(error, path)) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:
         raise SceneError(f"{path} is not TOML: {error}.") from None
     return sweep_from_dict(data, solvers, max_cases)
 

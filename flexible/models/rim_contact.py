@@ -48,11 +48,10 @@ def known_to(rtol: float) -> float:
     return min(max(least, rtol**1.5), most)
 
 
-def contact_law(scene: Scene, elements: int, points: float, within: float = 0.0, soft: bool = False) -> Law:
+def contact_law(scene: Scene, elements: int, points: float, within: float = 0.0) -> Law:
     """The scene's friction law, with ``points`` to the patch of a rigid hoop under the disk's weight.
 
-    ``within`` is what the rim's wall gives way by point by point, besides the foundation and its bristles; ``soft`` is
-    a ring whose sections turn far.
+    ``within`` is what the rim's wall gives way by point by point, besides the foundation and its bristles.
     """
     contact, friction = scene.contact, scene.friction
     eps = 1 / (1 / contact.stiffness + within)
@@ -128,7 +127,7 @@ class RimContact:
         self.theta = np.column_stack([vertex, middle]).ravel()
         if points is None:
             points = points_to_a_patch(LAWS[scene.contact.law], scene.solve.rtol, soft=not self.linear)
-        self.law = contact_law(scene, len(vertex), points, within, soft=not self.linear)
+        self.law = contact_law(scene, len(vertex), points, within)
         self.element = 2 * pi / len(vertex)
         self.relaxation = relaxation_time(scene)
         self.steps = 1.0 if self.linear else share_of_steps(scene)

@@ -189,9 +189,8 @@ def march(
     while why in (PAUSED, LACKS, MODE_ENDED):
         if not now.cut:
             stood, behind = now, len(records)
-        stopped = limits.stop()
         answer()
-        if stopped:
+        if limits.stop():
             break
         now, written, why = _advanced(model, method.table, now, ends, aims, rows)
         records += _records(rows[:written])

@@ -3,6 +3,7 @@
 ``table``   scenes, or arrays of their quantities, as one table; what is refused, with its number
 ``run``     the loop over them
 ``result``  what became of them
+``cores``   how many things may be done at once
 """
 
 from .result import Batch

@@ -3,7 +3,6 @@
 # mypy: allow-untyped-defs
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
@@ -33,6 +32,7 @@ from ..scene import Run
 from ..scenefile import SceneLike
 from ..solve import LOG_RECORDS
 from ..solve import STEPS as WORK
+from .cores import cores
 from .result import Batch
 from .table import parameters_of, table_of
 
@@ -109,7 +109,7 @@ def simulate_batch(
         np.full((count, pulses, PULSE_VALUES), np.nan),
     )
     run = compiled()["entry_batch"]
-    workers = workers or os.cpu_count() or 1
+    workers = workers or cores()
     chunk = min(MOST, -(-count // (CHUNKS * workers)) or 1)
 
     def work_through(start: int) -> None:

@@ -51,8 +51,8 @@ def between_calls() -> Iterator[None]:
 
 
 def answer() -> None:
-    """Hand on the signals that came. What their handlers raise is raised here."""
-    while _came:
+    """Hand on the signals that came. What their handlers raise is raised here: in the main thread, as ever."""
+    while _came and threading.current_thread() is threading.main_thread():
         number, frame = _came.pop(0)
         _handlers[number](number, frame)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import statistics
+import sys
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
@@ -188,7 +189,7 @@ def peak_memory(entry: Contestant) -> float:
     with os.fdopen(reader) as pipe:
         said = pipe.read()
     os.waitpid(child, 0)
-    return int(said) / 1024 if said else NAN
+    return int(said) / (1024**2 if sys.platform == "darwin" else 1024) if said else NAN  # bytes there, else kB
 
 
 def exponent(sizes: Sequence[float], costs: Sequence[float]) -> float:

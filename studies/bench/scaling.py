@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable
 
 import flexible
 from rigid import Release, load_scene, simulate
+from rigid.batch.cores import cores
 from rigid.kernel.compile import patience
 
 from .race import Claim, Contestant, Result, Row, exponent, race
@@ -71,14 +71,13 @@ def _long_run(steps: int) -> Contestant:
 def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[float], None] | None = None) -> Result:
     """Time everything that grows."""
     patience.renew(0)
-    cores = os.cpu_count() or 1
     # the finest mesh last: what it leaves in memory would count for all that come after
     entries = [
         _sized(BATCH, count, batch_of(count), clock="wall") for count in ((100, 1000) if quick else (100, 1000, 10_000))
     ]
     entries += [
         _sized(WORKERS, workers, batch_of(2000, workers), clock="wall", memory=False)
-        for workers in dict.fromkeys((1, cores))
+        for workers in dict.fromkeys((1, cores()))
     ]
     entries += [_turns(turns) for turns in (20, 200, 2000)]
     entries += [] if quick else [_long_run(BATCH_STEPS)]

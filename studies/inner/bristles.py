@@ -23,7 +23,6 @@ from rigid.kernel.compile import part
 
 SIZE = 8192  # entries of the circular tables
 ENTRIES = 1000  # of a patch's table, from edge to edge
-LAST, FIRST = 0, 1  # positions in ``ends``: newest entry at the trailing and at the leading edge
 SLIPPED, TRAILING, LEADING = range(3)  # positions in ``edges``
 
 Bristles = namedtuple("Bristles", ["label", "way", "area", "sliding", "ends", "edges", "spacing"])

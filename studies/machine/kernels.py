@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from rigid import Scene
+from rigid.batch.cores import cores
 from rigid.kernel.store import is_cold
 
-from .processes import Processes, WorkerDied, cores
+from .processes import Processes, WorkerDied
 
 LEVELS = {"reduced": "flexible.time.advance", "chain": "flexible.time.chain_step"}
 """Levels of the flexible solver that have compiled code of their own, and the module whose code is compiled last."""

@@ -33,11 +33,6 @@ _LOGGER = logging.getLogger("hoop-pulse")
 Task = tuple[Callable[..., Any], tuple[Any, ...]]
 
 
-def cores() -> int:
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
 class WorkerDied(RuntimeError):
     """The process that had a task is gone, and the task with it."""
 

@@ -21,9 +21,7 @@ if TYPE_CHECKING:
 
 PHI = radians(128)
 INNER, DISK = 0.93, 0.2  # over R; a wall and a disk that can be seen
-NORMAL, FRICTION, SLIP, WEIGHT = (
-    OKABE_ITO[name] for name in ("kinetic", "friction_loss", "ring_strain", "numerical_loss")
-)
+NORMAL, FRICTION, SLIP = (OKABE_ITO[name] for name in ("kinetic", "friction_loss", "ring_strain"))
 
 
 def sketch() -> Figure:

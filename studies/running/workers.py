@@ -10,9 +10,10 @@ from contextlib import contextmanager, suppress
 from typing import Protocol, TypeVar
 
 from rigid import scene_to_dict
+from rigid.batch.cores import cores
 
 from ..machine.kernels import compile_side_by_side, levels_of, prepare
-from ..machine.processes import Processes, WorkerDied, cores
+from ..machine.processes import Processes, WorkerDied
 from .case import Case, OtherBuild, Outcome, run_case
 from .files import StudyError, plain
 from .solvers import version

@@ -12,8 +12,9 @@ from itertools import islice
 from typing import Any
 
 from rigid import Scene
+from rigid.batch.cores import cores
 
-from ..machine.processes import Processes, WorkerDied, cores
+from ..machine.processes import Processes, WorkerDied
 from .checks import Checked, Margins, toml
 from .work import Bound, Work
 

@@ -44,10 +44,10 @@ def rows() -> Iterator[Row]:
 
 def _pressed(depth: float, spacing: float, phi: float) -> float:
     """Normal force of a rim pressed on the floor."""
-    return float(_forces(depth, spacing, np.array([0.0, -depth, phi]), None, None).res.normal)
+    return float(_forces(spacing, np.array([0.0, -depth, phi]), None, None).res.normal)
 
 
-def _forces(depth: float, spacing: float, pose: np.ndarray, before: np.ndarray | None, bristles: Bristles | None):  # type: ignore[no-untyped-def]
+def _forces(spacing: float, pose: np.ndarray, before: np.ndarray | None, bristles: Bristles | None):  # type: ignore[no-untyped-def]
     law = Parameters(LAWS[LAW].code, spacing, EPS, 0.8 * EPS, MU, MU, 1e-3, 1e-9)
     rim, flat = Rim(element_at(VERTEX, pi - pose[2]) - 6, VERTEX), np.zeros((27, 2))
     was = Before(pose if before is None else before, flat, no_bristles() if bristles is None else bristles)
@@ -60,12 +60,12 @@ def _rolled(xi: float) -> float:
     a = sqrt(2 * depth)
     spacing, creep, step = 2 * a / 200, xi * 2 * MU * depth / (0.8 * a), a / 37
     pose = np.array([0.0, -depth, 2.9])
-    bristles = _forces(depth, spacing, pose, None, None).bristles
+    bristles = _forces(spacing, pose, None, None).bristles
     bristles = bristles._replace(stretch=np.zeros(len(bristles.stretch)))
     shares = []
     for _ in range(160):
         moved = pose + np.array([creep * step, 0.0, step])
-        result = _forces(depth, spacing, moved, pose, bristles)
+        result = _forces(spacing, moved, pose, bristles)
         pose, bristles = np.array([0.0, moved[1], moved[2]]), result.bristles
         shares.append(-result.res.friction / (MU * result.res.normal))
     return float(np.mean(shares[-37:]))

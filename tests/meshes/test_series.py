@@ -208,6 +208,23 @@ def test_flipped_bytes_never_read_as_something_else(written, tmp_path):
         assert_same_block(got, expected)
 
 
+def test_damaged_curves_are_said_to_be(tmp_path):
+    """Every byte of the archive, flipped: an error of this kind, or the same curves."""
+    with SeriesWriter(tmp_path) as writer:
+        writer.add(Frame(0.0, {"floor": floor_block(0, 1, 0.1)}))
+    path, curve = tmp_path / "fields" / "history.npz", np.sin(np.arange(5.0))
+    np.savez_compressed(path, t=curve)
+    whole = path.read_bytes()
+    assert read(tmp_path).history["t"].tolist() == curve.tolist()
+    for place in range(len(whole)):
+        path.write_bytes(whole[:place] + bytes([whole[place] ^ 0xFF]) + whole[place + 1 :])
+        try:
+            got = read(tmp_path).history
+        except SeriesError:
+            continue
+        assert [values.tolist() for values in got.values()] == [curve.tolist()]
+
+
 def test_foreign_and_missing_files(tmp_path):
     with pytest.raises(SeriesError, match="holds no series"):
         read(tmp_path)

@@ -372,6 +372,12 @@ def written(folder: Path) -> list[str]:
     return [line.rpartition(",")[0] for line in (folder / "table.csv").read_text().splitlines()]
 
 
+def test_a_number_of_thousands_of_digits_is_no_toml(tmp_path):
+    """Python refuses to read it, by another error than that of a wrong line."""
+    with pytest.raises(SceneError, match="is not TOML"):
+        load_sweep(sweep_file(tmp_path, k="1" * 5000))
+
+
 def test_kill_9_loses_no_finished_case_and_leaves_no_worker_behind(tmp_path):
     file, slow = sweep_file(tmp_path), by("third_solver:slow")
     file.write_text(file.read_text() + "histories = true\n")

@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -83,15 +84,19 @@ def _earlier(folder: Path) -> FlexibleMotion:
 
 @contextmanager
 def _interrupts(caught: bool) -> Iterator[Callable[[], bool]]:
-    """Ctrl-C asks the motion to stop, once; a second one is as usual. Whether it was asked is what comes out."""
+    """Ctrl-C asks the motion to stop, once; a second one is as usual. Whether it was asked is what comes out.
+
+    What takes both stays in place: signals wait while compiled code runs, and one put in its place would not.
+    """
     asked = threading.Event()
     if not caught or threading.current_thread() is not threading.main_thread():
         yield asked.is_set
         return
 
-    def note(number: int, frame: object) -> None:
+    def note(number: int, frame: FrameType | None) -> None:
+        if asked.is_set() and callable(before):
+            before(number, frame)
         asked.set()
-        signal.signal(signal.SIGINT, before)
 
     before = signal.signal(signal.SIGINT, note)
     try:

@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 
 import pytest
 
@@ -63,6 +64,23 @@ def test_a_signal_waits_for_its_answer_but_not_for_a_compilation(monkeypatch):
     finally:
         signal.signal(signal.SIGINT, before)
     assert not announce.compiling()
+
+
+def test_another_thread_answers_nothing():
+    """Python runs handlers in the main thread; what came is left for it, whatever else makes a motion meanwhile."""
+    came = []
+    before = signal.signal(signal.SIGINT, lambda *_: came.append(threading.current_thread()))
+    try:
+        with interrupts.between_calls():
+            signal.raise_signal(signal.SIGINT)
+            other = threading.Thread(target=interrupts.answer)
+            other.start()
+            other.join()
+            assert came == []
+            interrupts.answer()
+            assert came == [threading.main_thread()]
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_of_two_signals_that_wait_none_is_left_for_the_next_motion():

@@ -244,7 +244,7 @@ def test_motions_run_and_are_written_without_posix(tmp_path):
 def test_what_has_no_answer_without_posix_says_so():
     program = """
 from studies.bench.race import Contestant, peak_memory
-from studies.machine.processes import cores
+from rigid.batch.cores import cores
 from rigid.kernel.store import user_cache
 memory = peak_memory(Contestant("", "", "", lambda: None, lambda found: 0.0))
 print(memory != memory, cores() >= 1, user_cache()[0] is not None)

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 import pytest
 from command_line import SCENE, is_one_sentence
 
+from rigid.kernel import interrupts
 from studies.cli.shared import single
 
 MOTION = (
@@ -56,6 +57,24 @@ def test_ctrl_c_keeps_what_there_is_and_continue_goes_on(hoop, tmp_path, monkeyp
     assert rest == whole
     for name in ("motion.json", "history.csv"):
         assert (out / name).read_text() == (tmp_path / "whole" / name).read_text()
+
+
+def test_a_second_ctrl_c_interrupts_between_the_calls_of_compiled_code():
+    """Both come while one runs: neither is lost, and neither raises where numba would crash."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with single._interrupts(True) as stop:
+            with pytest.raises(KeyboardInterrupt), interrupts.between_calls():  # noqa: PT012
+                signal.raise_signal(signal.SIGINT)
+                interrupts.answer()
+                assert stop()
+                signal.raise_signal(signal.SIGINT)  # waits
+                interrupts.answer()
+            with pytest.raises(KeyboardInterrupt):
+                signal.raise_signal(signal.SIGINT)
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def test_a_run_can_go_further(hoop, tmp_path):
