@@ -114,7 +114,7 @@ class Pulse(Same):
         sample = self.sample
         span = (self.t_start, self.t_end)
         middle = sampling.bottom(lambda t: sample(t, "right").phi, *span)
-        t = sampling.times(lambda t: _forces(sample(t, "right")), span, [middle])
+        t = sampling.times(lambda t: sampling.forces_of(sample(t, "right")), span, [middle])
         paper = getattr(getattr(sample, "scene", None), "dimensionless", True)
         return draw(_columns(sample(t, "right")), quantities, over, dimensionless=paper, axes=axes)
 
@@ -177,34 +177,35 @@ class Motion(summary.Summarised):
         ValueError
             A time before release or after the end.
         """
-        times = np.asarray(t, dtype=float)
-        slack = 1e-12 * max(1.0, self.t_end)
+        return self.sample(self._inside(t, side), side)
+
+    def _inside(self, t: ArrayLike, side: Side) -> Array:
+        """Times within the motion; those that round-off has beyond its ends are at them."""
+        times, slack = np.asarray(t, dtype=float), 1e-12 * max(1.0, self.t_end)
+        if side not in ("left", "right"):
+            raise ValueError(f"side must be 'left' or 'right', not {side!r}")
         if times.size and not (times.min() >= -slack and times.max() <= self.t_end + slack):
             raise ValueError(f"times must lie in [0, {self.t_end}]")
-        return self.sample(np.clip(times, 0.0, self.t_end), side)
+        return np.clip(times, 0.0, self.t_end)
 
     def phase_at(self, t: float, side: Side = "right") -> Phase:
         """The phase at a time; an instant that two phases share belongs to the later one, or with ``side="left"`` to
-        the earlier.
+        the earlier. Errors are those of :meth:`at`.
         """
         if not self.phases:
             raise ValueError("a motion without phases")
         search = bisect_right if side == "right" else bisect_left
-        found = search(self.phases, t, key=lambda phase: phase.t_start)
+        found = search(self.phases, float(self._inside(t, side)), key=lambda phase: phase.t_start)
         return self.phases[max(found - 1, 0)]
 
     def times(self, start: float = 0.0, end: float | None = None) -> Array:
         """Times at which to sample the motion for a picture or a table, both sides of every jump among them: N and F
         are straight between them to two thousandths of their range, as far as some 20 000 times allow (200 pulses).
         """
-        end = self.t_end if end is None else end
-        inside = [pulse for pulse in self.pulses if pulse.t_end >= start and pulse.t_start <= end]
-        lowest = [sampling.bottom(lambda t: self.at(t).phi, pulse.t_start, pulse.t_end) for pulse in inside]
-        edges = [phase.t_end for phase in self.phases]
-        return sampling.times(lambda t: _forces(self.at(t)), (start, end), lowest, edges)
+        return sampling.instants(self, start, self.t_end if end is None else end)
 
     def plot(self, *quantities: str, over: str = "t", axes: Any = None) -> NDArray[np.object_]:
-        """Curves of the motion, a panel for each quantity; phases that do not roll are shaded.
+        """Curves of the motion, a panel for each quantity; phases that do not roll are shaded, up to a thousand.
 
         Parameters
         ----------
@@ -222,7 +223,7 @@ class Motion(summary.Summarised):
         from .output.axes import draw
 
         where = {"t": ("t_start", "t_end"), "phi": ("phi_start", "phi_end")}.get(over)
-        spans = [(str(p.kind), getattr(p, where[0]), getattr(p, where[1])) for p in self.phases] if where else []
+        spans = [(str(p.kind), getattr(p, where[0]), getattr(p, where[1])) for p in self.phases[:1000]] if where else []
         paper = self.scene.dimensionless
         return draw(_columns(self.at(self.times())), quantities, over, dimensionless=paper, spans=spans, axes=axes)
 
@@ -232,7 +233,9 @@ class Motion(summary.Summarised):
 
         states = self.at(self.times() if t is None else np.atleast_1d(np.asarray(t, dtype=float)))
         frame = pandas.DataFrame(_columns(states))
-        frame["phase"] = [str(self.phase_at(time).kind) for time in frame["t"]]
+        starts = [phase.t_start for phase in self.phases]
+        kinds = np.array([str(phase.kind) for phase in self.phases], dtype=object)
+        frame["phase"] = kinds[np.maximum(np.searchsorted(starts, frame["t"], "right") - 1, 0)]
         return frame
 
     def save(self, path: str | PathLike[str]) -> None:
@@ -294,7 +297,3 @@ class Motion(summary.Summarised):
 
 def _columns(states: States) -> dict[str, Array]:
     return {entry.name: getattr(states, entry.name) for entry in dataclasses.fields(states)}
-
-
-def _forces(states: States) -> Array:
-    return np.vstack([states.normal_force, states.friction_force])

@@ -68,6 +68,11 @@ class Sampler:
         """The starts of all phases and the end, one after the other, ``WIDTH`` numbers each."""
         return [number for row in self.listing.starts for number in (*row, *[0.0] * (at.WIDTH - len(row)))]
 
+    @cached_property
+    def _table(self) -> Array:
+        """The same as an array."""
+        return np.array(self._flat)
+
     def __getstate__(self) -> dict[str, Any]:
         return {"scene": self.scene, "log": self.log}
 
@@ -81,7 +86,7 @@ class Sampler:
         scene = self.scene
         order = np.argsort(t, axis=None, kind="stable")
         told = t.ravel()[order]
-        starts = np.array(self._flat[1 + at.T :: at.WIDTH])[:-1]
+        starts = self._table[1 + at.T :: at.WIDTH][:-1]
         # compared as the phases state their times: a division could put an instant on the wrong side of a boundary
         owner = np.searchsorted(starts * scene.time_unit, told, side) - 1
         once, again = told / scene.time_unit, np.zeros(len(told))
@@ -136,17 +141,17 @@ class Sampler:
     def _rows(self, times: Array, owner: NDArray[np.int64]) -> Array:
         """A row of the kernel's columns for each time, in the phase of the number ``owner``."""
         width = instant.COLUMNS
-        constants, flat = parameters(self.scene), self._flat
+        constants = parameters(self.scene)
         if patience.left(len(times)) > 0:
             patience.spend(instants=len(times))
             out: Any = [0.0] * (len(times) * width)
             work: Any = workspace()[0]
             events = [0.0] * (16 * at.WIDTH)
             state = [0.0] * at.STATE
-            instant.entry_sample(constants, flat, owner.tolist(), times.tolist(), out, work, state, events)
+            instant.entry_sample(constants, self._flat, owner.tolist(), times.tolist(), out, work, state, events)
             return np.array(out, dtype=float).reshape(len(times), width)
         out = np.zeros(len(times) * width)
         work = np.zeros((at.SERIES, at.ORDER + 1))
         room = np.zeros(at.STATE), np.zeros(16 * at.WIDTH)
-        compiled()["entry_sample"](np.array(constants), np.array(flat), owner, times, out, work, *room)
+        compiled()["entry_sample"](np.array(constants), self._table, owner, times, out, work, *room)
         return out.reshape(len(times), width)

@@ -64,10 +64,12 @@ def rolling_k(mu_s: float, release: Release, *, r: float = 1.0, mass_ratio: floa
 
     Raises
     ------
+    SceneError
+        A number that no scene can have.
     ValueError
         Every disk slips, or none does.
     """
-    hoop = Hoop(0.5, r, mass_ratio)
+    hoop, mu_s = Hoop(0.5, r, mass_ratio), Friction(mu_s, 0.0).mu_s
 
     def lack(k: float) -> float:
         needed = rolling_mu_s(dataclasses.replace(hoop, k=k), release)

@@ -225,7 +225,7 @@ def _touch(
         _differentiate(room, shared, load, s, c, dphi, way)
 
     low, high = _ends(points)
-    stuck = answer.stuck / length if length > 0 else 0.0
+    stuck = min(answer.stuck / length, 1.0) if length > 0 else 0.0  # of weights that miss the length by 1e-4
     beyond = _work_of_those_that_left(points, before, slip, moved, dphi, law, answer.stuck)
     kept = 0
     for i in range(pull.shape[0]):

@@ -18,6 +18,7 @@ from dataclasses import replace
 
 import rigid
 from rigid import Motion, Scene, SceneLike
+from rigid.allowed import require_whole
 from rigid.kernel.interrupts import between_calls
 
 from ..builder import Builder
@@ -69,8 +70,11 @@ def simulate(
     SceneError
         No such scene, one that cannot be, or one of which there is no flexible hoop (:func:`flexible.ensure_possible`).
     ValueError
-        A motion to resume that is of another scene, or whose states are asked for and were not kept.
+        ``most_steps`` that is no whole number from 1 on; a motion to resume that is of another scene, or whose states
+        are asked for and were not kept.
     """
+    if most_steps is not None:
+        require_whole("most_steps", most_steps, 1, 10**9)
     scene = rigid.as_scene(scene)
     ensure_possible(scene)
     inner = scene.to_dimensionless()

@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..allowed import require_whole
 from ..kernel.compile import compiled, kernel
 from ..kernel.layout import HOPS, MORE, RECORDS, STATE, STEPS, WIDTH, WORK_BOUND, T
 from ..kernel.spectral import compiled_workspace
@@ -77,10 +78,11 @@ def simulate_batch(
 
     Parameters
     ----------
-    scenes : sequence of scenes, or mapping of arrays
+    scenes : sequence of scenes, or mapping (or pandas table) of arrays
         Each of a sequence is anything that :func:`rigid.simulate` takes; of scenes in SI units, omega0 and slip0 are
         made dimensionless. The arrays are k, r, mass_ratio, mu_s, mu, phi0, omega0, slip0, restitution in the paper's
-        units (k, mu_s, mu, phi0 are needed), of any shapes that broadcast to (n,). Results are in the paper's units.
+        units, phi0 in radians (k, mu_s, mu, phi0 are needed), of any shapes that broadcast to (n,). Results are in the
+        paper's units.
     turns, t_end, until
         How far to run, the same for all (see :class:`rigid.Run`); 2 turns if nothing is said. The ``run`` of
         the scenes is not looked at.
@@ -97,8 +99,12 @@ def simulate_batch(
     Raises
     ------
     SceneError
-        A value that no scene can have, with its index, or a ``turns``, ``t_end`` or ``until`` that no run can have.
+        A value that no scene can have, with its index, or a ``turns``, ``t_end`` or ``until`` that no run can have;
+        ``pulses`` or ``workers`` that are no whole number.
     """
+    require_whole("pulses", pulses, 0, 1_000_000)
+    if workers is not None:
+        require_whole("workers", workers, 1, 1024)
     turns = Run(turns, t_end, until).turns  # refuses what no run can be
     table = table_of(scenes)
     count = len(table)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from math import inf
 
 import numpy as np
@@ -23,23 +23,36 @@ DEFAULTS = {"r": 1.0, "mass_ratio": 0.0, "omega0": 0.0, "slip0": 0.0, "restituti
 
 def table_of(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
     """One row of ``QUANTITIES`` per scene."""
+    if hasattr(scenes, "columns"):  # a table of pandas: no Mapping, but like one
+        scenes = {name: scenes[name] for name in scenes.columns}
     if isinstance(scenes, Mapping):
         unknown = set(scenes) - set(QUANTITIES)
         missing = set(QUANTITIES) - set(scenes) - set(DEFAULTS)
         if unknown or missing:
             what = "is not a quantity of" if unknown else "is missing in"
-            raise SceneError(f"{', '.join(sorted(unknown or missing))} {what} a batch: {', '.join(QUANTITIES)}.")
-        table = _broadcast([np.asarray(scenes.get(name, DEFAULTS.get(name)), dtype=float) for name in QUANTITIES])
+            raise SceneError(
+                f"{', '.join(sorted(unknown or missing))} {what} a batch: {', '.join(QUANTITIES)}; angles in radians."
+            )
+        table = _broadcast([_numbers(name, scenes.get(name, DEFAULTS.get(name))) for name in QUANTITIES])
         _check(table)
         return np.ascontiguousarray(table)
     if isinstance(scenes, (str, os.PathLike, Scene)):
         raise SceneError(f"{shown(scenes)} is one scene: a batch takes a list of them, or a dict of arrays.")
+    if not isinstance(scenes, Iterable):
+        raise SceneError(f"{shown(scenes)} is no batch: that is a list of scenes, or a dict of arrays.")
     rows = []
     for scene in map(as_scene, scenes):
         hoop, friction, release = scene.hoop, scene.friction, without_units(scene.release, scene)
         hoop_and_friction = (hoop.k, hoop.r, hoop.mass_ratio, friction.mu_s, friction.mu)
         rows.append((*hoop_and_friction, release.phi0, release.omega0, release.slip0, scene.landing.restitution))
     return np.array(rows, dtype=float).reshape(len(rows), len(QUANTITIES))
+
+
+def _numbers(name: str, values: ArrayLike | None) -> Array:
+    try:
+        return np.asarray(values, dtype=float)
+    except (TypeError, ValueError):
+        raise SceneError(f"{name} = {shown(values)} is not possible: a batch takes a number, or an array.") from None
 
 
 def _broadcast(columns: list[Array]) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from math import ceil, floor, pi
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,6 +29,27 @@ def bottom(phi: Curve, start: float, end: float) -> float:
         index = int(np.argmax(passed)) if passed.any() else grid.size - 1
         early, late = float(grid[max(index - 1, 0)]), float(grid[index])
     return 0.5 * (early + late)
+
+
+MANY = 200
+"""Pulses from which on the middle of each is taken for its lowest point, which takes long to find."""
+
+
+def instants(motion: Any, start: float, end: float) -> Array:
+    """Times at which to sample a motion; see :meth:`rigid.Motion.times`."""
+    inside = [pulse for pulse in motion.pulses if pulse.t_end >= start and pulse.t_start <= end]
+    if len(inside) > MANY:
+        lowest = [(pulse.t_start + pulse.t_end) / 2 for pulse in inside]
+    else:
+        lowest = [bottom(lambda t: motion.at(t).phi, pulse.t_start, pulse.t_end) for pulse in inside]
+
+    edges = [phase.t_end for phase in motion.phases]
+    return times(lambda t: forces_of(motion.at(t)), (start, end), lowest, edges)
+
+
+def forces_of(states: Any) -> Array:
+    """N and F at n instants, (2, n)."""
+    return np.vstack([states.normal_force, states.friction_force])
 
 
 def times(
@@ -58,7 +80,7 @@ def times(
     length = end - start
     if length <= 0:
         return np.array([start])
-    crowd = length * np.logspace(-9, 0, 46)
+    crowd = length * np.logspace(-9, 0, min(46, limit // (2 * max(len(bottoms), 1))))
     grid = [np.linspace(start, end, 129)]
     grid += [side for middle in bottoms for side in (np.array([middle]), middle - crowd, middle + crowd)]
     nearest = 1e-12 * max(1.0, abs(end))

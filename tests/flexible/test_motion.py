@@ -196,6 +196,7 @@ def test_patch_law(mass):
     history = flexible.simulate(scene, history=True).history
     normal, friction = history.normal_force, np.abs(history.friction_force)
     touching = normal > 0
+    assert 0 <= history.stick_fraction.min() < history.stick_fraction.max() <= 1
     sticks = touching & (history.stick_fraction > 0)
     slides = touching & (history.stick_fraction == 0)
     assert sticks.any()
@@ -338,3 +339,9 @@ def test_a_tight_tolerance_is_met_in_finite_time():
     assert fine.completed
     assert coarse.steps < fine.steps < 4 * coarse.steps
     assert fine.pulses[0].normal_impulse == pytest.approx(coarse.pulses[0].normal_impulse, rel=1e-4)
+
+
+@pytest.mark.parametrize("most", [0, -1, 1.5, "many"])
+def test_steps_are_counted_in_whole_numbers(most):
+    with pytest.raises(ValueError, match=r"most_steps = .* must be a whole number"):
+        flexible.simulate("paper-3.3-massless", most_steps=most)

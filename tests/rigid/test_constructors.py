@@ -9,6 +9,7 @@ from dataclasses import replace
 from math import pi, radians
 
 import numpy as np
+import pandas
 import pytest
 
 from rigid import (
@@ -224,6 +225,30 @@ def test_arrays_that_are_no_list_of_scenes_are_refused(k):
 
 def test_numbers_are_one_scene():
     assert len(simulate_batch({"k": 0.1, "mu_s": 0.35, "mu": 0.3, "phi0": 0.2})) == 1
+
+
+@pytest.mark.parametrize(("change", "told"), [
+    ({"k": ["a", "b"]}, "k = ['a', 'b'] is not possible"),
+    ({"k": 1j}, "k = 1j is not possible"),
+    ({"mu": [[0.1, 0.2], [0.3]]}, "mu = [[0.1, 0.2], [0.3]] is not possible"),
+    ({"phi0_deg": 10}, "angles in radians"),
+])  # fmt: skip
+def test_what_is_no_number_is_no_batch(change, told):
+    assert told in said(simulate_batch, {"k": [0.1, 0.2], "mu_s": 0.35, "mu": 0.3, "phi0": 0.2} | change)
+
+
+@pytest.mark.parametrize("wrong", [{"pulses": -1}, {"pulses": 1.5}, {"workers": 0}, {"workers": "a"}])
+def test_how_many_pulses_and_workers_are_whole_numbers(wrong):
+    with pytest.raises(SceneError, match="must be a whole number"):
+        simulate_batch(["paper-3.1"], **wrong)
+
+
+def test_a_table_of_pandas_is_a_batch():
+    quantities = {"k": [0.1, 0.2], "mu_s": 0.35, "mu": 0.3, "phi0": 0.2}
+    a, b = (simulate_batch(scenes) for scenes in (quantities, pandas.DataFrame(quantities)))
+    assert a.impulse_ratio.tolist() == b.impulse_ratio.tolist()
+    for nothing in (None, 3):
+        assert "is no batch" in said(simulate_batch, nothing)
 
 
 @pytest.mark.parametrize("stiffness", [0.0, 1e17, 1e40])

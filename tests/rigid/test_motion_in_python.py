@@ -107,6 +107,35 @@ def test_a_table_of_states(motion):
     assert len(motion.to_dataframe(0.5)) == 1
 
 
+def test_thousands_of_pulses_are_sampled_in_a_few_calls():
+    """A hoop that rolls over and over slips a little in every pulse; finding each lowest point took minutes."""
+    long, asked = simulate(Scene(Hoop(0.9), Friction(1, 1), Release(phi0_deg=0, omega0=4))), []
+
+    def counted(t, side):
+        asked.append(len(t))
+        return long.sample(t, side)
+
+    t = dataclasses.replace(long, sample=counted).times()
+    assert len(long.pulses) > 1000
+    assert len(asked) < 20
+    assert len(t) < 20_000 + 2.5 * len(long.phases)  # both sides of every jump, and as many as are allowed besides
+    for jump in [phase.t_end for phase in long.phases[:-1:100]]:
+        assert np.abs(t[t < jump] - jump).min() < 1e-11 * long.t_end
+        assert np.abs(t[t > jump] - jump).min() < 1e-11 * long.t_end
+    frame = long.to_dataframe(t[::50])
+    assert frame["phase"].tolist() == [str(long.phase_at(one).kind) for one in t[::50]]
+
+
+def test_times_and_sides_that_there_are_not(motion):
+    for t in (-5.0, 500.0, np.nan):
+        for ask in (motion.at, motion.phase_at):
+            with pytest.raises(ValueError, match="times must lie in"):
+                ask(t)
+    for ask in (motion.at, motion.phase_at):
+        with pytest.raises(ValueError, match="side must be 'left' or 'right', not 'middle'"):
+            ask(1.0, "middle")
+
+
 def test_a_table_of_a_batch():
     """A row for each pulse; measures as the array has them, and as one scene alone has them."""
     scenes = [load_scene("paper-3.1"), load_scene("paper-3.1").replace(hoop={"k": 0.97}), HEAVY]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import acosh, asin, atan, cosh, inf, pi, radians, sin, sqrt, tan
+from math import acosh, asin, atan, cosh, inf, nan, pi, radians, sin, sqrt, tan
 
 import numpy as np
 import pytest
@@ -34,6 +34,8 @@ def kinds(motion):
 
 def test_smallest_disk_that_rolls_throughout():
     """Section 3.2: k = 0.5385 for mu_s = 0.35; just below it slips, just above it never does."""
+    with pytest.raises(SceneError, match="mu_s = nan is not possible"):
+        rolling_k(nan, RELEASE)
     k = rolling_k(0.35, RELEASE)
     assert k == pytest.approx(0.5385, abs=1e-4)
     assert kinds(simulate(Scene(Hoop(k * (1 + 1e-10)), Friction(0.35, 0.3), RELEASE))) == [Kind.ROLL]

@@ -77,6 +77,22 @@ def test_a_second_ctrl_c_interrupts_between_the_calls_of_compiled_code():
         signal.signal(signal.SIGINT, before)
 
 
+def test_fields_stay_where_nothing_is_left_to_do_and_are_said_to_go_where_there_is(hoop, tmp_path):
+    scene, out = tmp_path / "scene.toml", tmp_path / "out"
+    scene.write_text(MOTION.format(run="turns = 1"), encoding="utf-8")
+    assert hoop("flexible", scene, "--out", out, "--fields", "--frames", 2)[0] == 0
+    before = {path: path.read_bytes() for path in out.rglob("*") if path.is_file()}
+    status, _, err = hoop("flexible", scene, "--continue", out)
+    assert (status, err) == (0, "")
+    assert {path: path.read_bytes() for path in out.rglob("*") if path.is_file()} == before
+    scene.write_text(MOTION.format(run="turns = 2"), encoding="utf-8")
+    status, _, err = hoop("flexible", scene, "--continue", out)
+    assert status == 0
+    assert is_one_sentence(err)
+    assert "--fields makes new ones" in err
+    assert not (out / "fields.pvd").exists()
+
+
 def test_a_run_can_go_further(hoop, tmp_path):
     scene, out = tmp_path / "scene.toml", tmp_path / "out"
     scene.write_text(MOTION.format(run="turns = 1"), encoding="utf-8")
