@@ -58,7 +58,7 @@ def simulate(
         An earlier motion of the same scene, however it ended, from which to go on, as far as ``scene.run`` says: it
         becomes what it would have been without a stop, to the last bit.
     stop : callable, optional
-        Asked every few steps; where it says so the motion ends, incomplete.
+        Asked every few steps, not while a start is solved; where it says so the motion ends, incomplete.
 
     Returns
     -------
