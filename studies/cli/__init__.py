@@ -1,4 +1,9 @@
-"""The command line: parse, call, print. ``hoop`` is :func:`main`."""
+"""The command line: parse, call, print. ``hoop`` is :func:`main`.
+
+``hoop``        all commands, and those of one run    ``study``, ``limit``, ``hop``, ``atlas``  `hoop study`
+``bench``       `hoop bench`, `stress`, `validate`    ``view``        pictures of a run
+``completion``  what a shell completes                ``shared``      what commands share
+"""
 
 import os
 import sys
