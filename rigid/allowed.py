@@ -1,7 +1,7 @@
 """What a scene may hold: every refusal is one sentence with the key, the value and what is allowed.
 
-A part of a scene says the same whether it is made by its constructor, changed by ``Scene.replace`` or read from a file. A file
-names R, m and g all or none; in Python each of them is 1 if it is not named.
+A part of a scene says the same whether it is made by its constructor, changed by ``Scene.replace`` or read from a file.
+A file names R, m and g all or none; in Python each of them is 1 if it is not named.
 """
 
 from __future__ import annotations
