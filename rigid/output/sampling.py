@@ -42,7 +42,6 @@ def instants(motion: Any, start: float, end: float) -> Array:
         lowest = [(pulse.t_start + pulse.t_end) / 2 for pulse in inside]
     else:
         lowest = [bottom(lambda t: motion.at(t).phi, pulse.t_start, pulse.t_end) for pulse in inside]
-
     edges = [phase.t_end for phase in motion.phases]
     return times(lambda t: forces_of(motion.at(t)), (start, end), lowest, edges)
 
