@@ -18,7 +18,7 @@ from ..contact.forces import example as of_contact
 from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by, moved_damper
 from ..contact.guess import GUESSES, as_before, guess_again, held_again, on_its_way
 from ..contact.newton import before_bend, breaks_loose, goes, move, reached, round_off
-from ..contact.points.data import MOST_ITERATIONS, Before, Bristles, Parameters, Rim, pulling
+from ..contact.points.data import MOST_ITERATIONS, Before, Bristles, Parameters, Rim, at_start, pulling
 from ..contact.points.rim import vertex_angle, window_around
 from ..contact.stage import Predictor, Stage
 from ..contact.vectors import eliminate, largest, plus, times
@@ -221,7 +221,7 @@ def _followed(
             law.law, law.spacing, law.eps_n / softer, law.eps_t / softer, law.mu_s, law.mu, law.slip_scale, law.known,
         )  # fmt: skip
         held = Bristles(bristles.number, times(softer, bristles.stretch), bristles.pull, bristles.sliding)
-        since = Before(before.pose, before.u, held)
+        since = Before(before.pose, before.u, held, before.first, before.dent)
         start = d, u, foreseen, tolerance if softer <= 1 else ROUGHLY
         answer = solve_stage(arrays.chain, facing, by, mode, since, damper, predictor, start)
         if answer.iterations < 0 or softer <= 1:
@@ -251,7 +251,7 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         u_old, beyond = moved(arrays, old, window)
         number, nodes = near_floor(arrays, window)
         facing = Facing(Rim(window[0], vertex), nodes, lacking(arrays.missing, number, number))
-        before = Before(old.pos[:FRAME], u_old, old.bristles)
+        before = at_start(old, u_old)
         u = follow(arrays.chain.rod, sections(expected), nodes)[0]
         move(expected, u, 1.0, nothing, beyond.ravel())
         begins = predictor.guess, u, Foreseen(old.res.normal, old.res.friction), near.known

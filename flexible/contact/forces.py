@@ -41,7 +41,7 @@ from .points.data import (
     Rim,
     Slip,
 )
-from .points.detection import find, place
+from .points.detection import dent_at, displaced, find, next_dent, place
 from .points.normal import force_by_gaps, press, sum_by_gaps
 from .points.rim import gap_at, lift, sideways, upward, vertex_angle
 from .room import PULL, SCRATCH, Room, carried_in, forces_in, foundation_in, keep, points_in, room_for
@@ -119,7 +119,7 @@ def _ends(points: Any) -> tuple[float, float]:
 
 @loop
 def _work_of_those_that_left(
-    points: Any, before: Before, slip: Slip, moved: float, dphi: float, law: Parameters, stuck: float
+    points: Any, before: Before, rim: Rim, slip: Slip, moved: float, dphi: float, law: Parameters, stuck: float
 ) -> float:
     """Work of the bristles now farther off the patch than its neighbours, beyond their force times the mean way.
 
@@ -130,6 +130,7 @@ def _work_of_those_that_left(
     number, last = bristles.number, bristles.number.shape[0] - 1
     low, high = points.number[0], points.number[-1]
     work = 0.0
+    was = left = dent_at(before, rim, pi - before.pose[2])
     for i in range(number.shape[0]):
         j = number[i]
         if j > high:
@@ -138,8 +139,11 @@ def _work_of_those_that_left(
             share = (j - number[0] + 0.5) / (low - number[0])
         else:
             continue
+        theta = j * law.spacing + share * dphi
         psi = before.pose[2] - pi + j * law.spacing
         rolled = share * dphi * lift(psi + share * dphi / 2)
+        was, left = next_dent(was, before, rim, j * law.spacing), next_dent(left, before, rim, theta)
+        rolled += displaced(left, theta)[0] - displaced(was, j * law.spacing)[0]
         pull = bristles.pull[i] / 2
         if stuck > 0 and bristles.sliding[i] == 0 and bristles.stretch[i] != 0:
             pull = bristles.pull[i] - law.eps_t * law.spacing * (rolled + share * moved) / 2
@@ -171,11 +175,11 @@ def _differentiate(room: Room, shared: Any, load: Load, s: float, c: float, dphi
         gather(points, foundation.force, 1 / load.elastic, along, bases[3])
         spread(bases[3], X, s, c, spreading)
         add(slip_by, 1.0, spreading)
-        slip_by[2] += dphi * dot(foundation.force, points.sine) / load.elastic
+        slip_by[2] += dphi * (dot(foundation.force, points.sine) + dot(foundation.force, points.bend)) / load.elastic
         # through the normal forces, which weigh the mean slip
         factors, by_gap = room.rows[SCRATCH], room.rows[SCRATCH + 1]
         for i in range(factors.shape[0]):
-            factors[i] = (points.move[i] + dphi * points.lifted[i] - way) / load.elastic
+            factors[i] = (points.shift[i] + dphi * (points.lifted[i] + points.slope[i]) - way) / load.elastic
         sum_by_gaps(factors, foundation, by_gap)
         gather(points, by_gap, 1.0, up, bases[4])
         spread(bases[4], Y, s, c, slip_by)
@@ -201,11 +205,11 @@ def _touch(
     if elastic == 0:
         way = _way_over_the_floor(pose, u, rim, before)
     else:
-        moved = dot(foundation.force, points.move) / elastic
-        way = moved + dphi * dot(foundation.force, points.lifted) / elastic
+        moved = dot(foundation.force, points.shift) / elastic
+        way = moved + dphi * (dot(foundation.force, points.lifted) + dot(foundation.force, points.slope)) / elastic
     velocity = damper.velocity_0 + damper.rate * (way - damper.way_0)
     slip = Slip(way, damper.way_0, velocity, damper.rate, damper.drag, damper.held)
-    carry(carried, points, before.bristles, dphi, damper, slip, moved)
+    carry(carried, points, before, rim, dphi, damper, slip, moved)
     answer = tractions(forces, points, foundation, carried, mode, load, slip, law)
     shared, pull = answer.shared, room.rows[PULL]
     for i in range(pull.shape[0]):
@@ -226,7 +230,7 @@ def _touch(
 
     low, high = _ends(points)
     stuck = min(answer.stuck / length, 1.0) if length > 0 else 0.0  # of weights that miss the length by 1e-4
-    beyond = _work_of_those_that_left(points, before, slip, moved, dphi, law, answer.stuck)
+    beyond = _work_of_those_that_left(points, before, rim, slip, moved, dphi, law, answer.stuck)
     kept = 0
     for i in range(pull.shape[0]):
         beyond += (carried.pull[i] + pull[i]) * (carried.way[i] - carried.mean[i]) / 2
@@ -244,7 +248,16 @@ def example() -> tuple[tuple[Any, ...], Contact]:
     bristles = Bristles(count, row, row, np.empty(0, np.int8))
     law = Parameters(number, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     contact = Contact(row, table, table, NOTHING, bristles, False, row, row, row)
-    return (row, table, Rim(number, row), law, number, Before(row, table, bristles), UNDAMPED, False), contact
+    return (
+        row,
+        table,
+        Rim(number, row),
+        law,
+        number,
+        Before(row, table, bristles, number, table),
+        UNDAMPED,
+        False,
+    ), contact
 
 
 @apart(example)

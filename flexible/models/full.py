@@ -17,7 +17,7 @@ from rigid import Scene
 from ..contact.forces import contact_forces
 from ..contact.guess import off_its_way, shift, slipping_on
 from ..contact.newton import before_bend, goes, round_off
-from ..contact.points.data import MOST_ITERATIONS, Before, Damper, Rim, pulling
+from ..contact.points.data import MOST_ITERATIONS, Damper, Rim, at_start, pulling
 from ..contact.stage import Near, Predictor, Stage
 from ..contact.vectors import largest
 from ..ring.choice import ring_of
@@ -173,7 +173,7 @@ class FullHoop(RimContact):
         pos_pred, vel_pred, beta, guess = predictor
         law, dofs = self.law.parameters, self.ring.dofs(*window)
         rim = Rim(window[0], self.vertex)
-        before = Before(old.pos[:3], self.displacement(old, window), old.bristles)
+        before = at_start(old, self.displacement(old, window))
         d = guess.copy()
         last = np.inf
         way, ok = nan, False

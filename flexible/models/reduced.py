@@ -13,7 +13,7 @@ from rigid.kernel.compile import jit, loop, part
 
 from ..contact.forces import contact_forces
 from ..contact.laws.listing import may_end
-from ..contact.points.data import Before, Damper, Parameters
+from ..contact.points.data import Damper, Parameters, at_start
 from ..contact.points.data import Rim as NearFloor
 from ..contact.points.detection import least_gap
 from ..contact.points.rim import below_floor, window_around
@@ -114,7 +114,7 @@ def _solved(
                 False, expected, expected, expected, found.matrix, window, old.u, old.nodal, old.res, old.bristles
             )  # fmt: skip
         u_old = _moved(arrays, old, window)
-        before = Before(old.pos[:3], u_old, old.bristles)
+        before = at_start(old, u_old)
         u = near.u if near.window == window else u_old
         facing, begins = _near_floor(arrays, window), FORESEEN if near.elastic > 0 else RAISED
         # a depth foreseen to a thousandth may make a short step's damper pull: under no pressure no bristle sticks. And

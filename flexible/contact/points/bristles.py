@@ -13,7 +13,8 @@ import numpy as np
 
 from rigid.kernel.compile import jit, loop
 
-from .data import Bristles, Damper, Parameters, PointForces, Resultants, Slip
+from .data import Before, Bristles, Damper, Parameters, PointForces, Resultants, Rim, Slip
+from .detection import dent_at, displaced, next_dent
 from .rim import lift
 
 HELD = 1 / 64  # of the square of the points' distance: a spot of the rim less deep lets go of its bristles
@@ -95,7 +96,7 @@ def _entry(point: _Point, dphi: float, turn: float, ratio: float) -> _Entry:
 
 @loop
 def carry(
-    carried: Carried, points: Any, bristles: Bristles, dphi: float, damper: Damper, slip: Slip, moved: float
+    carried: Carried, points: Any, before: Before, rim: Rim, dphi: float, damper: Damper, slip: Slip, moved: float
 ) -> None:
     """Fill in the bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered.
 
@@ -105,11 +106,12 @@ def carry(
     that enters behind a sliding edge goes on sliding.
     """
     stretch, rate, by_gap, by_phi, touched, sliding, way, mean, pull = carried
+    bristles = before.bristles
     number, flags = bristles.number, bristles.sliding
     ratio, turn = damper.ratio, damper.turning_0 + damper.ratio * dphi
     start = slip.way_0 - (slip.way - moved) * (1 - 1 / ratio)
     slip_ending = ratio * (slip.way - slip.way_0)
-    p = 0
+    p, dent = 0, dent_at(before, rim, pi - before.pose[2])
     for i in range(stretch.shape[0]):
         j, move = points.number[i], points.move[i]
         while p < number.shape[0] and number[p] < j:
@@ -126,14 +128,19 @@ def carry(
         rest, psi_in = entry.rest, entry.psi
         if rest >= 0:
             touched[i] = True
-            ending = ratio * (move - start)
+            theta_in = pi + psi_in - before.pose[2]
+            dent = next_dent(dent, before, rim, theta_in)
+            dent_in, slope_in, _ = displaced(dent, theta_in)
+            shift = points.shift[i]
+            ending = ratio * (shift - start)
             psi = points.psi[i]
-            lifted, lifted_in = points.lifted[i], entry.lifted
+            lifted, lifted_in = points.lifted[i] + points.slope[i], entry.lifted + slope_in
             rolled = psi - psi_in - 2 * cos((psi + psi_in) / 2) * sin((psi - psi_in) / 2)
-            way[i] = stretch[i] = rolled + rest * (ending - (ending - move) * rest)
+            rolled += points.dented[i] - dent_in
+            way[i] = stretch[i] = rolled + rest * (ending - (ending - shift) * rest)
             mean[i] = rest * (slip_ending - (slip_ending - slip.way) * rest)
             rate[i] = rest * (ratio - (ratio - 1) * rest)
-            by_rest = ending - 2 * (ending - move) * rest - lifted_in * entry.speed
+            by_rest = ending - 2 * (ending - shift) * rest - lifted_in * entry.speed
             by_gap[i] = by_rest * entry.by_gap
             by_phi[i] = by_rest * entry.by_phi + (1 - rate[i]) * lifted - entry.shift * lifted_in
             if flags.shape[0] > 0:

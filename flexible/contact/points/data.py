@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit
+from rigid.kernel.compile import jit, part
 
 
 class Parameters(NamedTuple):
@@ -42,12 +42,24 @@ class Bristles(NamedTuple):
     sliding: Any  # direction in which friction pushes it where it slides, 0 where it sticks; int8
 
 
+NO_DENT = np.empty((0, 2))
+
+
 class Before(NamedTuple):
     """The contact at the beginning of a step."""
 
     pose: Any  # (3,) V, h, phi
     u: Any  # (2 count + 1, 2) displacement of the window's rim nodes
     bristles: Bristles
+    first: int = 0  # rim element at which the nodes near the floor began then, and
+    dent: Any = NO_DENT  # their displacement, (2 count + 1, 2); of no length off the floor
+
+
+@part
+def at_start(old: Any, u: Any) -> Before:
+    """The contact at the beginning of a step from a state, whose rim has the displacement ``u`` in another window."""
+    touches = old.res.elastic > 0
+    return Before(old.pos[:3], u, old.bristles, old.window[0], old.u if touches else old.u[:0])
 
 
 MOST_ITERATIONS = 40  # of Newton in a stage

@@ -6,7 +6,7 @@ A point's angle from the bottom is ``psi = phi + theta - pi``; its displacement 
 
 from __future__ import annotations
 
-from math import ceil, cos, floor, pi, sin, sqrt
+from math import ceil, cos, floor, inf, pi, sin, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -158,6 +158,64 @@ class Points(NamedTuple):
     psi: Any  # angle from the bottom
     sine: Any  # of psi
     lifted: Any  # height of the undeformed circle there over its lowest point
+    dented: Any  # sideways displacement of the rim there when the step began: of another point of it
+    slope: Any  # its derivative by psi, and
+    bend: Any  # the second one
+    shift: Any  # what of ``move`` is not the way along that dent
+
+
+class Dent(NamedTuple):
+    """An element of the rim as it was when the step began: its sideways displacement x + rise xi + bend xi^2."""
+
+    start: float  # material angles
+    end: float
+    x: float
+    rise: float
+    bend: float
+
+
+@loop
+def dent_at(before: Before, rim: Rim, theta: float) -> Dent:
+    """The element that holds a material angle; beyond those near the floor the displacement is that of the last node.
+
+    It is 0 everywhere of a hoop that was off the floor.
+    """
+    u, first = before.dent, before.first
+    if u.shape[0] == 0:
+        return Dent(-inf, inf, 0.0, 0.0, 0.0)
+    s, c = sin(before.pose[2]), cos(before.pose[2])
+    last = first + (u.shape[0] - 1) // 2
+    element = element_at(rim.vertex, theta)
+    if element < first:
+        return Dent(-inf, vertex_angle(rim.vertex, first), sideways(u[0, 0], u[0, 1], s, c), 0.0, 0.0)
+    if element >= last:
+        return Dent(vertex_angle(rim.vertex, last), inf, sideways(u[-1, 0], u[-1, 1], s, c), 0.0, 0.0)
+    k = 2 * (element - first)
+    x0 = sideways(u[k, 0], u[k, 1], s, c)
+    x1 = sideways(u[k + 1, 0], u[k + 1, 1], s, c)
+    x2 = sideways(u[k + 2, 0], u[k + 2, 1], s, c)
+    start, end = vertex_angle(rim.vertex, element), vertex_angle(rim.vertex, element + 1)
+    return Dent(start, end, x0, 4 * x1 - 3 * x0 - x2, 2 * (x0 + x2) - 4 * x1)
+
+
+@loop
+def displaced(dent: Dent, theta: float) -> tuple[float, float, float]:
+    """Sideways displacement at a material angle in the element, and its derivatives by that."""
+    if dent.rise == 0 and dent.bend == 0:
+        return dent.x, 0.0, 0.0
+    width = dent.end - dent.start
+    xi = (theta - dent.start) / width
+    return (
+        dent.x + xi * (dent.rise + xi * dent.bend),
+        (dent.rise + 2 * xi * dent.bend) / width,
+        2 * dent.bend / width**2,
+    )
+
+
+@loop
+def next_dent(dent: Dent, before: Before, rim: Rim, theta: float) -> Dent:
+    """The same element where it still holds the angle, another one where it does not."""
+    return dent if dent.start <= theta < dent.end else dent_at(before, rim, theta)
 
 
 @loop
@@ -165,13 +223,14 @@ def place(
     points: Points, ranges: Any, ranged: int, pose: Any, u: Any, rim: Rim, spacing: float, before: Before
 ) -> bool:  # fmt: skip
     """Fill in the points of so many ranges; whether the window of rim elements is too short for them."""
-    number, last, local, shape, arm_x, arm_y, gap, gap_old, move, rolled, angle, sines, lifted = points
+    number, last, local, shape, arm_x, arm_y, gap, gap_old, move, rolled, angle, sines, lifted = points[:13]
+    dents, slope, bend, shift = points[13:]
     first, vertex, count = rim.first, rim.vertex, (u.shape[0] - 1) // 2
     old_pose, u_old = before.pose, before.u
     height, phi, phi_old = pose[1], pose[2], old_pose[2]
     s, c, s_old, c_old = sin(phi), cos(phi), sin(phi_old), cos(phi_old)
     dv, dphi = pose[0] - old_pose[0], phi - phi_old
-    outside = False
+    outside, dent = False, Dent(inf, -inf, 0.0, 0.0, 0.0)
     # sines and cosines of psi/2 give all others; as they are what a point costs, most are turned on from the last ones
     s_turn, c_turn, s_half, c_half = sin(dphi / 2), cos(dphi / 2), sin(dphi / 4), cos(dphi / 4)
     s_next, c_next, sine, cosine = sin(spacing / 2), cos(spacing / 2), 0.0, 1.0
@@ -208,6 +267,12 @@ def place(
             arm_x[m], arm_y[m] = sines[m] - ux, lifted[m] + uy
             rolled[m] = rolls + 4 * s_turn * (sine * c_half - cosine * s_half) ** 2
             move[m] = dv + ux - sideways(v1, v2, s_old, c_old)
+            shift[m] = move[m]
+            if before.dent.shape[0] > 0:
+                there = theta + dphi
+                dent = next_dent(dent, before, rim, there)
+                dents[m], slope[m], bend[m] = displaced(dent, there)
+                shift[m] = dv + ux - dents[m]
             m += 1
         last[m - 1] = 1
     return outside

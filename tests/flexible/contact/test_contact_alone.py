@@ -114,7 +114,7 @@ def test_tangent_of_the_contact(name, mode, damping):
     old = np.array([0.0, -depth, phi])
     start = contact_forces(old, flat, rim, law, mode, Before(old, flat, no_bristles()), damper, True)
     bristles = start.bristles._replace(stretch=-1e-6 * rng.random(len(start.bristles.stretch)))
-    before = Before(old, flat, bristles)
+    before = Before(old, flat, bristles, rim.first, 1e-6 * rng.standard_normal(flat.shape))
     x = np.concatenate([[-2e-6, -1.05 * depth, phi + 0.004], 1e-7 * rng.standard_normal(18)])
 
     def contact(x):
@@ -170,7 +170,8 @@ def test_every_law_has_a_name_a_scene_may_hold():
 
 @pytest.mark.parametrize("name", ["patch", "brush"])
 @pytest.mark.parametrize("way", [1, -1])
-def test_tangent_of_points_that_enter(name, way):
+@pytest.mark.parametrize("dent", [0.0, 1e-6])
+def test_tangent_of_points_that_enter(name, way, dent):
     """A rim that comes down while it rolls and creeps: no point has a bristle yet, each enters at its own instant.
 
     Friction by itself, whose entries are a thousandth of the normal forces': 1e-5 of its largest, what central
@@ -179,7 +180,8 @@ def test_tangent_of_points_that_enter(name, way):
     law = parameters(name, 2e-4, EPS, 0.8 * EPS, 9.0, 9.0)  # nothing slides
     depth, phi = (1.5 / EPS) ** (2 / 3) / 2, 2.9
     rim, flat = Rim(element_at(VERTEX, pi - phi) - 1, VERTEX), np.zeros((9, 2))
-    before = Before(np.array([0.0, 0.3 * depth, phi]), flat, no_bristles())
+    dented = dent * np.sin(1 + np.arange(18)).reshape(9, 2)
+    before = Before(np.array([0.0, 0.3 * depth, phi]), flat, no_bristles(), rim.first, dented)
 
     def contact(x):
         return contact_forces(
