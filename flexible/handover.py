@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from rigid import Kind, Motion, Side, States
 from rigid.output.units import without_units
 
+from .airborne import rise
 from .contact.laws.law import Rolling
 from .contact.laws.listing import sticks
 from .contact.points.data import NOTHING, no_bristles
@@ -47,14 +48,17 @@ class Pose:
     normal_force: float
     friction_force: float
     kind: Kind
+    height: float = 0.0  # of the lowest point over the floor
 
-    def accelerations(self, hoop: Hoop) -> tuple[float, float]:
-        """Horizontal acceleration of C and angular acceleration, from the balance of the rigid hoop."""
+    def accelerations(self, hoop: Hoop) -> tuple[float, float, float]:
+        """Acceleration of C, horizontal and vertical, the latter beyond free fall, and angular acceleration, from the
+        balance of the rigid hoop."""
         rigid = hoop.scene.hoop
         mass = 1 + rigid.mass_ratio
         s, c = sin(self.phi), cos(self.phi)
         angular = (self.normal_force * rigid.e * s - self.friction_force * (1 + rigid.e * c)) / (rigid.K * mass)
-        return self.friction_force / mass - rigid.e * (angular * c - self.omega**2 * s), angular
+        up = rigid.e * self.omega**2 * c if self.kind is Kind.FLIGHT else 1.0
+        return self.friction_force / mass - rigid.e * (angular * c - self.omega**2 * s), up, angular
 
 
 def pose_at(motion: Motion, t: float, side: Side = "right") -> Pose:
@@ -64,7 +68,7 @@ def pose_at(motion: Motion, t: float, side: Side = "right") -> Pose:
 
 def _pose(now: States, kind: Kind) -> Pose:
     forces = float(now.normal_force), float(now.friction_force)
-    return Pose(float(now.phi), float(now.omega), float(now.slip_velocity), *forces, kind)
+    return Pose(float(now.phi), float(now.omega), float(now.slip_velocity), *forces, kind, max(float(now.y_C) - 1, 0.0))
 
 
 def _instants_around(motion: Motion, t: float, now: States) -> tuple[tuple[float, Side, float], ...]:
@@ -121,13 +125,13 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
         No equilibrium was found: the ring is too soft to carry these forces.
     """
     s, c = sin(pose.phi), cos(pose.phi)
-    a_x, angular = pose.accelerations(hoop)
+    a_x, a_y, angular = pose.accelerations(hoop)
     weight = pose.normal_force / (1 + hoop.scene.hoop.mass_ratio)
     lost = f": no equilibrium of the ring was found under N = {weight:.4g} of the weight of disk and hoop"
     zero = np.zeros(3 + hoop.coordinates)
     mode = hoop.law.start(pose.kind)
     try:
-        ring = hoop.resting(pose.omega, angular, a_x * s + c, a_x * c - s)
+        ring = hoop.resting(pose.omega, angular, a_x * s + a_y * c, a_x * c - a_y * s)
         if pose.normal_force <= 0:
             ring.linearise(1.0)
     except np.linalg.LinAlgError:
@@ -136,8 +140,8 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
         window = hoop.window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
         ring.move(window, np.zeros(2 * (2 * window[1] + 1)))
         u = ring.response(window)[0].reshape(-1, 2)
-        # just clear of the floor
-        height = -min(0.0, float(upward(u[:, 0], u[:, 1], s, c).min()))
+        # just clear of the floor, and as high over that as the rigid hoop is
+        height = pose.height - min(0.0, float(upward(u[:, 0], u[:, 1], s, c).min()))
         pos = np.concatenate([[0.0, height, pose.phi], ring.coordinates])
         nothing = (np.zeros_like(u), NOTHING, no_bristles())
         return in_motion(t, x_C, (pos, zero, zero), mode, Touching(window, u, *nothing), pose.slip_velocity)
@@ -217,9 +221,10 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, there: States | None = None)
     around = _instants_around(motion, t, now) if pose.omega != 0 else ()
     for nearby, weight in _poses(motion, around):
         resting = equilibrium(hoop, nearby, near=state)
-        vel[1] += weight * resting.pos[1]
+        vel[1] += weight * (resting.pos[1] - nearby.height)
         vel[3:] += weight * resting.pos[3:]
         u_rate += weight * _abscissa(hoop, resting, state)
+    vel[1] += rise(motion, t, now)
     law, res, bristles, creep = hoop.law, state.res, state.bristles, 0.0
     if len(bristles.number) and pose.kind == Kind.ROLL:
         bristles, creep = law.rolled_in(bristles, res, Rolling(pose.phi, pose.omega))

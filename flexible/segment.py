@@ -180,6 +180,11 @@ class Segment:
             )
         return turns
 
+    def in_the_air(self, before: float) -> float:
+        """The last time up to ``before`` at which nothing touches the floor, ``before`` itself if it always does."""
+        t = self["t"][(self["t"] <= before) & (self["normal_force"] == 0)]
+        return float(t[-1]) if len(t) else before
+
     def crossing(self, phi: float, after: float) -> float | None:
         """First time from ``after`` on at which the disk passes the angle ``phi``."""
         return next(self.crossings(phi, after), None)

@@ -35,7 +35,7 @@ from .motion import Kind, Motion, Phase, Pulse, Side, States, Turn
 from .output.file import MotionFileError
 from .scene import Friction, Hoop, Landing, Release, Run, Scene
 from .scenefile import SceneLike, as_scene, load_scene, scene_from_dict, scene_names, scene_to_dict
-from .solve import load_motion, simulate
+from .solve import Aloft, load_motion, simulate
 
 if TYPE_CHECKING:
     __version__: str
@@ -60,6 +60,7 @@ def __dir__() -> list[str]:
 
 
 __all__ = [
+    "Aloft",
     "Batch",
     "Contact",
     "Friction",

@@ -146,12 +146,10 @@ class Sampler:
             patience.spend(instants=len(times))
             out: Any = [0.0] * (len(times) * width)
             work: Any = workspace()[0]
-            events = [0.0] * (16 * at.WIDTH)
             state = [0.0] * at.STATE
-            instant.entry_sample(constants, self._flat, owner.tolist(), times.tolist(), out, work, state, events)
+            instant.entry_sample(constants, self._flat, owner.tolist(), times.tolist(), out, work, state)
             return np.array(out, dtype=float).reshape(len(times), width)
         out = np.zeros(len(times) * width)
         work = np.zeros((at.SERIES, at.ORDER + 1))
-        room = np.zeros(at.STATE), np.zeros(16 * at.WIDTH)
-        compiled()["entry_sample"](np.array(constants), self._table, owner, times, out, work, *room)
+        compiled()["entry_sample"](np.array(constants), self._table, owner, times, out, work, np.zeros(at.STATE))
         return out.reshape(len(times), width)

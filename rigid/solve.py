@@ -5,10 +5,11 @@ from __future__ import annotations
 import threading
 from math import ceil, inf
 from os import PathLike
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from .allowed import SceneError, require
 from .kernel import layout as at
 from .kernel.compile import compiled, patience
 from .kernel.spectral import compiled_workspace, workspace
@@ -20,12 +21,22 @@ from .phases.choice import MOST_STALLS, entry_run, release_from
 from .phases.reasons import reason
 from .record.pulse import cut_pulse
 from .sampler import Log, Sampler, parameters
-from .scene import Run, Scene
+from .scene import Run, Scene, is_point_mass
 from .scenefile import SceneLike, as_scene, scene_from_dict
 
 LOG_RECORDS = 128
 STEPS = 200_000  # the work bound of one motion: Taylor steps and phases
 MOST_RECORDS = 200_000  # and its phases, turns and pulses together
+
+
+class Aloft(NamedTuple):
+    """Where over the floor a hoop is released, in the units of its scene: in flight, if this is not 0."""
+
+    height: float = 0.0  # of its lowest point
+    rise: float = 0.0  # velocity of that, upward
+
+
+ON_THE_FLOOR = Aloft()
 
 
 def release_of(scene: Scene) -> tuple[float, float, float]:
@@ -34,10 +45,11 @@ def release_of(scene: Scene) -> tuple[float, float, float]:
     return float(release.phi0), float(release.omega0), float(release.slip0)
 
 
-def release_state(scene: Scene) -> list[float]:
-    """The state at t = 0 (see :mod:`rigid.kernel.layout`)."""
+def release_state(scene: Scene, aloft: tuple[float, float] = (0.0, 0.0)) -> list[float]:
+    """The state at t = 0 (see :mod:`rigid.kernel.layout`); ``aloft`` without units."""
     state = [0.0] * at.STATE
     release_from(state, *release_of(scene))
+    state[at.GAP], state[at.UN] = aloft
     state[at.STEPS] = float(STEPS)
     return state
 
@@ -54,17 +66,17 @@ class _Workspace(threading.local):
 _workspace = _Workspace()
 
 
-def _run(scene: Scene) -> Log:
-    """Run to the end.
+def _run(scene: Scene, aloft: tuple[float, float]) -> Log:
+    """Run to the end; ``aloft`` without units.
 
     Interpreted until the ``patience`` of this process is spent, from then on compiled: the same numbers to round-off.
     """
     par = parameters(scene)
     if patience.left() <= 0:
         state, events, work = _workspace.state, _workspace.events, _workspace.work
-        code = compiled()["entry_start"](np.array(par), (*release_of(scene), float(STEPS)), state, work, events)
+        code = compiled()["entry_start"](np.array(par), (*release_of(scene), *aloft, float(STEPS)), state, work, events)
         return _run_on(par, code, state, [_logged(events, state)])
-    code, here, logs = _run_interpreted(par, release_state(scene))
+    code, here, logs = _run_interpreted(par, release_state(scene, aloft))
     if code in (at.MORE, at.WORK_BOUND) and here[at.STALLS] <= MOST_STALLS:
         return _run_on(par, at.MORE, np.array(here), logs)
     return _whole(par, code, logs, here)
@@ -114,7 +126,7 @@ def _logged(events: Any, state: Any) -> Array:
     return np.array(events[: int(state[at.RECORDS]) * at.WIDTH], dtype=float).reshape(-1, at.WIDTH)
 
 
-def simulate(scene: SceneLike) -> Motion:
+def simulate(scene: SceneLike, aloft: Aloft = ON_THE_FLOOR) -> Motion:
     """The rigid motion of a scene, exact to round-off.
 
     Parameters
@@ -122,6 +134,9 @@ def simulate(scene: SceneLike) -> Motion:
     scene : Scene, str, path or dict
         Hoop, friction, release and how far to run (its ring and contact are not looked at), or what says so: the name
         of a shipped scene, the path of a TOML file, a dict as such a file gives it.
+    aloft : (height, rise), optional
+        Height of the lowest point over the floor at the release, and its velocity upward, in the units of the scene: a
+        hoop let fall or thrown up. 0 by default, a hoop on the floor.
 
     Returns
     -------
@@ -134,10 +149,15 @@ def simulate(scene: SceneLike) -> Motion:
     Raises
     ------
     SceneError
-        No such scene, or one that cannot be.
+        No such scene, or one that cannot be; a height below 0.
     """
     scene = as_scene(scene)
-    return _motion(scene, _run(scene))
+    height, rise = aloft
+    require("aloft's height", height, 0.0, 1e9, "the hoop is on the floor or over it")
+    require("aloft's rise", rise, 0.0 if height == 0 else -1e9, 1e9, "a hoop on the floor moves along it, or up")
+    if (height or rise) and is_point_mass(scene.hoop.constants):
+        raise SceneError("A point mass on a massless hoop is on the floor: what lands of it has no inertia.")
+    return _motion(scene, _run(scene, (height / scene.hoop.R, rise * scene.time_unit / scene.hoop.R)))
 
 
 def _motion(scene: Scene, log: Log) -> Motion:

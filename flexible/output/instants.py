@@ -8,16 +8,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from meshes import Placement, SeriesError, frame_times
-from rigid import Kind, Pulse, States
+from rigid import Pulse
 from rigid.output.units import without_units
 
+from ..airborne import rise
 from ..models.state import State
 from ..motion import FlexibleMotion, Kept
 from ..time.adaptive import attempt
 
 Array = NDArray[np.float64]
 
-_ON = 1e-3  # sqrt(R/g) after which a flight is looked at again for its velocity
 _AROUND = 0.25  # by default the frames begin and end this share of a pulse before and after it
 
 
@@ -91,18 +91,7 @@ def _instant(motion: FlexibleMotion, clocks: list[Array], t: float, told: float)
     now = without_units(motion.at(told), motion.scene)
     place = Placement(float(now.phi), float(now.x_C), float(now.y_C))
     omega = float(now.omega)
-    return Instant(told, place, (omega + float(now.slip_velocity), _rise(motion, told, now)), omega)
-
-
-def _rise(motion: FlexibleMotion, told: float, now: States) -> float:
-    """Vertical velocity of a rigid hoop's centre: in flight that of the mass centre, falling freely, and its own."""
-    phase, e = motion.phase_at(told), motion.scene.hoop.e
-    if phase.kind is not Kind.FLIGHT:
-        return 0.0
-    on = min(_ON * motion.scene.time_unit, (phase.t_end - phase.t_start) / 2)
-    then = without_units(motion.at(told + on if told + on <= phase.t_end else told - on), motion.scene)
-    dt, dy = float(then.t - now.t), float(then.y_C - now.y_C + e * (np.cos(then.phi) - np.cos(now.phi)))
-    return dy / dt + dt / 2 + e * float(np.sin(now.phi) * now.omega)
+    return Instant(told, place, (omega + float(now.slip_velocity), rise(motion, told, now)), omega)
 
 
 def instants_at(motion: FlexibleMotion, times: Array) -> list[Instant]:

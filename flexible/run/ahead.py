@@ -6,10 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 
+import rigid
 from rigid import Kind, Motion, Release, Run, Scene
 from rigid.phases.choice import LEAST_LOSS, SLIPS
 
+from ..airborne import taken_over
 from ..builder import Builder
+from ..contact.laws.listing import rigid_limit
 from ..models.select import Hoop
 from ..models.state import State
 from ..time.advance import SHORTEST
@@ -25,10 +28,11 @@ def rest_of(run: Run, builder: Builder) -> Run | None:
     return run
 
 
-def from_here(scene: Scene, hoop: Hoop, state: State, run: Run) -> Scene:
-    """The scene whose rigid hoop takes over from a flexible one."""
-    release = Release(float(state.pos[2]), float(state.vel[2]), float(hoop.law.handed_back(state)))
-    return replace(scene, release=release, run=run)
+def from_here(scene: Scene, hoop: Hoop, state: State, run: Run) -> Motion:
+    """The motion of the rigid hoop that takes over from a flexible one, on the floor or in a hop."""
+    slip, aloft = taken_over(hoop, state)
+    release = Release(float(state.pos[2]), float(state.vel[2]), slip)
+    return rigid.simulate(rigid_limit(replace(scene, release=release, run=run)), aloft)
 
 
 def slips_no_more(motion: Motion) -> bool:

@@ -18,7 +18,7 @@ from ..time.advance import SHORTEST
 from ..time.course import Stop
 from ..time.events import Ends
 from .ahead import from_here, rest_of, slips_no_more, whirls
-from .pulses import ends_with_turn, goes_through_turns, lead, over_bottom
+from .pulses import comes_to, ends_with_turn, goes_through_turns, lead, over_bottom
 from .told import Ending, Progress, pulse_over, run_over, swept
 
 BACK = 0.01  # of the way through a segment, by which a hoop that turned back is out where it came in
@@ -27,11 +27,10 @@ WAITS = 10.0  # sqrt(R/g) that a hoop may take for it, beyond four pulse lengths
 
 def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> Ending:
     """Rigid between pulses, flexible inside."""
-    current = scene
+    motion = rigid.simulate(rigid_limit(scene))
     done, fresh = 0, True  # segments, and whether a pulse that begins at once is one of its own
     whirled = False
     while True:
-        motion = rigid.simulate(rigid_limit(current))
         try:
             lost = builder.lost_to_hand_overs(float(motion.at(0.0).energy))
             ensure_stands_in(lost, builder.initial or inf, builder.t)
@@ -66,14 +65,14 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
             stop = Stop(": the hoop does not get out of the pulse", state.t, float(state.pos[2]))
         if stop is not None:
             return stop
-        _list(builder, segment, pulse, start, back)
+        _list(builder, segment, motion, pulse, start, back)
         done, fresh = done + 1, at_turn
         if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse) and not builder.pulses[-1].cut:
             return pulse_over(back)
         rest = rest_of(scene.run, builder)
         if rest is None:
             return run_over(scene.run)
-        current = from_here(scene, hoop, state, rest)
+        motion = from_here(scene, hoop, state, rest)
 
 
 def _ends_of(motion: Motion, pulse: Pulse, start: float, state: State) -> tuple[Ends, bool]:
@@ -93,9 +92,9 @@ def _ends_of(motion: Motion, pulse: Pulse, start: float, state: State) -> tuple[
     return Ends(late, low, high, 1 if ends_with_turn(motion, pulse) else 0), False
 
 
-def _list(builder: Builder, segment: Segment, pulse: Pulse, start: float, back: bool) -> None:
+def _list(builder: Builder, segment: Segment, motion: Motion, pulse: Pulse, start: float, back: bool) -> None:
     """List the pulse that a segment went through, from where it came to it, to where it left it."""
-    first = segment.t_start if start == pulse.t_start else segment.crossing(pulse.phi_start, segment.t_start)
+    first = segment.t_start if start == pulse.t_start else comes_to(segment, motion, pulse)
     if first is None and back:  # it turned back before it came to the pulse
         return
     leaves = max(segment.crossings(pulse.phi_start), default=segment.t_end) if back else segment.t_end

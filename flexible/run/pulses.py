@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import ceil, floor, inf, pi
 
-from rigid import Motion, Pulse
+from rigid import Kind, Motion, Pulse
 
 from ..builder import Builder
 from ..segment import Segment
@@ -21,6 +21,15 @@ def lead(motion: Motion, pulse: Pulse) -> float:
     turned = max((turn.t for turn in motion.turns if turn.t < pulse.t_start), default=0.0)
     behind = turned + BEHIND * (pulse.t_start - turned) if turned > 0 else 0.0
     return max(0.0, behind, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
+
+
+def comes_to(segment: Segment, motion: Motion, pulse: Pulse) -> float | None:
+    """When the hoop comes to the angle at which a pulse of the rigid one begins; to a pulse that a landing opens, when
+    it has landed by then.
+    """
+    enters = segment.crossing(pulse.phi_start, segment.t_start)
+    lands = any(phase.kind is Kind.IMPACT and phase.t_start == pulse.t_start for phase in motion.phases)
+    return segment.in_the_air(enters) if enters is not None and lands else enters
 
 
 def ends_with_turn(motion: Motion, pulse: Pulse) -> bool:
@@ -68,7 +77,7 @@ def turns_of(swing: Motion, pulses: list[Pulse], most: int | None) -> int:
 
 def _ways(segment: Segment, swing: Motion, pulse: Pulse) -> tuple[float | None, float | None]:
     """When the hoop comes to a pulse, and when it leaves it at its end."""
-    enters = segment.t_start if pulse.cut else segment.crossing(pulse.phi_start, segment.t_start)
+    enters = segment.t_start if pulse.cut else comes_to(segment, swing, pulse)
     if enters is None:
         return None, None
     turned = [turn.t for turn in segment.turns()]

@@ -52,8 +52,7 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
     horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
     watch = progress.watch(0.0, 1.0, lambda t, phi: t / horizon)
     while run is not None:
-        here = from_here(scene, hoop, state, Run(until="rest" if run.until == "rest" else "pulse"))
-        swing = rigid.simulate(rigid_limit(here))
+        swing = from_here(scene, hoop, state, Run(until="rest" if run.until == "rest" else "pulse"))
         if run.until == "rest" and swung_through and slips_no_more(swing):
             return swing
         # a swing that begins at a turn has no rest of a pulse to list, and a pulse that goes on through one is one
@@ -74,7 +73,7 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
         swung_through = swings(segment)
         onward = None
         if run is not None and run.turns is not None and not segment.turns():
-            onward = rigid.simulate(rigid_limit(from_here(scene, hoop, state, Run(turns=1))))
+            onward = from_here(scene, hoop, state, Run(turns=1))
         goes_round = onward is not None and whirls(onward)
         if onward is not None and goes_round and whirled:
             return onward

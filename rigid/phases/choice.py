@@ -221,9 +221,9 @@ def settles(par, state):
 
 @kernel
 def entry_start(par, release, state, room, events):
-    """Run from a release (phi0, omega0, slip0) with an allowance of steps, its fourth number."""
+    """Run from a release (phi0, omega0, slip0, height and rise of the lowest point, allowance of steps)."""
     release_from(state, release[0], release[1], release[2])
-    state[STEPS] = release[3]
+    state[GAP], state[UN], state[STEPS] = release[3], release[4], release[5]
     return entry_run(par, state, room, events)
 
 

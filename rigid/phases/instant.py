@@ -38,7 +38,7 @@ from ..kernel.layout import (  # fmt: skip
 from ..kernel.polynomial import polish, value
 from ..record.pulse import energy
 from .flight import fly
-from .pointmass import drop, roll_point_mass, skimming_acceleration
+from .pointmass import drop, roll_point_mass_on, skimming_acceleration
 from .rolling.closed_form import rolling_acceleration, rolling_forces
 from .rolling.phase import roll_on
 from .slipping.series import JAM, normal_force, slipping_acceleration
@@ -60,7 +60,7 @@ def write_state(par, state, normal, friction, alpha, out, i):
 
 
 @kernel
-def entry_sample(par, phases, owner, times, out, work, state, events):
+def entry_sample(par, phases, owner, times, out, work, state):
     """Rows of ``out`` for increasing ``times``; ``phases`` are records of the event log, of which ``owner`` says by
     number which one each time belongs to.
     """
@@ -127,7 +127,7 @@ def entry_sample(par, phases, owner, times, out, work, state, events):
                 normal, friction = rolling_forces(par, state[OMEGA], state[ANGLE], state[TOP])
                 alpha = rolling_acceleration(par[ZETA], state[OMEGA], state[ANGLE], state[TOP])
             elif kind == ROLL:
-                roll_point_mass(par, state, events, start + time)
+                roll_point_mass_on(state, time)
                 s, _, h, _ = trig(state[ANGLE], state[TOP])
                 w = state[OMEGA] * state[OMEGA]
                 normal = h - 0.5 * (h + w * h)

@@ -69,14 +69,9 @@ def set_from_top(state, sine, right_of_top, cosine2):
 
 
 @kernel
-def roll_point_mass(par, state, events, t_end):
-    """Roll to the turn, to where the hoop begins to skim, or to the time ``t_end``."""
-    if watch(par, state, 0.0, events) and par[UNTIL] == FIRST_PULSE:
-        return PULSE_OVER
+def growing_and_fading(state):
+    """sin(phi/2) = grow e^(t/2) + fade e^(-t/2) from this state on, phi from the nearest top; the number of that."""
     _s, _, h, low = trig(state[ANGLE], state[TOP])
-    omega = state[OMEGA]
-    g = h + omega * omega * h
-    # sin(phi/2) with phi measured from the nearest top, and its rate
     top_number = state[WHOLE]
     positive = state[ANGLE] >= 0
     if state[TOP] == 0.0:
@@ -84,15 +79,39 @@ def roll_point_mass(par, state, events, t_end):
         if not positive:
             top_number += 1.0
     sine = sqrt(0.5 * low) if positive else -sqrt(0.5 * low)
-    rate = 0.5 * sqrt(0.5 * h) * omega
-    grow, fade = 0.5 * sine + rate, 0.5 * sine - rate
-    x_start = state[X_C] - 2 * asin(sine)
+    rate = 0.5 * sqrt(0.5 * h) * state[OMEGA]
+    return 0.5 * sine + rate, 0.5 * sine - rate, top_number
+
+
+@kernel
+def roll_point_mass_on(state, time):
+    """Advance a rolling point mass, whatever happens on the way."""
+    grow, fade, top_number = growing_and_fading(state)
+    up, down = grow * exp(0.5 * time), fade * exp(-0.5 * time)
+    sine = max(-1.0, min(1.0, up + down))
+    cosine2 = 1 - sine * sine
+    state[X_C] += 2 * (asin(sine) - asin(max(-1.0, min(1.0, grow + fade))))
+    set_from_top(state, sine, top_number, cosine2)
+    state[OMEGA] = (up - down) / sqrt(cosine2) if cosine2 > 0.0 else 0.0
+    state[T] += time
+
+
+@kernel
+def roll_point_mass(par, state, events, t_end):
+    """Roll to the turn, to where the hoop begins to skim, or to the time ``t_end``."""
+    if watch(par, state, 0.0, events) and par[UNTIL] == FIRST_PULSE:
+        return PULSE_OVER
+    _s, _, h, _ = trig(state[ANGLE], state[TOP])
+    g = h + state[OMEGA] * state[OMEGA] * h
+    grow, fade, top_number = growing_and_fading(state)
+    sine = grow + fade
+    x_start = state[X_C] - 2 * asin(max(-1.0, min(1.0, sine)))
     time, limit, turn_at = inf, 0.0, inf
     if grow != 0.0:
         # N >= 0 is cos^2 >= G/4; |F| <= mu_s N is |tan| <= mu_s
         mu_s = par[MU_S]
         limit = sqrt(min(mu_s * mu_s / (1 + mu_s * mu_s), max(0.0, 1 - 0.25 * g)))
-        if rate * grow >= 0:
+        if (grow - fade) * grow >= 0:
             limit = max(limit, sine if grow > 0 else -sine)
         time = max(0.0, 2 * log((limit + sqrt(max(0.0, limit * limit - 4 * grow * fade))) / (2 * abs(grow))))
         if fade * grow > 0 and abs(fade) > abs(grow):

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from math import copysign, cos, pi, radians, sin, sqrt
+from math import copysign, cos, inf, nan, pi, radians, sin, sqrt
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from rigid import Friction, Hoop, Kind, Landing, Release, Run, Scene, simulate
+from rigid import Friction, Hoop, Kind, Landing, Release, Run, Scene, SceneError, simulate
 from rigid.kernel.angle import chart
 from rigid.kernel.layout import ANGLE, OMEGA, SLIP, STATE, TOP, UN
 from rigid.phases.flight import height, touch_down
@@ -266,3 +266,40 @@ def test_a_grazing_landing_is_no_jam():
     state[OMEGA], state[SLIP] = -1.0, 0.5
     assert not strike(par, state, 0.0)
     assert (state[OMEGA], state[SLIP], state[UN]) == (-1.0, 0.5, 0.0)
+
+
+@pytest.mark.parametrize("units", [{}, {"R": 0.4, "m": 0.3, "g": 9.81}])
+def test_a_release_aloft_goes_on_with_a_flight(units):
+    """From a state in flight, its height and rise, the motion is what it was: round-off times what lands amplify."""
+    hoop = Hoop(0.2, 1.1, 0.5, **units)
+    unit = 1.0 if not units else sqrt(9.81 / 0.4)
+    motion = simulate(Scene(hoop, Friction(0.6, 0.6), Release(radians(-20), 1.8108 * unit), Run(turns=1)))
+    flight = motion.phases[0]
+    assert flight.kind == Kind.FLIGHT
+    t, step = flight.t_end / 3, flight.t_end * 1e-4
+    now, around = motion.at(t), motion.at(t + step * np.array([-1.0, 1.0])).y_C
+    release = Release(float(now.phi), float(now.omega), float(now.slip_velocity))
+    # a height's second difference is g: the mean slope is the slope but for its third one, 1e-8 of a flight squared
+    scene = Scene(hoop, Friction(0.6, 0.6), release, Run(turns=1))
+    on = simulate(scene, (float(now.y_C) - hoop.R, float(np.diff(around)[0]) / (2 * step)))
+    assert [phase.kind for phase in on.phases] == [phase.kind for phase in motion.phases]
+    assert on.t_end + t == pytest.approx(motion.t_end, rel=1e-6)
+    assert on.pulses[0].normal_impulse == pytest.approx(motion.pulses[0].normal_impulse, rel=1e-6)
+
+
+def test_a_hoop_let_fall_takes_the_time_of_its_fall():
+    """sqrt(2 h/g) from rest, and at rest it falls without turning."""
+    motion = simulate(Scene(Hoop(0.1, 1.02), Friction(0.35, 0.3), Release(radians(10)), Run(turns=1)), (0.5, 0.0))
+    assert motion.phases[0].kind == Kind.FLIGHT
+    assert motion.phases[0].t_end == pytest.approx(1.0, rel=1e-14)
+    assert motion.phases[0].phi_end == pytest.approx(radians(10), rel=1e-14)
+
+
+@pytest.mark.parametrize("aloft", [(-0.1, 0.0), (0.0, -0.1), (nan, 0.0), (0.0, inf)])
+def test_a_release_below_the_floor_is_refused(aloft):
+    """With a sentence."""
+    scene = Scene(Hoop(0.1, 1.02), Friction(0.35, 0.3), Release(radians(10)), Run(turns=1))
+    with pytest.raises(SceneError, match="aloft"):
+        simulate(scene, aloft)
+    with pytest.raises(SceneError, match="point mass"):
+        simulate(Scene(Hoop(0.0), Friction(0.35, 0.3), Release(1.0), Run(turns=1)), (0.1, 0.0))

@@ -7,7 +7,7 @@ it is (3 x - C)/2: it vanishes nowhere on the way iff C^2 < 27 (1 - gamma^2).
 
 from __future__ import annotations
 
-from math import atan, radians, sqrt
+from math import atan, cos, pi, radians, sin, sqrt
 
 import numpy as np
 import pytest
@@ -74,3 +74,20 @@ def test_slip_of_a_small_disk_starts_where_that_of_a_particle_does():
     ]
     assert distance[0] / distance[1] == pytest.approx(10, rel=2e-2)
     assert distance[1] / distance[2] == pytest.approx(10, rel=2e-3)
+
+
+@pytest.mark.parametrize("instants", [7, 30_000])  # interpreted, and compiled
+def test_a_point_mass_beside_its_turn(instants):
+    """sin(phi/2) = S cosh(t/2) + 2 V sinh(t/2) before a turn and after it, at as many instants as are asked for."""
+    phi0, omega0 = pi / 2, -0.5623704832474928
+    motion = simulate(Scene(Hoop(0.0), Friction(1.2, 1.0), Release(phi0, omega0)))
+    rolls = motion.phases[0]
+    (turn,) = (turn for turn in motion.turns if turn.t < rolls.t_end)
+    assert 0.4 * rolls.t_end < turn.t < 0.6 * rolls.t_end
+    states = motion.at(np.linspace(0, rolls.t_end, instants))
+    start, rate = sin(phi0 / 2), cos(phi0 / 2) * omega0 / 2
+    phi = 2 * np.arcsin(start * np.cosh(states.t / 2) + 2 * rate * np.sinh(states.t / 2))
+    assert states.phi == pytest.approx(phi, abs=1e-14)
+    omega = (start * np.sinh(states.t / 2) + 2 * rate * np.cosh(states.t / 2)) / np.cos(phi / 2)
+    assert states.omega == pytest.approx(omega, abs=1e-14)
+    assert np.ptp(states.energy) < 1e-14
