@@ -297,7 +297,7 @@ def test_a_rolling_hoop_is_handed_over_with_its_forces(mass, phi0):
     assert start.res.friction == pytest.approx(float(now.friction_force), abs=1e-8)
     pose = pose_at(motion, 0.0)
     # the forces act a little beside the contact point of a rigid hoop, by parts of the half-width 1e-3 of the patch
-    assert start.acc[2] == pytest.approx(pose.accelerations(hoop)[1], rel=1e-2)
+    assert start.acc[2] == pytest.approx(pose.accelerations(hoop)[-1], rel=1e-2)
 
 
 def test_a_skidding_hoop_is_handed_over_skidding():
@@ -348,10 +348,10 @@ def test_steps_are_counted_in_whole_numbers(most):
 
 
 def test_a_thick_hoop_gains_by_friction_what_the_rigid_one_does():
-    """Rolling on a wall of r = 1.3 in steps longer than its patch: the impulse is right where F itself is not quite.
+    """Rolling on a wall of r = 1.3 in steps longer than its patch: points that come in follow the dent as it is.
 
-    F from step to step is what the rigid hoop has at the same angle and speed to 1e-3 of N, at a step's end to 5e-3
-    (flexible/README, 4), both from the middle of the pulse, where no hand-over rings.
+    F from step to step and at a step's end is what the rigid hoop has at the same angle and speed, to 1e-3 of N and on
+    average to 1e-4 (flexible/README, 4), from the middle of the pulse, where no hand-over rings.
     """
     scene = rigid.Scene(
         rigid.Hoop(k=0.6, r=1.3, mass_ratio=2.0), rigid.Friction(0.2, 0.2), rigid.Release(phi0_deg=40),
@@ -375,4 +375,6 @@ def test_a_thick_hoop_gains_by_friction_what_the_rigid_one_does():
     rate = np.diff(h.friction_impulse[inside]) / np.diff(t)
     between = rolled((phi[1:] + phi[:-1]) / 2, (omega[1:] + omega[:-1]) / 2)
     assert np.abs((rate - between) / normal[1:]).max() < 1e-3
-    assert np.abs((h.friction_force[inside] - rolled(phi, omega)) / normal).max() < 5e-3
+    misses = (h.friction_force[inside] - rolled(phi, omega)) / normal
+    assert np.abs(misses).max() < 1e-3
+    assert abs(misses.mean()) < 1e-4

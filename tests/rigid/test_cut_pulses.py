@@ -166,3 +166,14 @@ def test_energy_gained_in_a_pulse_would_show():
     scene = load_scene("paper-3.2-k0.75").replace(run={"turns": 40})
     losses = np.array([pulse.friction_loss for pulse in simulate(scene).pulses])
     assert np.abs(losses).max() < 1e-14
+
+
+def test_a_pulse_that_opens_at_the_bottom_has_no_restitution():
+    """The hoop turns there, so that nothing is compressed before it; the impulses are as exact as any."""
+    hoop = Hoop(0.1, 1.2, 0.1)
+    motion = simulate(Scene(hoop, Friction(0.65 / 3, 0.1), Release(pi, 0.0, -2.0), Run(until="pulse")))
+    pulse = motion.pulses[-1]
+    assert not pulse.cut
+    assert pulse.phi_start == pytest.approx(pi, abs=1e-6)
+    assert all(isnan(getattr(pulse, f"{name}_restitution")) for name in ("newton", "poisson", "energetic"))
+    assert quadrature(motion, pulse) == pytest.approx([pulse.normal_impulse, pulse.friction_impulse], rel=1e-9)
