@@ -141,9 +141,8 @@ def hop_study(
         return [each for each, more in zip(found, late, strict=True) if not more] + again
 
     lines: list[Line] = []
-    stiffness = sorted(set(asked.stiffness))
     # softest first: they are the dearest, and none is left alone at the end
-    found = run([Ask(n, s, asked.rtol, True) for s in stiffness for n in range(len(asked.scenes))])
+    found = run([Ask(n, s, asked.rtol, True) for s in asked.stiffness for n in range(len(asked.scenes))])
     lines = [
         Line(value, scene, windows(scene), tuple(case for m, case in found if m == n))
         for n, (value, scene) in enumerate(zip(asked.values, asked.scenes, strict=True))
