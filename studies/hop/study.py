@@ -35,7 +35,7 @@ class HopStudy(summary.Summarised):
     """What the study found."""
 
     scene: Scene
-    """From which all starts."""
+    """From which all starts, as it was asked."""
     second: str | None
     """The key besides the bending stiffness."""
     lines: tuple[Line, ...]
@@ -45,6 +45,11 @@ class HopStudy(summary.Summarised):
         """All rolls of map and bisection, line by line, softest first."""
         stiffness = attrgetter("bending_stiffness")
         return [case for line in self.lines for case in sorted((*line.mapped, *line.between), key=stiffness)]
+
+    @property
+    def rolled(self) -> Scene:
+        """The first roll as it was run: the scene with what a roll replaces, at the least value of either key."""
+        return self.lines[0].mapped[0].scene
 
     @property
     def unfinished(self) -> list[HopCase]:
@@ -103,6 +108,7 @@ class HopStudy(summary.Summarised):
             threshold[where] = rows
         return {
             "scene": scene_to_dict(self.scene),
+            "as_run": scene_to_dict(self.rolled),
             "over": [STIFFNESS, *([self.second] if self.second else [])],
             "rtol": self.lines[0].scene.solve.rtol,
             "cases": [case.to_dict() for case in self.cases],

@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 import dataclasses
+import html
+import json
 from math import pi
 
 import pytest
 from command_line import is_one_sentence
 
 from rigid import Hoop, SceneError, load_scene, scene_to_dict
-from studies import HopMap, StudyError
+from studies import HopMap, HopStudy, StudyError
 from studies.cli.hop import map_of
 from studies.hop.rolling.roll import STIFFNESS, Ask
+from studies.hop.rolling.threshold import HopCase, Line, windows
+from studies.hop.summary import ends, verdict
+from studies.plots.page import toml
+from studies.running.case import Outcome
 
 SCENE = load_scene("paper-3.3-heavier")
 IN_UNITS = SCENE.replace(hoop=dataclasses.replace(SCENE.hoop, R=0.4, m=0.3, g=9.81))
+
+
+@pytest.fixture
+def leaping(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("studies.hop.study.SOLVER", "third_hop:leap")
+    monkeypatch.setattr("studies.hop.figures.chosen", lambda study: None)  # no hop that could be drawn
 
 
 @pytest.mark.parametrize(
@@ -85,3 +97,43 @@ def test_the_map_in_units_keeps_those_of_the_scene():
     """Only a scene without units is asked for all of them."""
     (line, _) = map_of(IN_UNITS, ("hoop.k=0.1,0.2",)).scenes
     assert line.hoop == Hoop(k=0.1, r=1.02, mass_ratio=0.1, R=0.4, m=0.3, g=9.81)
+
+
+@pytest.mark.usefixtures("leaping")
+def test_what_was_run_is_told_beside_what_was_asked(hoop, tmp_path):
+    """The page's scene is that of a roll, and of the others it says what is another; as numbers both are there."""
+    line = ("study", "hop", "paper-3.3-heavier", "--over", f"{STIFFNESS}=1:100:3", "--over", "hoop.k=0.2,0.1")
+    hoop(*line, "--rtol", "2e-3", "--bisections", 1, "--workers", 1, "--out", tmp_path / "map")
+    told = json.loads((tmp_path / "map" / "hop.json").read_text())
+    assert told["scene"]["run"] == {"turns": 2}
+    asked = map_of(SCENE, ("hoop.k=0.1,0.2", f"{STIFFNESS}=1,100"), rtol=2e-3)
+    first = scene_to_dict(asked.scene_of(Ask(0, 1.0, 2e-3, True)))
+    assert told["as_run"] == first
+    page = html.unescape((tmp_path / "map" / "report.html").read_text())
+    _, _, shown = page.partition("The scene as it was run")
+    assert toml(first) in shown
+    said = " ".join(shown.split())
+    assert "in each other one ring.bending_stiffness and hoop.k are as in the table" in said
+    assert "at a tolerance of 0.002, and at 0.000666667 once more at the ends of thresholds." in said
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "told"),
+    [
+        (12.0, 100.0, "below 34.6 (between 12 and 100)"),
+        (36.99, 37.01, "below 37 (between 36.99 and 37.01)"),
+        (36.9999, 37.0001, "below 37 (between 36.9999 and 37.0001)"),
+    ],
+)
+def test_a_threshold_is_told_by_the_ends_of_its_bracket(low, high, told):
+    """However wide: from a geometric mean they are not equally far."""
+
+    def case(stiffness: float, *flights: dict) -> HopCase:
+        motion = {"flights": list(flights), "completed": True, "swept": 6.0, "scales": None, "t_end": 1.0}
+        return HopCase(stiffness, SCENE, Outcome("", "", {}, "", motion=motion))
+
+    hop = {"swept": 4.5, "phi": 4.7, "height": 1e-3, "prominence": 2.0}
+    line = Line(None, SCENE, windows(SCENE), (case(low, hop), case(high)))
+    (said,) = verdict(HopStudy(SCENE, None, (line,)))
+    assert f"anywhere on its way {told}," in said
+    assert ends(line.threshold("anywhere")) == told.partition("between ")[2].rstrip(")").replace("and", "to")
