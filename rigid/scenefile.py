@@ -141,7 +141,8 @@ def _to_the_last_bit(part: str, table: Mapping[str, Any], values: Mapping[str, f
         if name in table and key in table:
             angle = table[name]
             if not isinstance(angle, (int, float)) or not isclose(angle, values[name], rel_tol=1e-14):
-                raise SceneError(f"{part}.{name} = {angle!r} is not possible: it must be {key} in radians.")
+                told = f"give {key}; beside that it must be {key} in radians."
+                raise SceneError(f"{part}.{name} = {angle!r} is not possible: {told}")
             exact[name] = float(angle)
     return exact
 

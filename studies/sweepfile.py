@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import os
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -71,7 +72,7 @@ def load_sweep(path: str | PathLike[str], solvers: Sequence[str] = (), max_cases
     """A sweep from a TOML file: a scene in which any value may be a list, and a table [sweep].
 
     ``[sweep]`` may name ``scene`` (a shipped scene or file from which all starts), ``solvers`` ("rigid", "flexible" or
-    both) and ``histories``.
+    both) and ``histories``. A scene's file is looked for beside the sweep's first, then in the current folder.
 
     Parameters
     ----------
@@ -94,6 +95,11 @@ def load_sweep(path: str | PathLike[str], solvers: Sequence[str] = (), max_cases
         raise SceneError(trouble(error, path)) from None
     except (ValueError, RecursionError) as error:
         raise SceneError(f"{path} is not TOML: {error}.") from None
+    settings = data.get("sweep")
+    if isinstance(settings, dict) and isinstance(scene := settings.get("scene"), str):
+        beside = os.path.join(path.parent, scene)
+        if os.path.isfile(beside):
+            settings["scene"] = beside
     return sweep_from_dict(data, solvers, max_cases)
 
 

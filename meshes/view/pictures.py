@@ -167,7 +167,8 @@ def picture(
     png : path
         Where to.
     time : float, optional
-        In the run's unit; a series shows its nearest frame. By default the instant of the largest N.
+        In the run's unit; a series shows the nearest of its frames, from the first to the last. By
+        default the instant of the largest N.
     field : str, optional
         What colours the ring: a point field of the series, "stress xx", "stress yy" or "stress xy"; by
         default the von Mises stress.

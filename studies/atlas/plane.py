@@ -94,7 +94,8 @@ class Region:
 class Plane:
     """Two axes through a scene; what they do not vary is that of the scene.
 
-    Where one of ``friction.mu`` and ``friction.mu_s`` is varied alone, their ratio is that of the scene.
+    Where one of ``friction.mu`` and ``friction.mu_s`` is varied alone, their ratio is that of the scene; mu = 0 beside
+    a mu_s above 0 stays 0.
     """
 
     scene: Scene
@@ -120,12 +121,13 @@ class Plane:
             "restitution": values.get("landing.restitution", scene.landing.restitution),
         }
         ratio = friction.mu_s / friction.mu if friction.mu > 0 else 1.0
+        slippery = friction.mu == 0 < friction.mu_s  # it sticks, and slips without friction
         if "friction.mu" in values:
             told["mu"] = values["friction.mu"]
             told["mu_s"] = values.get("friction.mu_s", ratio * values["friction.mu"])
         else:
             told["mu_s"] = values.get("friction.mu_s", friction.mu_s)
-            told["mu"] = told["mu_s"] / ratio if "friction.mu_s" in values else friction.mu
+            told["mu"] = told["mu_s"] / ratio if "friction.mu_s" in values and not slippery else friction.mu
         return {name: np.broadcast_to(np.asarray(column, dtype=float), x.shape) for name, column in told.items()}
 
     def run(self, x: Array, y: Array) -> Seen:

@@ -9,7 +9,7 @@ import click
 from rigid import load_scene
 
 from ..running.files import to_json, write_text
-from .shared.options import SceneKey, SceneName, as_json, out_folder
+from .shared.options import SceneKey, SceneName, as_json, atlas_keys, out_folder
 from .shared.results import begin_results, results_folder
 
 
@@ -19,7 +19,7 @@ from .shared.results import begin_results, results_folder
 @out_folder("Write atlas.png, atlas.npz and atlas.json here.")
 @click.option(
     "--over",
-    type=SceneKey(),
+    type=SceneKey(atlas_keys),
     multiple=True,
     metavar="KEY=A:B",
     help="A quantity and its range, twice: across and up. hoop.k=0.02:0.9 and friction.mu=0.02:1 by default; also "

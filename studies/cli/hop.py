@@ -14,7 +14,7 @@ from rigid.elastic import LAWS
 from ..machine.kernels import compile_side_by_side, levels_of, prepare
 from ..running.files import to_json, write_text
 from ..running.solvers import ensure_accepts
-from .shared.options import Finite, SceneKey, SceneName, as_json, out_folder, scheduler, workers
+from .shared.options import Finite, SceneKey, SceneName, as_json, hop_keys, out_folder, scheduler, workers
 from .shared.results import begin_results, results_folder
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 @out_folder("Write hop.json, figures, a film and report.html here; finished rolls are kept and found again.")
 @click.option(
     "--over",
-    type=SceneKey(),
+    type=SceneKey(hop_keys),
     multiple=True,
     metavar="KEY=LOW:HIGH:COUNT",
     help="Range of ring.bending_stiffness (0.5:1e4:24 by default), and of one key more (hoop.k, hoop.mass_ratio, "

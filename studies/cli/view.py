@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -26,7 +26,12 @@ SHOWN = "by default so much that the largest displacement is 2 to 6 % of R, not 
 @click.command()
 @click.argument("path", type=SceneName())
 @click.option("--png", type=FILE, metavar="FILE", help="Draw one instant, at --time or else at the peak of N.")
-@click.option("--time", type=float, metavar="T", help=f"The instant of --png, {TIME}; of fields, the nearest frame.")
+@click.option(
+    "--time",
+    type=float,
+    metavar="T",
+    help=f"The instant of --png, {TIME}; of fields the nearest frame, from their first to their last.",
+)
 @click.option("--gif", type=FILE, metavar="FILE", help="Animate the run.")
 @click.option("--mp4", type=FILE, metavar="FILE", help="Animate the run.")
 @click.option("--html", type=FILE, metavar="FILE", help="Animate the run in a page with a slider.")
@@ -84,6 +89,8 @@ def view(
     look: dict[str, Any] = {"field": field, "factor": factor, "zoom": 1.0 if zoom is None else zoom}
     try:
         thing = _thing(path)
+        if isinstance(thing, Series):
+            _ensure_frames(thing, {"time": time, "start": start, "stop": stop})
         if png is not None:
             picture(thing, png, time, **look)
             if time is not None and isinstance(thing, Series) and (drawn := _drawn(thing, time)) != f"{time:.6g}":
@@ -95,6 +102,14 @@ def view(
             window(thing, **look)
     except (ViewError, SeriesError) as error:
         raise StudyError(str(error)) from None
+
+
+def _ensure_frames(series: Series, asked: Mapping[str, float | None]) -> None:
+    """Fields may be those of a part of a run: what is asked for must lie in it."""
+    first, last = series.times[0], series.times[-1]
+    for name, value in asked.items():
+        if value is not None and not first <= value <= last:
+            raise StudyError(f"--{name} {value:g} is not possible: the frames go from {first:g} to {last:g}.")
 
 
 def _drawn(series: Series, time: float) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import degrees, inf, sin
+from math import degrees, floor, inf, pi, sin
 from typing import Any
 
 import matplotlib
@@ -21,7 +21,7 @@ from flexible.output.body import lowest, outline, whole
 from rigid import Run, Scene
 
 from ..plots.style import OKABE_ITO, RIGID, STYLE, blank
-from .maps import HEIGHTS, in_plain_numbers, map_figure
+from .maps import HEIGHTS, first_digits, in_plain_numbers, map_figure
 from .rolling.energies import Roll
 from .rolling.roll import roll, spans, steps_of
 from .rolling.threshold import SYMBOL, HopCase, Line, Mapped
@@ -91,6 +91,9 @@ def _hops(study: Mapped, lines: Sequence[Line], grid: NDArray[np.object_]) -> No
     dots = None
     for axes, line in zip(grid.ravel(), lines, strict=False):
         dots = _line(axes, study, line) or dots
+    turns = [floor(line.scene.release.phi0 / (2 * pi)) for line in lines]  # the disk stays in that of its release
+    low, high = 360 * min(turns), 360 * (max(turns) + 1)
+    grid[0, 0].set(ylim=(low, high), yticks=range(low, high + 1, 90))  # of all panels
     for axes in grid[:, 0]:
         axes.set_ylabel("φ at lift-off [°]")
     for axes in grid[-1]:
@@ -107,14 +110,14 @@ def _hops(study: Mapped, lines: Sequence[Line], grid: NDArray[np.object_]) -> No
 
 def _line(axes: Axes, study: Mapped, line: Line) -> PathCollection | None:
     cases = (*line.mapped, *line.between)
-    R = study.scene.hoop.R
+    R, release = line.scene.hoop.R, line.scene.release.phi0
+    down = 1 if sin(release) >= 0 else -1
     points = np.array(
         [(c.bending_stiffness, degrees(hop["phi"]), hop["height"] / R) for c in cases for hop in c.hops]
     ).reshape(-1, 3)
     for where, shade, words in (("pulse", "0.93", "rigid pulse"), ("bottom", "0.82", "contact under the disk")):
         if (window := line.windows.get(where)) is not None:
-            down = 1 if sin(line.scene.release.phi0) >= 0 else -1
-            low, high = (degrees(line.scene.release.phi0 + down * x) for x in (window.low, window.high))
+            low, high = sorted(degrees(release + down * x) for x in (window.low, window.high))
             axes.axhspan(low, high, color=shade, zorder=0, label=words)
     dots = axes.scatter(
         points[:, 0], points[:, 1], c=np.clip(points[:, 2], *HEIGHTS), norm=LogNorm(*HEIGHTS), cmap="viridis_r", s=16,
@@ -124,7 +127,7 @@ def _line(axes: Axes, study: Mapped, line: Line) -> PathCollection | None:
     if none:
         foot = axes.get_xaxis_transform()
         axes.plot(none, np.full(len(none), 0.03), "|", color="0.4", transform=foot, label="no hop")
-    stopped = [(c.bending_stiffness, degrees(line.scene.release.phi0 + c.motion["swept"])) for c in cases
+    stopped = [(c.bending_stiffness, degrees(release + down * c.motion["swept"])) for c in cases
                if not c.motion["completed"]]  # fmt: skip
     if stopped:
         axes.plot(*np.array(stopped).T, "x", color="0.5", markersize=5, label="stopped early")
@@ -133,9 +136,8 @@ def _line(axes: Axes, study: Mapped, line: Line) -> PathCollection | None:
     if study.second not in (None, "hoop.k", "hoop.mass_ratio"):
         name += f"\n{study.second} = {line.value:.3g}"
     stiffness = [case.bending_stiffness for case in cases]
-    axes.set(xscale="log", title=name, ylim=(0, 360), yticks=range(0, 361, 90),
-             xlim=(min(stiffness) / 1.2, max(stiffness) * 1.2))  # fmt: skip
-    in_plain_numbers(axes.xaxis)
+    axes.set(xscale="log", title=name, xlim=(min(stiffness) / 1.2, max(stiffness) * 1.2))
+    in_plain_numbers(axes.xaxis, first_digits(*axes.get_xlim()))
     return dots if len(points) else None
 
 

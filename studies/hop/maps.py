@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import degrees
+from math import ceil, degrees, floor
 from typing import Any
 
 import matplotlib
@@ -66,9 +66,8 @@ def map_figure(study: Mapped) -> Figure | None:
         figure = blank(12.6, 6.2)
         grid = figure.add_gridspec(2, 2, width_ratios=(2.1, 1))
         _places(study, figure.add_subplot(grid[:, 0]))
-        R = study.scene.hoop.R
         first = _over(study, lambda case: degrees(case.hops[0]["phi"]) if case.hops else np.nan)
-        height = _over(study, lambda case: (case.height or np.nan) / R)
+        height = _over(study, lambda case: (case.height or np.nan) / case.scene.hoop.R)
         panels: list[tuple[Array, str, dict[str, Any]]] = [
             (first, "φ at the first lift-off [°]", {"cmap": "viridis"}),
             (height.clip(*HEIGHTS), "height of the highest hop over R", {"cmap": "magma_r", "norm": LogNorm(*HEIGHTS)}),
@@ -76,7 +75,7 @@ def map_figure(study: Mapped) -> Figure | None:
         for row, (values, title, how) in enumerate(panels):
             axes = figure.add_subplot(grid[row, 1])
             painted = axes.pcolormesh(*_edges(study), values, rasterized=True, **how)
-            figure.colorbar(painted, ax=axes, ticks=FixedLocator(range(-720, 721, 45)) if row == 0 else None)
+            figure.colorbar(painted, ax=axes, ticks=FixedLocator(angle_ticks(values)) if row == 0 else None)
             axes.set_title(title, fontsize=10)
             _scales(study, axes, room=6)
             if row == 1:
@@ -103,7 +102,8 @@ def _places(study: Mapped, axes: Axes) -> None:
     hoop, start = study.scene.hoop, degrees(study.scene.release.phi0)
     fixed = {"hoop.k": f"k = {hoop.k:g}", "hoop.mass_ratio": f"m_h/m = {hoop.mass_ratio:g}"}
     told = ", ".join(words for key, words in fixed.items() if key != study.second)
-    axes.set_title(f"Where an elastic hoop hops: {told}, released at rest at {start:.0f}°", loc="left", fontsize=11)
+    where = "" if study.second == "release.phi0_deg" else f" at {start:.0f}°"
+    axes.set_title(f"Where an elastic hoop hops: {told}, released at rest{where}", loc="left", fontsize=11)
     axes.set(xlabel=f"bending stiffness {SYMBOL}", ylabel=NAMES.get(study.second or "", study.second))
     _scales(study, axes)
 
@@ -163,11 +163,30 @@ def _scales(study: Mapped, axes: Axes, room: int = 12) -> None:
     x, y = _edges(study)
     values = np.array([line.value for line in study.lines], dtype=float)
     axes.set(xscale="log", yscale="log" if _even(values) else "linear", xlim=(x[0], x[-1]), ylim=(y[0], y[-1]))
-    in_plain_numbers(axes.xaxis, (1, 3) if 2 * np.log10(x[-1] / x[0]) < room else (1,))
+    in_plain_numbers(axes.xaxis, first_digits(x[0], x[-1], room))
     if _even(values):
         in_plain_numbers(axes.yaxis, (1, 2, 3, 5))
     elif len(values) <= 6:
         axes.set_yticks(values)
+
+
+def first_digits(low: float, high: float, room: int = 12) -> tuple[int, ...]:
+    """First digits of the ticks between two numbers: more where there would be but one, or none."""
+    choices: tuple[tuple[int, ...], ...] = ((1, 3), (1, 2, 3, 5), tuple(range(1, 10)), tuple(range(10, 100)))
+    if 2 * np.log10(high / low) >= room:
+        return (1,)
+    counts = [sum(low <= m * 10.0**n <= high for n in range(-12, 13) for m in digits) for digits in choices]
+    return next((digits for digits, count in zip(choices, counts, strict=True) if count >= 2), choices[-1])
+
+
+def angle_ticks(values: Array) -> list[float]:
+    """Ticks among angles in degrees: multiples of 45 where there are two, else of what is round."""
+    if not np.isfinite(values).any():
+        return []
+    low, high = np.nanmin(values), np.nanmax(values)
+    steps = (45.0, 15.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1)
+    ticks = [[step * n for n in range(ceil(low / step), floor(high / step) + 1)] for step in steps]
+    return next((found for found in ticks if len(found) >= 2), [float(low)])
 
 
 def in_plain_numbers(axis: Axis, digits: tuple[int, ...] = (1, 3)) -> None:

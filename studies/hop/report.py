@@ -57,7 +57,21 @@ def hop_report(
         "lines": verdict(study),
         "sentences": [*scaling_sentences(study), rule_sentence(study), *unfinished_sentences(study)],
         "sheets": [threshold_sheet(study).to_dict(), case_sheet(study).to_dict()],
+        "of_scene": _which_scene(study),
         "numbers": numbers,
         "images": {name: (CAPTIONS.get(name, name), file) for name, file in images.items()},
     }
-    return write_page(FOUND, path, study.scene, command, told)
+    return write_page(FOUND, path, study.rolled, command, told)
+
+
+def _which_scene(study: HopStudy) -> str:
+    """Which roll the scene is of that a page shows, and what the others have in its place."""
+    rtol = study.rolled.solve.rtol
+    finer = min((case.scene.solve.rtol for line in study.lines for case in line.finer), default=rtol)
+    keys = "ring.bending_stiffness is" if study.second is None else f"ring.bending_stiffness and {study.second} are"
+    times = f" and run.t_end goes with {study.second}" if study.second is not None else ""
+    again = f", and at {finer:g} once more at the ends of thresholds" if finer < rtol else ""
+    return (
+        f"That of the first roll: in each other one {keys} as in the table{times}. "
+        f"They are rolled at a tolerance of {rtol:g}{again}."
+    )

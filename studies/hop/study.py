@@ -35,7 +35,7 @@ class HopStudy(summary.Summarised):
     """What the study found."""
 
     scene: Scene
-    """From which all starts."""
+    """From which all starts, as it was asked."""
     second: str | None
     """The key besides the bending stiffness."""
     lines: tuple[Line, ...]
@@ -45,6 +45,11 @@ class HopStudy(summary.Summarised):
         """All rolls of map and bisection, line by line, softest first."""
         stiffness = attrgetter("bending_stiffness")
         return [case for line in self.lines for case in sorted((*line.mapped, *line.between), key=stiffness)]
+
+    @property
+    def rolled(self) -> Scene:
+        """The first roll as it was run: the scene with what a roll replaces, at the least value of either key."""
+        return self.lines[0].mapped[0].scene
 
     @property
     def unfinished(self) -> list[HopCase]:
@@ -103,6 +108,7 @@ class HopStudy(summary.Summarised):
             threshold[where] = rows
         return {
             "scene": scene_to_dict(self.scene),
+            "as_run": scene_to_dict(self.rolled),
             "over": [STIFFNESS, *([self.second] if self.second else [])],
             "rtol": self.lines[0].scene.solve.rtol,
             "cases": [case.to_dict() for case in self.cases],
@@ -141,9 +147,8 @@ def hop_study(
         return [each for each, more in zip(found, late, strict=True) if not more] + again
 
     lines: list[Line] = []
-    stiffness = sorted(set(asked.stiffness))
     # softest first: they are the dearest, and none is left alone at the end
-    found = run([Ask(n, s, asked.rtol, True) for s in stiffness for n in range(len(asked.scenes))])
+    found = run([Ask(n, s, asked.rtol, True) for s in asked.stiffness for n in range(len(asked.scenes))])
     lines = [
         Line(value, scene, windows(scene), tuple(case for m, case in found if m == n))
         for n, (value, scene) in enumerate(zip(asked.values, asked.scenes, strict=True))

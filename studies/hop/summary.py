@@ -25,7 +25,14 @@ def ends(found: Bracket, digits: int = 3) -> str:
         return f"at no stiffness from {number(found.high, digits)} on" if isfinite(found.high) else "undecided"
     if not isfinite(found.high):
         return f"still at {number(found.low, digits)}"
+    digits = _telling(found, digits)
     return f"{number(found.low, digits)} to {number(found.high, digits)}"
+
+
+def _telling(found: Bracket, least: int = 3) -> int:
+    """Digits that tell a threshold and the ends of its bracket apart."""
+    told = (found.low, found.value, found.high)
+    return next((digits for digits in range(least, 17) if len({number(each, digits) for each in told}) == 3), 17)
 
 
 def answer(study: HopStudy) -> str:
@@ -97,13 +104,12 @@ def _below(line: Line, where: str) -> str:
     found = line.threshold(where)
     if found.value is None:
         return f"{ends(found)}{'' if found.low == 0 else ', the stiffest that was rolled'}"
-    half = (found.high - found.low) / 2
-    doubts = [f"{found.open} undecided in between"] if found.open else []
+    value, low, high = (number(each, _telling(found)) for each in (found.value, found.low, found.high))
+    doubts = [f"between {low} and {high}", *([f"{found.open} undecided in between"] if found.open else [])]
     if line.holds(where) is False:
         finer = line.answers(where, cases=line.finer)
         doubts.append(f"{'more' if finer[found.high] else 'less'} at a third of the tolerance")
-    told = f"below {number(found.value, 3)} ± {number(half, 2)}"
-    return told + (f" ({', '.join(doubts)})" if doubts else "")
+    return f"below {value} ({', '.join(doubts)})"
 
 
 def rule_sentence(study: HopStudy) -> str:

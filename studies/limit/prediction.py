@@ -35,6 +35,9 @@ BRUSH_DELAY, BRUSH_LAG, REGULARISED_GAIN = 2 / 3, 6 / 5, 4 / 5
 """Those that the start of a slip adds where friction has no jump there, of eps (or v_s): see
 :mod:`studies.limit.onset`."""
 
+ROUND_OFF = 1e-12
+"""Of losses over M g R and of ratios of impulses: what is smaller is none."""
+
 MEASURES = ("normal_impulse", "friction_impulse", "impulse_ratio", "friction_loss", "damping_loss")
 NOTHING = Shift(0.0, 0.0, 0.0)
 
@@ -199,7 +202,9 @@ def _with_units(scene: Scene, way: Passage, found: dict[float, NDArray[np.float6
     regularised = way.contact.law == REGULARISED
     # eps is that of the total mass, the foundation's unit that of the disk
     unit = 1.0 if regularised else epsilon(scene) * scene.contact.stiffness ** (1 / 3)
-    limits = [getattr(pulse, name, 0.0) for name in MEASURES]
+    limits = {name: getattr(pulse, name, 0.0) for name in MEASURES}
+    if abs(limits["friction_loss"]) < ROUND_OFF * mass * scene.energy_unit:
+        limits["friction_loss"] = 0.0
     powers: list[list[tuple[float, float]]] = [[] for _ in MEASURES]
     for exponent in sorted(found):
         friction, normal, energy, damped = found[exponent] * mass * unit**exponent
@@ -207,8 +212,8 @@ def _with_units(scene: Scene, way: Passage, found: dict[float, NDArray[np.float6
         ratio = (friction - pulse.impulse_ratio * normal) / pulse.normal_impulse
         losses = (-energy - damped) * scene.energy_unit, damped * scene.energy_unit
         for kept, value in zip(powers, (normal, friction, ratio, *losses), strict=True):
-            kept.append((exponent, float(value)))
-    terms = {name: Term(float(limit), tuple(kept)) for name, limit, kept in zip(MEASURES, limits, powers, strict=True)}
+            kept.append((exponent, float(value) + 0.0))  # and no -0
+    terms = {name: Term(float(limits[name]), tuple(kept)) for name, kept in zip(MEASURES, powers, strict=True)}
     # CREEP follows where an onset leads; where it leads itself, the onset's lag or the next order
     behind = NEXT_OF_A_RING_WITH_MASS if scene.hoop.mass_ratio > 0 else NEXT
     leading = sorted({*found, CREEP, behind})[:2]

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import degrees, isfinite
+from math import degrees, inf, isfinite
 from typing import Any
 
 from ..plots.sheet import Column, Sheet, number, power_of
 from ..running.measures import MEASURES
 from .damping import Spot
-from .study import OBSERVED, LimitStudy
+from .study import FOUNDATIONS, OBSERVED, LimitStudy
 
 
 def event_sheet(study: LimitStudy) -> Sheet:
@@ -42,8 +42,9 @@ def _symbol(study: LimitStudy) -> str:
 def term_sheet(study: LimitStudy) -> Sheet:
     """The prediction."""
     terms = study.prediction.terms
+    symbol = _symbol(study)
     powers = [
-        " ".join(f"{c:+.5g} {power_of(_symbol(study), p)}" for p, c in term.powers) or "0" for term in terms.values()
+        " ".join(f"{c:+.5g} {power_of(symbol, p)}" for p, c in term.powers if c) or "0" for term in terms.values()
     ]
     names = [MEASURES[name].named(study.scene) for name in terms]
     return Sheet(
@@ -121,9 +122,15 @@ def verdict(study: LimitStudy) -> str:
     same = abs(term.limit - paper) < 1e-12
     law = study.scene.contact.law
     becomes = "becomes the paper's rigid hoop" if same else "does not become the paper's rigid hoop"
-    words = (
+    lead = (
         f"Made ever stiffer, the hoop on a floor with the {law} law {becomes}: J_F/J_N (friction impulse over normal "
-        f"impulse, of the first pulse) tends to {term.limit:.6f}"
+        "impulse, of the first pulse)"
+    )
+    if same and not term.coefficient:
+        why = "there is no friction" if study.scene.friction.mu_s == 0 else "nothing in it depends on the stiffness"
+        return f"{lead} is {number(term.limit)} at any stiffness: {why}."
+    words = (
+        f"{lead} tends to {term.limit:.6f}"
         + ("" if same else f" and not to {paper:.6f}")
         + f", and is off by {term.coefficient:+.4g} {power_of(_symbol(study), term.exponent)} before"
     )
@@ -177,12 +184,21 @@ def other_sentences(study: LimitStudy) -> list[str]:
     for other in study.others:
         low, high = other.impulse_ratio
         if not other.tends:
-            said.append(f"{other.name}: {low:.4f} to {high:.4f}, no limit seen")
+            said.append(f"{other.name}: {low:.4f} to {high:.4f}, no limit seen{_out_of_sight(study)}")
             continue
         words = f"{other.name}: {low:.5f}"
         if other.prediction is not None:
             term = other.prediction.terms["impulse_ratio"]
             symbol = _SYMBOLS[other.prediction.parameter]
-            words += f", like {term.coefficient:+.3g} {power_of(symbol, term.exponent)}"
+            if term.coefficient:
+                words += f", like {term.coefficient:+.3g} {power_of(symbol, term.exponent)}"
         said.append(words)
     return said
+
+
+def _out_of_sight(study: LimitStudy) -> str:
+    """That a limit would not be seen either, where the layers run into each other at all foundations that are tried."""
+    tried = max(FOUNDATIONS)
+    if not tried < study.separate < inf:
+        return ""
+    return f", nor would one be: up to {number(tried, 2)}, the largest foundation tried, the layers are not separate"

@@ -58,6 +58,8 @@ FRAME = """\
 <ul>{% for name, address in numbers %}<li><a download="{{ name }}" href="{{ address }}">{{ name }}</a></li>{% endfor
 %}{% for line in beside %}<li>{{ line }}</li>{% endfor %}</ul>
 <h2>The scene as it was run</h2>
+{% if of_scene %}<p>{{ of_scene }}</p>
+{% endif %}
 <pre>{{ scene }}</pre>
 <h2>How this page was made</h2>
 <pre>{{ command }}</pre>
@@ -98,7 +100,7 @@ def write_page(found: str, path: Path, scene: Scene, command: str, told: Mapping
     told : dict
         What the template asks for, and ``title``, ``verdict``, ``images``: ``{name: (caption, SVG, PNG or GIF file)}``;
         where there are any, ``numbers``, CSV or JSON files that the page holds too, and ``beside``, lines on other
-        files.
+        files; ``of_scene``, which of several scenes that is.
     """
     from jinja2 import DictLoader, Environment
     from markupsafe import Markup

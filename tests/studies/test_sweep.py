@@ -129,6 +129,22 @@ def test_a_base_scene_by_name():
     assert scenes[1] == scene_from_dict(scene_to_dict(load_scene("paper-3.1")))
 
 
+def test_a_base_scene_is_looked_for_beside_the_sweep_and_then_here(tmp_path, monkeypatch):
+    """As files that name files mostly mean it; where there is none beside, a scene in the current folder will do."""
+    here, there = tmp_path / "here", tmp_path / "there"
+    for folder, k in ((here, 0.2), (there, 0.3)):
+        folder.mkdir()
+        (folder / "base.toml").write_text(SCENE.format(k=k))
+    monkeypatch.chdir(here)
+    file = there / "sweep.toml"
+    file.write_text('[sweep]\nscene = "base.toml"\nsolvers = "rigid"\n[friction]\nmu = [0.2, 0.3]\n')
+    assert [scene.hoop.k for _, scene in load_sweep(file).points] == [0.3, 0.3]
+    (there / "base.toml").unlink()
+    assert [scene.hoop.k for _, scene in load_sweep(file).points] == [0.2, 0.2]
+    file.write_text(file.read_text().replace("base.toml", "paper-3.1"))
+    assert [scene.hoop for _, scene in load_sweep(file).points] == [load_scene("paper-3.1").hoop] * 2
+
+
 def test_a_section_goes_with_the_scene_from_which_a_sweep_starts():
     """E I/(m g R^2) and m_h/m of one section fall like 1/m, and E I/(m g R^2) rises like E."""
     own = load_scene("steel-strip")

@@ -58,13 +58,16 @@ class SceneName(click.ParamType):
 
 
 class SceneKey(click.ParamType):
-    """KEY=..., of which the shell completes the key."""
+    """KEY=..., of which the shell completes the key: one of ``keys``."""
 
     name = "key"
 
+    def __init__(self, keys: Callable[[], list[str]]) -> None:
+        self._keys = keys
+
     def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
-        """Keys of a scene that take numbers."""
-        return [CompletionItem(f"{key}=") for key in number_keys() if key.startswith(incomplete)]
+        """The keys that begin so."""
+        return [CompletionItem(f"{key}=") for key in self._keys() if key.startswith(incomplete)]
 
 
 class Names(click.ParamType):
@@ -81,15 +84,31 @@ class Names(click.ParamType):
         return [CompletionItem(f"{before}{comma}{name}") for name in self._names() if name.startswith(begun)]
 
 
+_ANGLES = ("release.phi0", "ring.weld_half_angle")
+
+
 def number_keys() -> list[str]:
-    """``part.key`` of everything in a scene that is a number."""
+    """``part.key`` of everything in a scene's file that is a number; angles are in degrees there."""
     from rigid import Scene
 
     keys = []
     for part, kind in get_type_hints(Scene).items():
         hints = get_type_hints(kind)
         keys += [f"{part}.{field.name}" for field in fields(kind) if hints[field.name] in (int, float, float | None)]
-    return keys
+    return [f"{key}_deg" if key in _ANGLES else key for key in keys]
+
+
+def hop_keys() -> list[str]:
+    """Those over which hoops released at rest can be rolled."""
+    refused = ("release.omega0", "release.slip0", "run.t_end", "solve.rtol")
+    return [key for key in number_keys() if key not in refused]
+
+
+def atlas_keys() -> list[str]:
+    """Those that an atlas can vary."""
+    from ...atlas.plane import SYMBOLS
+
+    return list(SYMBOLS)
 
 
 def field_names() -> list[str]:

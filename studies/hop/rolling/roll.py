@@ -8,15 +8,16 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from math import pi, sin, sqrt
+from math import degrees, pi, sin, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from flexible import FlexibleMotion, simulate
 from flexible.output.body import lowest
-from rigid import Run, Scene, scene_from_dict, scene_to_dict
+from rigid import Run, Scene, SceneError, scene_from_dict, scene_to_dict
 from rigid import simulate as rigid_motion
+from rigid.elastic import UNITS
 from rigid.output.units import Length, Number, Time, in_units, without_units
 
 from ...running.files import StudyError
@@ -32,6 +33,15 @@ STIFFNESS = "ring.bending_stiffness"
 
 DEFAULT = (0.5, 1e4, 24)
 """Range of the bending stiffness, and number of cases over it."""
+
+SAID_ELSEWHERE = {
+    STIFFNESS: "its range is the map's other axis",
+    "solve.rtol": "the tolerance is --rtol",
+    "solve.resolve": "a roll is flexible throughout",
+    "solve.start": "a roll starts from equilibrium",
+    "run": "how far to roll is --turns, or the scene's own",
+}
+"""Keys, and a table, that no second key can be of: a roll replaces what they say."""
 
 RTOL = 3e-4
 """Tolerance of the rolls; thresholds are held against a third of it."""
@@ -95,12 +105,16 @@ def from_rest(scene: Scene) -> Scene:
     Raises
     ------
     StudyError
-        It does not begin at rest.
+        It does not begin at rest, or stays so.
     """
     release = scene.release
     if release.omega0 or release.slip0:
         raise StudyError("A hop is asked of a hoop released at rest: release.omega0 and release.slip0 must be 0.")
     end = rigid_motion(scene.replace(run=Run(until="pulse"))) if scene.run.until == "rest" else rigid_motion(scene)
+    if not end.t_end:
+        raise StudyError(
+            f"A hop is asked of a hoop that rolls: at rest at phi0 = {degrees(release.phi0):g}° it stands still."
+        )
     return scene.replace(run=Run(t_end=end.t_end), solve={"resolve": "all", "start": "equilibrium"})
 
 
@@ -130,10 +144,19 @@ class Ask(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class HopMap:
-    """What a hop study rolls."""
+    """What a hop study rolls.
+
+    Raises
+    ------
+    SceneError
+        A second key of which a roll replaces what it says, or a value that no scene can have.
+    StudyError
+        A hoop that is not released at rest, or stands still.
+    """
 
     scene: Scene
     stiffness: tuple[float, ...]
+    """In any order, each once however often it is given; so are the values."""
     second: str | None = None
     values: tuple[Any, ...] = (None,)
     rtol: float = RTOL
@@ -146,6 +169,11 @@ class HopMap:
     """One for each value of the second key, ready to roll."""
 
     def __post_init__(self) -> None:
+        for key in (self.second, (self.second or "").partition(".")[0]):
+            if key in SAID_ELSEWHERE:
+                raise SceneError(f"{self.second} cannot be varied in a hop study: {SAID_ELSEWHERE[key]}.")
+        object.__setattr__(self, "stiffness", tuple(sorted(set(self.stiffness))))
+        object.__setattr__(self, "values", tuple(sorted(set(self.values))))
         object.__setattr__(self, "scenes", tuple(self._scene(value) for value in self.values))
 
     def _scene(self, value: Any) -> Scene:
@@ -153,8 +181,13 @@ class HopMap:
         scene = self.scene.replace(solve=solve)
         if self.second is not None:
             data = scene_to_dict(scene)
+            if scene.dimensionless:  # one of R, m, g alone would be in other units than the others
+                data["hoop"] = {name: its for name, its in data["hoop"].items() if name not in UNITS}
             part, _, key = self.second.partition(".")
-            data.setdefault(part, {})[key] = value
+            table = data.setdefault(part, {})
+            table[key] = value
+            if key.endswith("_deg"):  # in radians beside, to the last bit
+                table.pop(key.removesuffix("_deg"), None)
             scene = scene_from_dict(data)
         return from_rest(scene)
 

@@ -107,6 +107,18 @@ def test_the_ratio_of_the_coefficients_is_the_scenes():
         assert hoops["phi0"] == pytest.approx(np.deg2rad(10))
 
 
+def test_a_scene_that_slips_without_friction_keeps_to_that():
+    """mu_s is the bound of what sticks, of which mu = 0 says nothing; where both are 0 they are equal."""
+    scene = load_scene("paper-3.1")
+    for mu_s, mu in ((0.35, [0.0, 0.0]), (0.0, [0.2, 0.4])):
+        over = plane(
+            scene.replace(friction={"mu_s": mu_s, "mu": 0.0}), {"hoop.k": (0.1, 0.5), "friction.mu_s": (0.1, 0.5)}
+        )
+        hoops = over.hoops(np.array([0.2, 0.3]), np.array([0.2, 0.4]))
+        assert hoops["mu_s"].tolist() == [0.2, 0.4]
+        assert hoops["mu"].tolist() == mu
+
+
 def test_a_hoop_with_mass_is_measured_by_its_whole_weight():
     """Of a map over its mass: loss over M g R and peak over M g, as one motion has them over m g."""
     scene = load_scene("paper-3.3-heavier")

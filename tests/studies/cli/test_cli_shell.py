@@ -15,8 +15,12 @@ from pathlib import Path
 import pytest
 from command_line import HANGS, ROOT, SCENE, command, environment, is_one_sentence, process
 
-from rigid import scene_names
-from studies.cli.shared.options import number_keys
+from rigid import SceneError, load_scene, scene_from_dict, scene_names, scene_to_dict
+from studies import StudyError
+from studies.atlas.plane import plane
+from studies.cli.hop import map_of
+from studies.cli.shared.options import atlas_keys, hop_keys, number_keys
+from studies.hop.rolling.roll import STIFFNESS
 from studies.machine.processes import Processes
 from studies.running import progress
 
@@ -42,6 +46,8 @@ def test_a_shell_completes_commands_scenes_and_keys():
     for line in (("rigid",), ("flexible",), ("view",), ("scenes",), ("study", "stiffness"), ("study", "limit")):
         assert completed("hoop", *line, "paper-3.3") == [n for n in scene_names() if n.startswith("paper-3.3")]
     assert completed("hoop", "study", "hop", "--over", "ring.ben") == ["ring.bending_stiffness="]
+    assert completed("hoop", "study", "hop", "--over", "release.") == ["release.phi0_deg="]
+    assert "landing.restitution=" in completed("hoop", "study", "atlas", "--over", "")
     assert completed("hoop", "flexible", "--only", "von_mises,dis") == ["von_mises,displacement"]
     assert "--quiet" in completed("hoop", "study", "limit", "--q")
 
@@ -53,12 +59,34 @@ def test_files_are_completed_where_no_scene_begins_so(tmp_path):
 
 
 def test_keys_that_are_completed_can_be_set():
-    from rigid import load_scene
-
     scene = load_scene("paper-3.1")
     for key in number_keys():
         part, _, name = key.partition(".")
-        assert hasattr(getattr(scene, part), name)
+        assert hasattr(getattr(scene, part), name.removesuffix("_deg"))
+    file = scene_to_dict(scene)
+    assert {"release.phi0_deg", "ring.weld_half_angle_deg"} <= set(number_keys())
+    assert not {"release.phi0", "ring.weld_half_angle"} & set(number_keys()), "of a file, which is in degrees"
+    for key in number_keys():
+        part, _, name = key.partition(".")
+        if name in file[part]:
+            assert scene_from_dict({**file, part: {**file[part], name: file[part][name]}}) == scene
+
+
+def test_keys_that_are_completed_are_taken():
+    """By the command that they are completed for, with values that the scene may have."""
+    scene = load_scene("paper-3.3-heavier").replace(
+        hoop={"r": 1.0, "R": 0.4, "m": 0.3, "g": 9.81}, ring={"thickness": 0.02, "weld_half_angle_deg": 2.0}
+    )
+    others = {"release.phi0_deg": "20,30", "ring.weld_half_angle_deg": "2,3", "hoop.r": "1,1", "friction.mu": "0.1,0.2"}
+    for key in hop_keys():
+        asked = map_of(scene, (f"{key}={others.get(key, '0.35,0.4')}",))
+        assert key == STIFFNESS or asked.second == key
+    for key in set(number_keys()) - set(hop_keys()):
+        with pytest.raises((SceneError, StudyError)):
+            map_of(scene, (f"{key}=0.1,0.2",))
+    with pytest.raises(SceneError, match="is not a key that an atlas can vary") as refused:
+        plane(scene, {"hoop.R": (0.1, 0.2), "hoop.k": (0.1, 0.2)})
+    assert all(key in str(refused.value) for key in atlas_keys())
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])

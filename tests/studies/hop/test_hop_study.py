@@ -278,7 +278,7 @@ def test_a_threshold_that_a_third_of_the_tolerance_moves_is_told_with_its_doubt(
     study = HopStudy(scene, None, (Line(None, scene, windows(scene), mapped, finer=finer),))
     assert "A third of the tolerance moves the only threshold out of its bracket." in answer(study)
     (line,) = verdict(study)
-    assert "anywhere on its way below 7.07 ± 2.5 (more at a third of the tolerance)" in line
+    assert "anywhere on its way below 7.07 (between 5 and 10, more at a third of the tolerance)" in line
     assert "within its first pulse at no stiffness from 5 on" in line
     assert "The stiffest hoop that hops, 5, first does so at φ = 269°." in line
 

@@ -1,0 +1,56 @@
+"""Limits without an approach, out of sight, and foundations that cannot be."""
+
+from __future__ import annotations
+
+import pytest
+from command_line import is_one_sentence
+
+from rigid import load_scene
+from studies import limit_study
+from studies.limit.summary import other_sentences, term_sheet, verdict
+
+
+@pytest.fixture(scope="module")
+def frictionless():
+    return limit_study("paper-3.4-frictionless", foundations=())
+
+
+def test_without_friction_there_is_nothing_to_tend_to(frictionless):
+    """What is left of differences of energies is no loss, and 0 has no sign."""
+    terms = frictionless.prediction.terms
+    assert terms["friction_loss"].limit == 0
+    assert all(str(c) == "0.0" for term in terms.values() for _, c in term.powers)
+    _, approach = term_sheet(frictionless).columns
+    assert approach.cells == ["0"] * len(terms)
+    assert verdict(frictionless).endswith(" is 0 at any stiffness: there is no friction.")
+    said = "; ".join(other_sentences(frictionless))
+    assert "like" not in said
+    assert "no limit seen" not in said
+
+
+def test_a_hoop_that_slips_throughout_has_its_ratio_at_any_stiffness():
+    """-mu or mu, seen to the last bits: their round-off is no want of a limit."""
+    study = limit_study("paper-3.4-slippery", foundations=())
+    mu = load_scene("paper-3.4-slippery").friction.mu
+    assert f" is {mu:.6g} at any stiffness: " in verdict(study)
+    assert "no limit seen" not in "; ".join(other_sentences(study))
+
+
+def test_a_limit_that_could_not_be_seen_is_not_said_to_be_missing():
+    """k = 1e-5: its layers are separate from 2e23 on, far above all that is tried."""
+    tiny = limit_study("paper-3.4-tiny", foundations=())
+    assert tiny.separate > 1e20
+    (said,) = [each for each in other_sentences(tiny) if each.startswith("patch, no damping")]
+    assert said.endswith("no limit seen, nor would one be: up to 1e+12, the largest foundation tried, the layers are "
+                         "not separate")  # fmt: skip
+    usual = limit_study("paper-3.3-massless", foundations=())
+    (said,) = [each for each in other_sentences(usual) if each.startswith("patch, no damping")]
+    assert said.endswith("no limit seen")
+
+
+def test_a_foundation_that_cannot_be_is_refused_before_the_work(hoop, monkeypatch):
+    monkeypatch.setattr("studies.limit.study.predict", lambda scene: pytest.fail("this is the work"))
+    status, out, err = hoop("study", "limit", "paper-3.3-heavier", "--flexible", "1e12", "--flexible", "1e99")
+    assert (status, out) == (2, "")
+    assert "contact.stiffness = 1e+99 is not possible" in err
+    assert is_one_sentence(err)
