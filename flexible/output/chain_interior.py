@@ -27,7 +27,7 @@ from scipy.interpolate import CubicSpline
 
 from ..chain.rim import follow
 from ..chain.ring import PULLED, inverse_of
-from ..chain.rod.corotated import bends_and_stretches, chord, strains, stress, stress_at_weld
+from ..chain.rod.corotated import bends_and_stretches, chord, elastic
 from ..chain.rod.ends import chord_strains
 from ..chain.whole import sections
 from ..models.chain import ChainHoop
@@ -122,16 +122,16 @@ class ChainInterior(ExactInterior):
     def _carried(self, q: Array) -> tuple[Array, Array]:
         """Displacement of the nodes with the sections, (n_nodes, 2), and the rotation of the ring there, (n_nodes,)."""
         rod, a, z, circle = self.chain.chain.rod, self._radius, self._depth, self._circle
-        stretch = bends_and_stretches(rod, q)[1]
-        shear, bend = self._shears(q), np.zeros(len(q))
-        bend[1:-1] = CubicSpline(rod.theta[1:-1], q[1:-1, 2])(rod.theta[1:-1], 1)
+        shear, stretch = self._shears(q), bends_and_stretches(rod, q)[1]
+        bend, free = np.zeros(len(q)), rod.theta[1:-1]
+        bend[1:-1] = CubicSpline(free, q[1:-1, 2])(free, 1)
         bend[0], bend[-1] = bend[1], bend[-2]
         # the line of centres less the circle: slopes
-        slope = a * _turned_by(self._onward, q[:, 2] + shear)
-        slope += a * stretch[:, None] * (self._onward + slope / a)
+        slope = _turned_by(self._onward, q[:, 2] + shear)
+        slope += stretch[:, None] * (self._onward + slope)
         # the cubics with value and slope of a circle at the sections, less the circle, are no displacement
-        u, along = self._cubic(q[:, :2], slope)
-        turn, turning = (part[:, 0] for part in self._cubic(q[:, 2:], bend[:, None]))
+        u, along = self._cubic(q[:, :2], a * slope)
+        turn, turning = (column[:, 0] for column in self._cubic(q[:, 2:], bend[:, None]))
         onward = np.column_stack([-circle[:, 1], circle[:, 0]])
         longer = np.hypot(*(a * onward + along).T) / a - 1
         slides = (1 - self._xi) * shear[self._part] + self._xi * shear[self._part + 1]
@@ -155,16 +155,11 @@ class ChainInterior(ExactInterior):
 
     def _shears(self, q: Array) -> Array:
         """By how much the line of centres turns further than each section, (n + 2,): the shear of the parts there."""
-        rod, last = self.chain.chain.rod, len(q) - 2
-        shear = np.zeros(last + 1)
-        for p in range(last + 1):
-            _, _, now, x, tau_1, tau_2, w1, w2 = strains(rod, q, p)
-            if 0 < p < last:
-                _, s0, s1, s2 = stress(rod, p, x, tau_1, tau_2)
-            else:
-                _, s0, s1, s2 = stress_at_weld(rod, q, p, x, tau_1, tau_2)
-            shear[p] = -(s1 + s2 + s0 * (w1 + w2)) / now
-        shear *= self._yields
+        rod, force = self.chain.chain.rod, np.zeros_like(q)
+        elastic(rod, q, force)
+        pull = -np.cumsum(force, axis=0)[:-1, :2]  # what each part's end behind is pulled by
+        way = np.diff(rod.place + q[:, :2], axis=0)
+        shear = self._yields * (way[:, 0] * pull[:, 1] - way[:, 1] * pull[:, 0]) / np.hypot(*way.T)
         before, behind = np.diff(rod.theta)[:-1], np.diff(rod.theta)[1:]
         inner = (behind * shear[:-1] + before * shear[1:]) / (before + behind)
         return np.concatenate([shear[:1], inner, shear[-1:]])
