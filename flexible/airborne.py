@@ -6,13 +6,13 @@ from math import cos, sin
 
 import numpy as np
 
-from rigid import Kind, Motion, States
+from rigid import Aloft, Kind, Motion, States
 from rigid.output.units import without_units
-from rigid.solve import ON_THE_FLOOR, Aloft
 
 from .models.select import Hoop
 from .models.state import State, momentum
 
+ON_THE_FLOOR = Aloft()
 ON = 1e-3  # sqrt(R/g) over which the height of a flight is compared
 LOWEST = 1e-9  # R: height of a hoop that comes down on the floor
 LEAST = 1e-4  # M g R: a hop of less energy than that is over as soon as a rigid hoop takes over

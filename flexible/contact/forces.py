@@ -41,7 +41,8 @@ from .points.data import (
     Rim,
     Slip,
 )
-from .points.detection import dent_at, displaced, find, next_dent, place
+from .points.dent import dent_at, displaced, next_dent
+from .points.detection import find, place
 from .points.normal import force_by_gaps, press, sum_by_gaps
 from .points.rim import gap_at, lift, sideways, upward, vertex_angle
 from .room import PULL, SCRATCH, Room, carried_in, forces_in, foundation_in, keep, points_in, room_for
@@ -140,8 +141,7 @@ def _work_of_those_that_left(
         else:
             continue
         theta = j * law.spacing + share * dphi
-        psi = before.pose[2] - pi + j * law.spacing
-        rolled = share * dphi * lift(psi + share * dphi / 2)
+        rolled = share * dphi * lift(before.pose[2] - pi + theta - share * dphi / 2)
         was, left = next_dent(was, before, rim, j * law.spacing), next_dent(left, before, rim, theta)
         rolled += displaced(left, theta)[0] - displaced(was, j * law.spacing)[0]
         pull = bristles.pull[i] / 2
@@ -175,11 +175,11 @@ def _differentiate(room: Room, shared: Any, load: Load, s: float, c: float, dphi
         gather(points, foundation.force, 1 / load.elastic, along, bases[3])
         spread(bases[3], X, s, c, spreading)
         add(slip_by, 1.0, spreading)
-        slip_by[2] += dphi * (dot(foundation.force, points.sine) + dot(foundation.force, points.bend)) / load.elastic
+        slip_by[2] += (dphi * dot(foundation.force, points.sine) + dot(foundation.force, points.bend)) / load.elastic
         # through the normal forces, which weigh the mean slip
         factors, by_gap = room.rows[SCRATCH], room.rows[SCRATCH + 1]
         for i in range(factors.shape[0]):
-            factors[i] = (points.shift[i] + dphi * (points.lifted[i] + points.slope[i]) - way) / load.elastic
+            factors[i] = (points.shift[i] + dphi * points.lifted[i] + points.carried[i] - way) / load.elastic
         sum_by_gaps(factors, foundation, by_gap)
         gather(points, by_gap, 1.0, up, bases[4])
         spread(bases[4], Y, s, c, slip_by)
@@ -206,7 +206,7 @@ def _touch(
         way = _way_over_the_floor(pose, u, rim, before)
     else:
         moved = dot(foundation.force, points.shift) / elastic
-        way = moved + dphi * (dot(foundation.force, points.lifted) + dot(foundation.force, points.slope)) / elastic
+        way = moved + (dphi * dot(foundation.force, points.lifted) + dot(foundation.force, points.carried)) / elastic
     velocity = damper.velocity_0 + damper.rate * (way - damper.way_0)
     slip = Slip(way, damper.way_0, velocity, damper.rate, damper.drag, damper.held)
     carry(carried, points, before, rim, dphi, damper, slip, moved)

@@ -18,7 +18,7 @@ from .points.data import Bristles, PointForces
 from .points.detection import Points
 from .points.normal import Foundation
 
-POINTS, FOUNDATION, CARRIED, FORCES, PULL, SCRATCH, ROWS = 0, 13, 16, 23, 28, 29, 31  # where they begin in the rows
+POINTS, FOUNDATION, CARRIED, FORCES, PULL, SCRATCH, ROWS = 0, 14, 17, 24, 29, 30, 32  # where they begin in the rows
 BASES, UNKNOWNS = 5, 6
 
 
@@ -45,7 +45,7 @@ def points_in(room: Room) -> Any:
     rows, whole = room.rows, room.whole
     return Points(
         whole[0], room.flags[0], whole[1], room.shape, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6],
-        rows[7], rows[8], rows[9], rows[10], rows[11], rows[12],
+        rows[7], rows[8], rows[9], rows[10], rows[11], rows[12], rows[13],
     )  # fmt: skip
 
 

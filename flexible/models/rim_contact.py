@@ -24,6 +24,8 @@ KNOWN = EXACTLY, 1e-4  # of 1 + N: Newton's least and largest tolerance on the f
 #: least share of a step's tolerance on a soft ring; E I from which on it may have all of it, and rtol down from which;
 #: E I below which the first and the last are less, like its power 3/2
 STEPS = 0.3, 33.0, 3e-4, 1.0
+#: wall over R from which on a step may have less of the tolerance, how much of it, and rtol down from which
+THICK = 0.15, 0.5, 3e-4
 #: modes by whose error steps are chosen of a ring of nodes or parts; a reduced one has all of its own
 SLOW = 24
 COARSE = 1e-3  # rtol at which a law has its number of points; their share of the error falls like its cube, and faster
@@ -104,6 +106,15 @@ def share_of_steps(scene: Scene) -> float:
     return min(max(of_softer, bending / stiff), 1.0) * LAWS[scene.contact.law].steps_of_soft
 
 
+def share_of_linear_steps(scene: Scene) -> float:
+    """The same of a linear ring: the less of a thick wall, whose dents come and go with its nodes.
+
+    See README.md, section 5.
+    """
+    wall, share, rtol = THICK
+    return share if scene.wall >= wall and scene.solve.rtol <= rtol else 1.0
+
+
 class RimContact:
     """The rim of a scene's hoop as the floor sees it.
 
@@ -130,7 +141,7 @@ class RimContact:
         self.law = contact_law(scene, len(vertex), points, within)
         self.element = 2 * pi / len(vertex)
         self.relaxation = relaxation_time(scene)
-        self.steps = 1.0 if self.linear else share_of_steps(scene)
+        self.steps = share_of_linear_steps(scene) if self.linear else share_of_steps(scene)
 
     @property
     def arrays(self) -> Any:

@@ -2,6 +2,7 @@
 
 ``data``       what goes through compiled code by name: parameters, damper, forces of points, resultants
 ``rim``        where its elements and nodes are, and how far its points are over the floor
+``dent``       how far sideways the rim was displaced when a step began, by the angle
 ``detection``  which points touch, where they are, how they moved since the step began
 ``normal``     the foundation under them
 ``bristles``   the bristles that they carry along the floor

@@ -14,7 +14,7 @@ import numpy as np
 from rigid.kernel.compile import jit, loop
 
 from .data import Before, Bristles, Damper, Parameters, PointForces, Resultants, Rim, Slip
-from .detection import dent_at, displaced, next_dent
+from .dent import dent_at, displaced, next_dent
 from .rim import lift
 
 HELD = 1 / 64  # of the square of the points' distance: a spot of the rim less deep lets go of its bristles

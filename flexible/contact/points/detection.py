@@ -14,6 +14,7 @@ import numpy as np
 from rigid.kernel.compile import loop
 
 from .data import Before, Rim
+from .dent import Dent, displaced, next_dent, through_dent
 from .rim import element_at, gap_at, lift, shape_functions, sideways, upward, vertex_angle
 
 TURNED_ON = 8  # points to one whose sine and cosine are computed: as many roundings
@@ -159,63 +160,10 @@ class Points(NamedTuple):
     sine: Any  # of psi
     lifted: Any  # height of the undeformed circle there over its lowest point
     dented: Any  # sideways displacement of the rim there when the step began: of another point of it
-    slope: Any  # its derivative by psi, and
-    bend: Any  # the second one
+    slope: Any  # its derivative by psi
+    carried: Any  # way along that dent that stands for the point's in the step, and
+    bend: Any  # its derivative by phi, the slope left out
     shift: Any  # what of ``move`` is not the way along that dent
-
-
-class Dent(NamedTuple):
-    """An element of the rim as it was when the step began: its sideways displacement x + rise xi + bend xi^2."""
-
-    start: float  # material angles
-    end: float
-    x: float
-    rise: float
-    bend: float
-
-
-@loop
-def dent_at(before: Before, rim: Rim, theta: float) -> Dent:
-    """The element that holds a material angle; beyond those near the floor the displacement is that of the last node.
-
-    It is 0 everywhere of a hoop that was off the floor.
-    """
-    u, first = before.dent, before.first
-    if u.shape[0] == 0:
-        return Dent(-inf, inf, 0.0, 0.0, 0.0)
-    s, c = sin(before.pose[2]), cos(before.pose[2])
-    last = first + (u.shape[0] - 1) // 2
-    element = element_at(rim.vertex, theta)
-    if element < first:
-        return Dent(-inf, vertex_angle(rim.vertex, first), sideways(u[0, 0], u[0, 1], s, c), 0.0, 0.0)
-    if element >= last:
-        return Dent(vertex_angle(rim.vertex, last), inf, sideways(u[-1, 0], u[-1, 1], s, c), 0.0, 0.0)
-    k = 2 * (element - first)
-    x0 = sideways(u[k, 0], u[k, 1], s, c)
-    x1 = sideways(u[k + 1, 0], u[k + 1, 1], s, c)
-    x2 = sideways(u[k + 2, 0], u[k + 2, 1], s, c)
-    start, end = vertex_angle(rim.vertex, element), vertex_angle(rim.vertex, element + 1)
-    return Dent(start, end, x0, 4 * x1 - 3 * x0 - x2, 2 * (x0 + x2) - 4 * x1)
-
-
-@loop
-def displaced(dent: Dent, theta: float) -> tuple[float, float, float]:
-    """Sideways displacement at a material angle in the element, and its derivatives by that."""
-    if dent.rise == 0 and dent.bend == 0:
-        return dent.x, 0.0, 0.0
-    width = dent.end - dent.start
-    xi = (theta - dent.start) / width
-    return (
-        dent.x + xi * (dent.rise + xi * dent.bend),
-        (dent.rise + 2 * xi * dent.bend) / width,
-        2 * dent.bend / width**2,
-    )
-
-
-@loop
-def next_dent(dent: Dent, before: Before, rim: Rim, theta: float) -> Dent:
-    """The same element where it still holds the angle, another one where it does not."""
-    return dent if dent.start <= theta < dent.end else dent_at(before, rim, theta)
 
 
 @loop
@@ -224,7 +172,7 @@ def place(
 ) -> bool:  # fmt: skip
     """Fill in the points of so many ranges; whether the window of rim elements is too short for them."""
     number, last, local, shape, arm_x, arm_y, gap, gap_old, move, rolled, angle, sines, lifted = points[:13]
-    dents, slope, bend, shift = points[13:]
+    dents, slope, carried, bend, shift = points[13:]
     first, vertex, count = rim.first, rim.vertex, (u.shape[0] - 1) // 2
     old_pose, u_old = before.pose, before.u
     height, phi, phi_old = pose[1], pose[2], old_pose[2]
@@ -271,7 +219,8 @@ def place(
             if before.dent.shape[0] > 0:
                 there = theta + dphi
                 dent = next_dent(dent, before, rim, there)
-                dents[m], slope[m], bend[m] = displaced(dent, there)
+                dents[m], slope[m], _ = displaced(dent, there)
+                carried[m], bend[m] = through_dent(dent, before, rim, there, dphi, spacing)
                 shift[m] = dv + ux - dents[m]
             m += 1
         last[m - 1] = 1

@@ -1,0 +1,90 @@
+"""The dent: how far sideways the rim was displaced when a step began, as a function of the angle.
+
+In rolling material points go through a dent that stands still, so that what moves one is how far it goes along it.
+"""
+
+from __future__ import annotations
+
+from math import cos, inf, sin
+from typing import NamedTuple
+
+from rigid.kernel.compile import loop
+
+from .data import Before, Rim
+from .rim import element_at, sideways, vertex_angle
+
+
+class Dent(NamedTuple):
+    """An element of the rim as it was when the step began: its sideways displacement x + rise xi + bend xi^2."""
+
+    start: float  # material angles
+    end: float
+    x: float
+    rise: float
+    bend: float
+
+
+@loop
+def dent_at(before: Before, rim: Rim, theta: float) -> Dent:
+    """The element that holds a material angle; beyond those near the floor the displacement is that of the last node.
+
+    It is 0 everywhere of a hoop that was off the floor.
+    """
+    u, first = before.dent, before.first
+    if u.shape[0] == 0:
+        return Dent(-inf, inf, 0.0, 0.0, 0.0)
+    s, c = sin(before.pose[2]), cos(before.pose[2])
+    element = element_at(rim.vertex, theta)
+    if rim.first <= element < rim.first + (before.u.shape[0] - 1) // 2:  # what is near the floor now was known as well
+        u, first = before.u, rim.first
+    last = first + (u.shape[0] - 1) // 2
+    if element < first:
+        return Dent(-inf, vertex_angle(rim.vertex, first), sideways(u[0, 0], u[0, 1], s, c), 0.0, 0.0)
+    if element >= last:
+        return Dent(vertex_angle(rim.vertex, last), inf, sideways(u[-1, 0], u[-1, 1], s, c), 0.0, 0.0)
+    k = 2 * (element - first)
+    x0 = sideways(u[k, 0], u[k, 1], s, c)
+    x1 = sideways(u[k + 1, 0], u[k + 1, 1], s, c)
+    x2 = sideways(u[k + 2, 0], u[k + 2, 1], s, c)
+    start, end = vertex_angle(rim.vertex, element), vertex_angle(rim.vertex, element + 1)
+    return Dent(start, end, x0, 4 * x1 - 3 * x0 - x2, 2 * (x0 + x2) - 4 * x1)
+
+
+@loop
+def displaced(dent: Dent, theta: float) -> tuple[float, float, float]:
+    """Sideways displacement at a material angle in the element, and its derivatives by that."""
+    if dent.rise == 0 and dent.bend == 0:
+        return dent.x, 0.0, 0.0
+    width = dent.end - dent.start
+    xi = (theta - dent.start) / width
+    return (
+        dent.x + xi * (dent.rise + xi * dent.bend),
+        (dent.rise + 2 * xi * dent.bend) / width,
+        2 * dent.bend / width**2,
+    )
+
+
+@loop
+def through_dent(
+    dent: Dent, before: Before, rim: Rim, theta: float, dphi: float, spacing: float
+) -> tuple[float, float]:
+    """How much farther sideways a turn ``dphi`` takes what is at a material angle now, and the derivative by the turn
+    of what that is beyond the displacement there.
+
+    Of a turn longer than the points' distance the dent's slope over that, about the angle, stands for all of the way:
+    a mean, as the slope itself jumps from element to element.
+    """
+    if abs(dphi) <= spacing:
+        return displaced(dent, theta)[0] - displaced(next_dent(dent, before, rim, theta - dphi), theta - dphi)[0], 0.0
+    part = spacing if dphi > 0 else -spacing
+    ahead = theta + part / 2 * (1 - part / dphi)
+    x, x_by, _ = displaced(next_dent(dent, before, rim, ahead), ahead)
+    y, y_by, _ = displaced(next_dent(dent, before, rim, ahead - part), ahead - part)
+    moves = 1 + part**2 / (2 * dphi**2)
+    return (x - y) * dphi / part, (x - y + (x_by - y_by) * moves * dphi) / part - displaced(dent, theta)[1]
+
+
+@loop
+def next_dent(dent: Dent, before: Before, rim: Rim, theta: float) -> Dent:
+    """The same element where it still holds the angle, another one where it does not."""
+    return dent if dent.start <= theta < dent.end else dent_at(before, rim, theta)
