@@ -24,8 +24,8 @@ KNOWN = EXACTLY, 1e-4  # of 1 + N: Newton's least and largest tolerance on the f
 #: least share of a step's tolerance on a soft ring; E I from which on it may have all of it, and rtol down from which;
 #: E I below which the first and the last are less, like its power 3/2
 STEPS = 0.3, 33.0, 3e-4, 1.0
-#: wall over R from which on a step may have less of the tolerance, how much of it, and rtol down from which
-THICK = 0.15, 0.5, 3e-4
+#: wall over R from which on a step may have less of the tolerance, how much of it, and from which rtol down how much
+THICK = 0.15, 0.7, 3e-4, 0.5
 #: modes by whose error steps are chosen of a ring of nodes or parts; a reduced one has all of its own
 SLOW = 24
 COARSE = 1e-3  # rtol at which a law has its number of points; their share of the error falls like its cube, and faster
@@ -111,8 +111,10 @@ def share_of_linear_steps(scene: Scene) -> float:
 
     See README.md, section 5.
     """
-    wall, share, rtol = THICK
-    return share if scene.wall >= wall and scene.solve.rtol <= rtol else 1.0
+    wall, share, rtol, of_fine = THICK
+    if scene.wall < wall:
+        return 1.0
+    return of_fine if scene.solve.rtol <= rtol else share
 
 
 class RimContact:

@@ -3,7 +3,7 @@
 Everything follows from the states at both ends: the impulses are those of the momentum of G, the friction
 loss is the lost energy. A pulse in which the run begins or ends is listed as far as the run saw it, and marked as
 cut: one that lacks its bottom too, if the disk was on its way from it (release) or to it (end) below the hoop's
-centre. What is split at the bottom, its restitution, is then unknown, as it is of a pulse that opens there.
+centre. What is split at the bottom, its restitution, is then unknown. It is 0 of a pulse that opens there, before which nothing is compressed.
 """
 
 # mypy: allow-untyped-defs
@@ -187,12 +187,11 @@ def write_pulse(par, state, events):
     events[r + 11] = state[P_ENERGY] - energy(par, state)
     events[r + 12] = state[P_PEAK]
     compression = -y0 + (state[P_T_BOTTOM] - state[P_T])
-    if state[P_CUT] != 0.0 or compression <= AT_BOTTOM * normal:
-        events[r + 13] = events[r + 14] = events[r + 15] = nan
-    else:
+    events[r + 13] = events[r + 14] = events[r + 15] = nan if state[P_CUT] != 0.0 else 0.0
+    if state[P_CUT] == 0.0 and compression > AT_BOTTOM * normal:
         work_in = -0.5 * y0 * y0 - e * state[P_H]
         work_out = 0.5 * y * y + e * h
-        events[r + 13] = -y / y0 if y0 != 0 else nan
+        events[r + 13] = -y / y0 if y0 != 0 else 0.0
         events[r + 14] = (normal - compression) / compression
         events[r + 15] = sqrt(work_out / -work_in) if work_in < 0 else 0.0
     events[r + PULSE_CUT] = state[P_CUT]
