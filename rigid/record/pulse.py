@@ -3,7 +3,8 @@
 Everything follows from the states at both ends: the impulses are those of the momentum of G, the friction
 loss is the lost energy. A pulse in which the run begins or ends is listed as far as the run saw it, and marked as
 cut: one that lacks its bottom too, if the disk was on its way from it (release) or to it (end) below the hoop's
-centre. What is split at the bottom, its restitution, is then unknown. It is 0 of a pulse that opens there, before which nothing is compressed.
+centre. What is split at the bottom, its restitution, is then unknown. It is 0 of a pulse that opens there, before
+which nothing is compressed.
 """
 
 # mypy: allow-untyped-defs
