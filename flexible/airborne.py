@@ -12,7 +12,6 @@ from rigid.output.units import without_units
 from .models.select import Hoop
 from .models.state import State, momentum
 
-ON_THE_FLOOR = Aloft()
 ON = 1e-3  # sqrt(R/g) over which the height of a flight is compared
 LOWEST = 1e-9  # R: height of a hoop that comes down on the floor
 LEAST = 1e-4  # M g R: a hop of less energy than that is over as soon as a rigid hoop takes over
@@ -37,7 +36,7 @@ def taken_over(hoop: Hoop, state: State) -> tuple[float, Aloft]:
     In flight its mass centre is where that one's is and moves as it does. On the floor, where that one touches it or
     all but does, it moves along the floor alone: what energy the other has beyond that is lost.
     """
-    on_the_floor = float(hoop.law.handed_back(state)), ON_THE_FLOOR
+    on_the_floor = float(hoop.law.handed_back(state)), Aloft()
     if state.res.elastic > 0:
         return on_the_floor
     scene = hoop.scene.hoop

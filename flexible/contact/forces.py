@@ -248,16 +248,8 @@ def example() -> tuple[tuple[Any, ...], Contact]:
     bristles = Bristles(count, row, row, np.empty(0, np.int8))
     law = Parameters(number, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     contact = Contact(row, table, table, NOTHING, bristles, False, row, row, row)
-    return (
-        row,
-        table,
-        Rim(number, row),
-        law,
-        number,
-        Before(row, table, bristles, number, table),
-        UNDAMPED,
-        False,
-    ), contact
+    before = Before(row, table, bristles, number, table)
+    return (row, table, Rim(number, row), law, number, before, UNDAMPED, False), contact
 
 
 @apart(example)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import ceil, floor, inf, pi
 
 from rigid import Kind, Motion, Pulse
@@ -28,7 +29,8 @@ def comes_to(segment: Segment, motion: Motion, pulse: Pulse) -> float | None:
     it has landed by then.
     """
     enters = segment.crossing(pulse.phi_start, segment.t_start)
-    lands = any(phase.kind is Kind.IMPACT and phase.t_start == pulse.t_start for phase in motion.phases)
+    phases = pairwise(motion.phases)
+    lands = any(before.kind is Kind.FLIGHT and phase.t_start == pulse.t_start for before, phase in phases)
     return segment.in_the_air(enters) if enters is not None and lands else enters
 
 

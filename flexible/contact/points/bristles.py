@@ -130,7 +130,7 @@ def carry(
             touched[i] = True
             theta_in = pi + psi_in - before.pose[2]
             dent = next_dent(dent, before, rim, theta_in)
-            dent_in, slope_in, _ = displaced(dent, theta_in)
+            dent_in, slope_in = displaced(dent, theta_in)
             shift = points.shift[i]
             ending = ratio * (shift - start)
             psi = points.psi[i]

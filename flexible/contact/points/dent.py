@@ -51,17 +51,13 @@ def dent_at(before: Before, rim: Rim, theta: float) -> Dent:
 
 
 @loop
-def displaced(dent: Dent, theta: float) -> tuple[float, float, float]:
-    """Sideways displacement at a material angle in the element, and its derivatives by that."""
+def displaced(dent: Dent, theta: float) -> tuple[float, float]:
+    """Sideways displacement at a material angle in the element, and its derivative by that."""
     if dent.rise == 0 and dent.bend == 0:
-        return dent.x, 0.0, 0.0
+        return dent.x, 0.0
     width = dent.end - dent.start
     xi = (theta - dent.start) / width
-    return (
-        dent.x + xi * (dent.rise + xi * dent.bend),
-        (dent.rise + 2 * xi * dent.bend) / width,
-        2 * dent.bend / width**2,
-    )
+    return dent.x + xi * (dent.rise + xi * dent.bend), (dent.rise + 2 * xi * dent.bend) / width
 
 
 @loop
@@ -78,8 +74,8 @@ def through_dent(
         return displaced(dent, theta)[0] - displaced(next_dent(dent, before, rim, theta - dphi), theta - dphi)[0], 0.0
     part = spacing if dphi > 0 else -spacing
     ahead = theta + part / 2 * (1 - part / dphi)
-    x, x_by, _ = displaced(next_dent(dent, before, rim, ahead), ahead)
-    y, y_by, _ = displaced(next_dent(dent, before, rim, ahead - part), ahead - part)
+    x, x_by = displaced(next_dent(dent, before, rim, ahead), ahead)
+    y, y_by = displaced(next_dent(dent, before, rim, ahead - part), ahead - part)
     moves = 1 + part**2 / (2 * dphi**2)
     return (x - y) * dphi / part, (x - y + (x_by - y_by) * moves * dphi) / part - displaced(dent, theta)[1]
 

@@ -219,7 +219,7 @@ def place(
             if before.dent.shape[0] > 0:
                 there = theta + dphi
                 dent = next_dent(dent, before, rim, there)
-                dents[m], slope[m], _ = displaced(dent, there)
+                dents[m], slope[m] = displaced(dent, there)
                 carried[m], bend[m] = through_dent(dent, before, rim, there, dphi, spacing)
                 shift[m] = dv + ux - dents[m]
             m += 1
