@@ -148,7 +148,10 @@ def scenes(name: str | None) -> None:
 @scene_argument
 @click.argument("file", type=click.Path(path_type=Path))
 def mesh(scene: str, file: Path) -> None:
-    """Write the ring's mesh; the suffix of FILE says in which format (.msh, .vtu, ...)."""
+    """Write the ring's mesh; the suffix of FILE says in which format (.msh, .vtu, ...).
+
+    Lengths are in R, or in metres where the scene is in SI units.
+    """
     from .shared.output import write_mesh
 
     click.echo(write_mesh(load_scene(scene), file))

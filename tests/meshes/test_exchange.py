@@ -42,6 +42,23 @@ def test_round_trip(tmp_path, suffix):
     assert np.allclose(np.linalg.norm(ends[:, 0] - mids, axis=1), chord / 2, rtol=0.01)
 
 
+@pytest.mark.parametrize("suffix", [".vtk", ".vtu"])
+def test_vtk_reads_the_numbers_of_the_boundaries(suffix, tmp_path):
+    """It does not know every kind of whole number that meshio writes, and leaves out what it does not know."""
+    pyvista = pytest.importorskip("pyvista")
+    ring = ring_mesh(0.98, 1.0, 24)
+    save_mesh(ring, tmp_path / f"ring{suffix}")
+    tags = np.asarray(pyvista.read(tmp_path / f"ring{suffix}").cell_data["boundary"])
+    assert np.bincount(tags).tolist() == [len(ring.quad9), 24, 24, len(ring.weld_nodes) // 2]
+
+
+@pytest.mark.parametrize("suffix", [".vtk", ".msh"])
+def test_lengths_are_in_the_unit_that_is_asked(suffix, tmp_path):
+    ring = ring_mesh(0.98, 1.0, 24)
+    save_mesh(ring, tmp_path / f"ring{suffix}", 0.25)
+    np.testing.assert_array_equal(meshio.read(tmp_path / f"ring{suffix}").points[:, :2], 0.25 * ring.points)
+
+
 @pytest.mark.parametrize(
     "suffix", [".nonsense", ".stl", ".med", ".hmf", ".xdmf", ".mesh", ".su2", ".svg", ".wkt", ".bdf", ".f3grid", ""]
 )

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rigid import Motion, Run, Scene
+from rigid.output.units import Unit
 
 from ...running import history
 from ...running.files import StudyError, to_json, trouble, write_text
@@ -125,7 +126,7 @@ def write_first_pulse(scene: Scene, out: Path) -> None:
 
 
 def write_mesh(scene: Scene, path: Path) -> str:
-    """Write the mesh of a scene's ring, in units of R, and say how good it is.
+    """Write the mesh of a scene's ring, in units of R or, of a scene in SI units, in m; say so and how good it is.
 
     Raises
     ------
@@ -138,14 +139,14 @@ def write_mesh(scene: Scene, path: Path) -> str:
 
     ring = ring_for(scene.to_dimensionless()).mesh
     try:
-        save_mesh(ring, path)
+        save_mesh(ring, path, scene.hoop.R)
     except MeshError as error:
         raise StudyError(str(error)) from None
     except OSError as error:
         raise StudyError(trouble(error, path)) from None
     quality = ring.quality()
     return (
-        f"{path}: {quality.elements} nine-node quads, {quality.nodes} nodes.\n"
+        f"{path}: {quality.elements} nine-node quads, {quality.nodes} nodes, lengths in {Unit.LENGTH.label(scene)}.\n"
         f"Area off by {quality.area_error:.1e}, outer length by {quality.outer_length_error:.1e}.\n"
         f"Elements up to {quality.aspect:.2f} times longer than wide."
     )

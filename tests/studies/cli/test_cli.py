@@ -10,6 +10,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import meshio
+import numpy as np
 import pytest
 from command_line import HANGS, SCENE, environment, is_one_sentence, process
 
@@ -232,6 +234,17 @@ def test_a_mesh_by_the_name_of_a_folder_is_one_sentence(hoop, name):
     status, out, err = hoop("mesh", "paper-3.3-light", name)
     assert (status, out) == (2, "")
     assert is_one_sentence(err)
+
+
+@pytest.mark.parametrize(("units", "length", "unit"), [("", 1.0, "R"), ("R = 0.1\nm = 0.2\ng = 9.81\n", 0.1, "m")])
+def test_a_mesh_has_the_lengths_of_its_scene(hoop, tmp_path, units, length, unit):
+    """In metres where R, m and g are in SI units, as the fields of the same scene are; which is said."""
+    (tmp_path / "scene.toml").write_text(SCENE.format(k=0.25).replace("[friction]", f"{units}[friction]"))
+    status, out, _ = hoop("mesh", tmp_path / "scene.toml", tmp_path / "ring.vtu")
+    assert status == 0
+    assert f"lengths in {unit}." in out
+    points = meshio.read(tmp_path / "ring.vtu").points
+    assert np.linalg.norm(points, axis=1).max() == pytest.approx(length, rel=1e-12)
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
