@@ -32,13 +32,12 @@ def scalar(block: Block, field: str) -> Array:
     ViewError
         A field that the series does not hold.
     """
-    if field.startswith("stress ") and "stress" in block.point_data:
-        column = {"xx": 0, "yy": 1, "xy": 2}.get(field.removeprefix("stress "))
-        if column is not None:
-            return np.asarray(block.point_data["stress"][:, column], dtype=float)
-    if field not in block.point_data:
-        known = ", ".join(field_names(block)) or "none"
+    if field not in (names := field_names(block)):
+        known = ", ".join(names) or "none"
         raise ViewError(f"there is no field {field!r} to colour the ring by; the series holds: {known}.")
+    if field.startswith("stress "):
+        column = {"xx": 0, "yy": 1, "xy": 2}[field.removeprefix("stress ")]
+        return np.asarray(block.point_data["stress"][:, column], dtype=float)
     value = np.asarray(block.point_data[field], dtype=float)
     return value if value.ndim == 1 else np.asarray(np.linalg.norm(value, axis=1))
 

@@ -12,7 +12,7 @@ import click
 from rigid import Motion, load_scene
 
 from ..running.files import StudyError
-from .shared.options import Names, SceneName, field_names
+from .shared.options import Names, SceneName, colour_names
 
 if TYPE_CHECKING:
     from meshes import Series
@@ -35,7 +35,7 @@ SHOWN = "by default so much that the largest displacement is 2 to 6 % of R, not 
 @click.option("--gif", type=FILE, metavar="FILE", help="Animate the run.")
 @click.option("--mp4", type=FILE, metavar="FILE", help="Animate the run.")
 @click.option("--html", type=FILE, metavar="FILE", help="Animate the run in a page with a slider.")
-@click.option("--field", type=Names(field_names), metavar="NAME", help="What is coloured; von_mises by default.")
+@click.option("--field", type=Names(colour_names), metavar="NAME", help="What is coloured; von_mises by default.")
 @click.option("--factor", type=float, metavar="X", help=f"How much the deformation is exaggerated; {SHOWN}.")
 @click.option("--zoom", type=float, metavar="X", help="Enlarge what is about the contact, X from 1, the default.")
 @click.option("--start", type=float, metavar="T", help=f"Begin the animation at this time, {TIME}.")

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from meshes import Block, Placement
+from meshes.draw.display import ViewError
 from meshes.draw.scales import limits, scalar, scale_of, tidy, tidy_factor
 from meshes.draw.shots import Curves, Shot
 from meshes.fields import LINE
@@ -56,6 +57,14 @@ def test_a_component_of_the_stress_is_that_of_the_world(phi, pulled):
     block = Block(np.zeros((1, 3)), np.zeros((1, 2), dtype=int), LINE, {"stress": stress})
     told = {component: float(scalar(block, f"stress {component}")[0]) for component in ("xx", "yy", "xy")}
     assert told == pytest.approx({"xx": 0.0, "yy": 0.0, "xy": 0.0} | {pulled: 3.0}, abs=1e-15)
+
+
+@pytest.mark.parametrize("field", ["stress", "stress zz", "strain"])
+def test_a_ring_is_coloured_by_what_is_listed_and_by_nothing_else(field):
+    """Of a tensor that are its components: its norm as that of a vector would count the shear once."""
+    block = Block(np.zeros((1, 3)), np.zeros((1, 2), dtype=int), LINE, {"stress": np.ones((1, 3))})
+    with pytest.raises(ViewError, match="the series holds: stress xx, stress yy, stress xy"):
+        scalar(block, field)
 
 
 def coloured(values):

@@ -118,6 +118,13 @@ def field_names() -> list[str]:
     return list(FIELDS)
 
 
+def colour_names() -> list[str]:
+    """Those of them that colour the ring, each a word: of the stress there are its components, "stress xx"."""
+    from flexible.output.fields import RING_FIELDS
+
+    return [name for name in RING_FIELDS if name != "stress"]
+
+
 scene_argument = click.argument("scene", type=SceneName())
 
 as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON on stdout and nothing else.")

@@ -49,6 +49,9 @@ def test_a_shell_completes_commands_scenes_and_keys():
     assert completed("hoop", "study", "hop", "--over", "release.") == ["release.phi0_deg="]
     assert "landing.restitution=" in completed("hoop", "study", "atlas", "--over", "")
     assert completed("hoop", "flexible", "--only", "von_mises,dis") == ["von_mises,displacement"]
+    offered = completed("hoop", "view", "x", "--field", "")
+    assert "hoop_stress" in offered
+    assert "stress" not in offered  # which is a tensor
     assert "--quiet" in completed("hoop", "study", "limit", "--q")
 
 
