@@ -92,7 +92,7 @@ class Layout:
         low = top + self.view_box[3] * ABOVE_FLOOR - 0.8 * em
         self._factor = self._text(left, low, "", color=style.FAINT, moving=True)
         caption = {"color": style.FAINT, "ha": "center", "va": "center", "fontsize": 0.8 * self.type}
-        self._lens = self._text(0, 0, "", moving=True, **caption)
+        self._lens, self._under = self._text(0, 0, "", moving=True, **caption), 0.9 * em
         self.canvas.draw()
         self._blank = self.canvas.copy_from_bbox(self.figure.bbox)
         self._keep_ink()
@@ -129,7 +129,7 @@ class Layout:
         self._factor.set_text("" if rigid else f"deformation × {factor:g}")
         self._lens.set_text("" if lens is None else lens[2])
         if lens is not None:
-            x, y = lens[0] / self.size[0], 1 - (top + lens[1] + 0.9 * self.type * 100 / 72) / self.size[1]
+            x, y = lens[0] / self.size[0], 1 - (top + lens[1] + self._under) / self.size[1]
             self._lens.set_position((x, y))
         if self._plot is not None:
             self._plot.show(shot)
@@ -139,6 +139,12 @@ class Layout:
         for artist in self._moving:
             (artist.axes or self.figure).draw_artist(artist)
         return np.array(np.asarray(self.canvas.buffer_rgba())[..., :3])
+
+    def caption_size(self, text: str) -> tuple[float, float]:
+        """Width of a caption below the lens, and how far below it that ends, in pixels."""
+        self._lens.set_text(text)
+        box = self._lens.get_window_extent(self.canvas.get_renderer())
+        return float(box.width), self._under + float(box.height) / 2
 
     def _logarithmic(self, axes: Any, usual: float, low: float, high: float) -> None:
         """An axis that is linear about zero and logarithmic beyond the usual force."""

@@ -92,7 +92,7 @@ class Window:
     def page(self, shot: Shot) -> Image:
         """What lies over the view: text, curves, patch and lens on white paper, (height, width, 3) bytes."""
         view, caption = self._paper, None
-        if self.lens is not None and self.lens.fits(shot):
+        if self.lens is not None and self.lens.fits(shot, self.factor):
             view = self._paper.copy()
             caption = self.lens.draw(view, shot, view.shape[1] / 2, ABOVE_FLOOR * view.shape[0])
         return self.layout.fill(view, shot, self.factor, caption)
@@ -149,7 +149,8 @@ class Window:
         chosen, self.lens = self.setting, None
         if self.colours is not None and chosen.zoom == 1 and enlargement(chosen.first) >= 2:
             scale = self.size[1] / self.renderer.height
-            self.lens = Lens(chosen.first, scale, self.colours, chosen.lens_factor)
+            measure = self.layout.caption_size
+            self.lens = Lens(chosen.first, scale, self.colours, chosen.lens_factor, measure)
 
 
 class Overlay:

@@ -96,7 +96,8 @@ class Camera:
         self.scale = height / self.height
         self.lens = None
         if chosen.colours is not None and chosen.zoom == 1 and enlargement(chosen.first) >= 2:
-            self.lens = Lens(chosen.first, self.scale, chosen.colours, chosen.lens_factor)
+            measure = self.layout.caption_size
+            self.lens = Lens(chosen.first, self.scale, chosen.colours, chosen.lens_factor, measure)
 
     def __enter__(self) -> Camera:
         return self
@@ -112,7 +113,7 @@ class Camera:
         middle = self._middle(shot)
         self.renderer.show(shot, self.setting.factor, middle)
         drawn, caption = self.renderer.image(), None
-        if self.lens is not None and self.lens.fits(shot):
+        if self.lens is not None and self.lens.fits(shot, self.setting.factor):
             column = drawn.shape[1] / 2 + (float(shot.centre[0]) - middle) * self.scale
             caption = self.lens.draw(drawn, shot, column, ABOVE_FLOOR * drawn.shape[0])
         return self.layout.fill(drawn, shot, self.setting.factor, caption)

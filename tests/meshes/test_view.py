@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from meshes import SeriesError, SeriesWriter, read
+from meshes import SeriesError, SeriesWriter, disk_block, read
 from meshes.draw import display as renderer_module
 from meshes.draw.display import probe, renderer_problem
 from meshes.draw.lens import enlargement
@@ -409,6 +409,42 @@ def test_the_lens_enlarges_the_wall_above_the_contact(series):
         inside = coloured(page)[int(row) - size : int(row) + size, int(column)].sum()
         wall = 0.0196 * camera.scale * 6
         assert inside == pytest.approx(wall, abs=3)  # lines along both edges of the wall are a pixel wide
+
+
+@needs_renderer
+@pytest.mark.parametrize("distance", [0.15, 0.35, 0.6])
+def test_the_disk_is_never_over_what_is_printed_below_the_lens(series, distance):
+    """Wherever the disk is: no pixel of the caption is painted by it, and where it is far away there is a lens."""
+    with Camera(setting(series), SIZE) as camera:
+        shot = camera.setting.source.shot(0.4)
+        lens, layout = camera.lens, camera.layout
+        column, _ = pixel(camera, np.array([shot.centre[0], 0.0]), camera._middle(shot))
+        fits = []
+        for phi in np.linspace(0, 2 * np.pi, 73):
+            disk = disk_block(shot.centre + distance * np.array([np.sin(phi), np.cos(phi)]), 0.2, phi)
+            moved = replace(shot, disk=disk)
+            fits.append(lens.fits(moved))
+            if fits[-1]:
+                view = np.full((*layout.view_box[3:1:-1], 3), 255, dtype=np.uint8)
+                layout.fill(view, moved, 1.0, lens.draw(view, moved, column, ABOVE_FLOOR * layout.view_box[3]))
+                box = layout._lens.get_window_extent()
+                x, row = pixel(camera, disk.points[1:], camera._middle(shot))
+                y = SIZE[1] - row
+                assert not ((x > box.x0) & (x < box.x1) & (y > box.y0) & (y < box.y1)).any()
+        assert any(fits) == (distance == 0.6)
+        assert not all(fits)
+
+
+@needs_renderer
+def test_no_lens_over_an_empty_floor(series):
+    """In flight the rim is soon above all that the lens shows; on the floor and just off it is within."""
+    with Camera(setting(series), SIZE) as camera:
+        shot = camera.setting.source.shot(0.4)
+        found = []
+        for height in (0.0, 0.05, 0.2):
+            ring = replace(shot.ring, points=shot.ring.points + np.array([0.0, height, 0.0]))
+            found.append(camera.lens.fits(replace(shot, ring=ring, centre=shot.centre + np.array([0.0, height]))))
+    assert found == [True, True, False]
 
 
 def test_no_lens_where_the_wall_is_thick_or_the_disk_in_the_way(series, ovals):
