@@ -59,7 +59,7 @@ class Layout:
         self.canvas = FigureCanvasAgg(self.figure)
         duration = span[1] - span[0]
         #: of the printed time: a thousandth of the run shows
-        self.decimals = max(4, int(np.ceil(3 - np.log10(duration)))) if duration > 0 else 4
+        self.decimals = _decimals(duration / 1000)
         self._moving: list[Any] = []
         self._marks: list[tuple[Any, Any, Any, Any]] = []
         em = self.type * 100 / 72
@@ -117,7 +117,7 @@ class Layout:
         page[top : top + height, left : left + width, :3] = view
         for box, drawn, inked in self._over:
             page[box][inked] = drawn[inked]
-        self._time.set_text(f"t = {shot.time:.{self.decimals}f} {self.units['time']}")
+        self._time.set_text(self.stamp(shot.time))
         kind = self.curves.phase(shot.time)
         words, band = style.PHASES.get(kind, (kind, style.PAPER)) if kind else ("", style.PAPER)
         self._phase.set_text(words)
@@ -139,6 +139,17 @@ class Layout:
         for artist in self._moving:
             (artist.axes or self.figure).draw_artist(artist)
         return np.array(np.asarray(self.canvas.buffer_rgba())[..., :3])
+
+    def stamp(self, time: float) -> str:
+        """A time as it is printed, with its unit."""
+        return f"t = {time:.{self.decimals}f} {self.units['time']}"
+
+    def tell_apart(self, times: Sequence[float]) -> None:
+        """Print times with as many digits as these need to differ; a millionth of the run is no difference."""
+        between = np.diff(np.unique(times))
+        between = between[between > 1e-6 * (self.span[1] - self.span[0])]
+        if len(between):
+            self.decimals = max(self.decimals, _decimals(float(between.min())))
 
     def caption_size(self, text: str) -> tuple[float, float]:
         """Width of a caption below the lens, and how far below it that ends, in pixels."""
@@ -273,6 +284,11 @@ class Layout:
             dot.set(markersize=0.42 * self.type, markeredgecolor="white", markeredgewidth=0.04 * self.type)
             self._moving += [line, dot]
             self._marks.append((line, dot, curves.t, values))
+
+
+def _decimals(step: float) -> int:
+    """Digits behind the point that show such a step, 4 at least."""
+    return min(max(4, int(np.ceil(-np.log10(step)))), 15) if step > 0 else 4
 
 
 def _decade(value: float) -> str:

@@ -95,6 +95,9 @@ class Source(Protocol):
     def curves(self) -> Curves:
         """Forces and phases over time, below the picture."""
 
+    def instant(self, time: float) -> float:
+        """The time of what is seen at a time."""
+
     def shot(self, time: float) -> Shot:
         """What is seen at a time."""
 
@@ -133,6 +136,10 @@ class SeriesSource:
         kinds = (kept.get(name, none) for name in ("phase_kind", "phase_start", "phase_end"))
         phases = tuple((str(kind), float(a), float(b)) for kind, a, b in zip(*kinds, strict=False))
         return Curves(t, normal, friction, phases)
+
+    def instant(self, time: float) -> float:
+        """That of the frame nearest to ``time``."""
+        return float(self.series.times[self.series.nearest_index(time)])
 
     def shot(self, time: float) -> Shot:
         """The frame nearest to ``time``."""
@@ -226,6 +233,10 @@ class MotionSource:
         ring = ring_mesh(inner, R, around=180)
         disk = max(scene.hoop.k * inner, 0.025 * R)  # a point mass has to be seen too
         return ring.quad9, ring.points, disk, inner - disk
+
+    def instant(self, time: float) -> float:
+        """That time: a motion is known at any."""
+        return float(time)
 
     def shot(self, time: float) -> Shot:
         """The state at ``time``."""

@@ -5,7 +5,8 @@ from __future__ import annotations
 import base64
 import io
 import itertools
-from collections.abc import Callable, Iterator
+import json
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,7 +19,7 @@ from ..draw import style
 from ..draw.display import ViewError
 
 Image = NDArray[np.uint8]
-Writer = Callable[[Path, Iterator[Image], int, NDArray[np.float64]], None]
+Writer = Callable[[Path, Iterator[Image], int, Sequence[str]], None]
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,7 @@ def write_png(path: Path, page: Image) -> None:
     _whole(path, lambda part: Pillow.fromarray(page).save(part, format="png", optimize=True))
 
 
-def write_gif(path: Path, pages: Iterator[Image], fps: int, times: NDArray[np.float64]) -> None:
+def write_gif(path: Path, pages: Iterator[Image], fps: int, stamps: Sequence[str]) -> None:
     """Pages as an endless gif with one palette, that of the first page, which has nearly every colour."""
     from matplotlib.colors import to_rgb
     from PIL import Image as Pillow
@@ -71,7 +72,7 @@ def write_gif(path: Path, pages: Iterator[Image], fps: int, times: NDArray[np.fl
     _whole(path, save)
 
 
-def write_mp4(path: Path, pages: Iterator[Image], fps: int, times: NDArray[np.float64]) -> None:
+def write_mp4(path: Path, pages: Iterator[Image], fps: int, stamps: Sequence[str]) -> None:
     """Pages as an H.264 film."""
     try:
         from imageio_ffmpeg import write_frames  # type: ignore[import-untyped]
@@ -95,8 +96,8 @@ def write_mp4(path: Path, pages: Iterator[Image], fps: int, times: NDArray[np.fl
     _whole(path, save)
 
 
-def write_html(path: Path, pages: Iterator[Image], fps: int, times: NDArray[np.float64]) -> None:
-    """Pages as one html file with a slider, that needs nothing else."""
+def write_html(path: Path, pages: Iterator[Image], fps: int, stamps: Sequence[str]) -> None:
+    """Pages as one html file with a slider and the stamp of each, that needs nothing else."""
     from PIL import Image as Pillow
 
     codes = []
@@ -105,8 +106,8 @@ def write_html(path: Path, pages: Iterator[Image], fps: int, times: NDArray[np.f
         flat = Pillow.fromarray(page).quantize(colors=128, dither=Pillow.Dither.NONE)
         flat.save(code, "png", optimize=True)
         codes.append(f'"{base64.b64encode(code.getvalue()).decode()}"')
-    stamps = ",".join(f"{time:.6g}" for time in times)
-    content = _HTML.replace("@TIMES@", stamps).replace("@FPS@", str(fps))
+    told = json.dumps(list(stamps)).replace("<", "\\u003c")  # a unit is a text of somebody's
+    content = _HTML.replace("@STAMPS@", told).replace("@FPS@", str(fps))
     content = content.replace("@IMAGES@", ",\n".join(codes))
     _whole(path, lambda part: part.write_text(content, encoding="utf-8"))
 
@@ -143,7 +144,7 @@ img { width: 100%; display: block; }
 nav { display: flex; gap: 1em; align-items: center; }
 input { flex: 1; accent-color: #1f5a94; }
 button { font: inherit; width: 5em; padding: .3em; border: 1px solid #c9ced5; border-radius: .4em; }
-output { width: 8em; font-variant-numeric: tabular-nums; }
+output { min-width: 8em; font-variant-numeric: tabular-nums; }
 </style></head><body><main>
 <img id="page" alt="the hoop at one instant, with normal and friction force over time below">
 <nav><button id="play">play</button><input id="time" type="range" min="0" value="0" aria-label="time">
@@ -152,7 +153,7 @@ output { width: 8em; font-variant-numeric: tabular-nums; }
 </main><script>
 const images = [
 @IMAGES@
-], times = [@TIMES@], fps = @FPS@;
+], stamps = @STAMPS@, fps = @FPS@;
 const page = document.getElementById("page"), slider = document.getElementById("time");
 const button = document.getElementById("play"), stamp = document.getElementById("stamp");
 let timer = null;
@@ -160,7 +161,7 @@ slider.max = images.length - 1;
 function show(i) {
   slider.value = i;
   page.src = "data:image/png;base64," + images[i];
-  stamp.value = "t = " + times[i].toFixed(4);
+  stamp.value = stamps[i];
 }
 function toggle() {
   if (timer) { clearInterval(timer); timer = null; button.textContent = "play"; return; }

@@ -231,16 +231,17 @@ def animate(
     film.require_folder(path)
     timing = timing or Timing()
     chosen = setting(thing, field, factor, zoom)
-    times = _instants(chosen.source, timing, kind.frames)
+    times = [chosen.source.instant(float(time)) for time in _instants(chosen.source, timing, kind.frames)]
 
-    def pages() -> Iterator[Image]:
-        with Camera(chosen, size or kind.size) as camera:
-            for done, time in enumerate(times, 1):
-                yield camera.page(float(time))
-                if progress is not None:
-                    progress(done, len(times))
+    def pages(camera: Camera) -> Iterator[Image]:
+        for done, time in enumerate(times, 1):
+            yield camera.page(time)
+            if progress is not None:
+                progress(done, len(times))
 
-    kind.write(path, pages(), timing.fps, times)
+    with Camera(chosen, size or kind.size) as camera:
+        camera.layout.tell_apart(times)
+        kind.write(path, pages(camera), timing.fps, [camera.layout.stamp(time) for time in times])
 
 
 def window(thing: Series | Motion, field: str | None = None, factor: float | None = None, zoom: float = 1.0) -> None:

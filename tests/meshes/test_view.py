@@ -1,7 +1,9 @@
 """Pictures off-screen: not blank, the hoop where it should be, and a sentence where nothing can be drawn."""
 
 import gc
+import json
 import os
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -181,6 +183,30 @@ def test_animations(series, tmp_path, suffix):
         assert text.count("iVBOR") == 4  # how every PNG begins in base64
         assert "http" not in text  # it needs nothing else
     assert list(tmp_path.iterdir()) == [path]
+
+
+def stamps_of(path):
+    return json.loads(re.search(r"stamps = (\[.*?\]), fps", path.read_text(encoding="utf-8"))[1])
+
+
+@needs_renderer
+def test_a_page_says_the_times_of_its_frames_in_their_unit(series, tmp_path):
+    """As its pictures do: those of the frames that are shown, which are the nearest ones."""
+    animate(series, tmp_path / "a.html", timing=Timing(frames=7, pace="time", stop=1.1), size=(480, 360))
+    nearest = [TIMES[np.abs(TIMES - t).argmin()] for t in np.linspace(0, 1.1, 7)]
+    assert stamps_of(tmp_path / "a.html") == [f"t = {t:.4f} √(R/g)" for t in nearest]
+    motion = rolling_motion(R=0.3, g=9.81)
+    animate(motion, tmp_path / "b.html", timing=Timing(frames=2), size=(480, 360))
+    assert stamps_of(tmp_path / "b.html") == ["t = 0.0000 s", "t = 2.0000 s"]
+
+
+@needs_renderer
+def test_neighbouring_frames_have_different_stamps(tmp_path):
+    """However short the stretch is that is shown of a run."""
+    animate(rolling_motion(), tmp_path / "a.html", timing=Timing(frames=9, start=1.3, stop=1.3002), size=(480, 360))
+    told = stamps_of(tmp_path / "a.html")
+    assert len(set(told)) == 9
+    assert [float(stamp.split()[2]) for stamp in told] == pytest.approx(np.linspace(1.3, 1.3002, 9), abs=1e-5)
 
 
 @needs_renderer
