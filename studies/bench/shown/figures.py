@@ -24,6 +24,8 @@ _MARKERS = "osv^DPX*<>h"
 _COLOURS = [colour for name, colour in OKABE_ITO.items() if name != "contact_spring"]
 _ACROSS = 4
 _FLOOR = 1e-17  # where an error of nothing at all is drawn
+_SAME = 0.03  # points no further apart than this share of the axis lie above one another
+_LINE = 0.05  # of the height of a panel, from one name to the next
 
 
 def work_precision(rows: Sequence[Row], title: str) -> Figure:
@@ -53,12 +55,53 @@ def work_precision(rows: Sequence[Row], title: str) -> Figure:
             axes.set_title(f"{scene}\n{SCENES[scene]}" if scene in SCENES else scene, fontsize=10)
             _ticks(axes.xaxis)
             axes.tick_params(labelbottom=True)
+        for axes, scene in zip(panels, scenes, strict=False):  # all share an axis, which is known by now
+            for name in solvers:
+                if name not in others:
+                    _name_settings(axes, [row for row in shown if (row.scene, row.solver) == (scene, name)])
         _ticks(panels[0].yaxis)
         for axes in panels[::_ACROSS]:
             axes.set_ylabel("seconds")
         _legend(figure, panels)
         figure.suptitle(title)
         return figure
+
+
+def _name_settings(axes: Any, rows: Sequence[Row]) -> None:
+    """Settings beside their points where these lie above one another, and so no tolerance tells them apart.
+
+    Names keep off one another; one that is moved for that has a line to its point.
+    """
+    axes.get_ylim()  # which settles the limits
+    placed = axes.transScale + axes.transLimits  # to shares of the axes
+    points = {id(row): placed.transform((max(row.error, _FLOOR), row.median)) for row in rows}
+    across = [x for x, _ in points.values()]
+    if len(rows) < 2 or max(across) - min(across) > _SAME:
+        return
+    rows = sorted(rows, key=lambda row: row.median)
+    heights = _apart([float(points[id(row)][1]) for row in rows], _LINE)
+    for row, height in zip(rows, heights, strict=True):
+        x, y = points[id(row)]
+        line = {"arrowstyle": "-", "linewidth": 0.5, "color": "0.6"} if abs(height - y) > 1e-9 else None
+        axes.annotate(
+            ", ".join(filter(None, [row.setting, row.note])), (x, y), (x + _SAME, height), xycoords="axes fraction",
+            va="center", fontsize=8, arrowprops=line,
+        )  # fmt: skip
+
+
+def _apart(heights: Sequence[float], least: float) -> list[float]:
+    """Ascending heights with so much between them at least, moved no more than that needs and as much up as down."""
+    groups: list[list[float]] = []
+    for height in heights:
+        groups.append([height])
+        while len(groups) > 1 and _evenly(groups[-1], least)[0] - _evenly(groups[-2], least)[-1] < least:
+            groups[-2:] = [groups[-2] + groups[-1]]
+    return [height for group in groups for height in _evenly(group, least)]
+
+
+def _evenly(group: Sequence[float], least: float) -> list[float]:
+    middle, count = sum(group) / len(group), len(group)
+    return [middle + least * (number - (count - 1) / 2) for number in range(count)]
 
 
 def _panels(scenes: int, size: float) -> tuple[Figure, Any]:
