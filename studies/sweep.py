@@ -9,11 +9,12 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from rigid import SceneError
+from rigid import SceneError, scene_from_dict
+from rigid.elastic import UNITS
 
 from .running.case import Case, Outcome
 from .running.history import rows_to_csv
-from .running.measures import MEASURES
+from .running.measures import MEASURES, units_of_measures
 from .running.runs import run_cases
 from .running.solvers import version
 from .running.workers import Here, Pool
@@ -45,6 +46,14 @@ class Table:
     def failures(self) -> int:
         """How many rows have a reason instead of a result."""
         return sum(bool(row.outcome.failure) for row in self.rows)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """What the measures are in, by column: SI units where any of the scenes is; keys that vary are as in a file."""
+        scenes = [row.outcome.scene for row in self.rows if row.outcome.scene]
+        in_si = (scene for scene in scenes if any(scene["hoop"].get(name, 1.0) != 1.0 for name in UNITS))
+        scene = next(in_si, scenes[0] if scenes else None)
+        return {} if scene is None else {"pulse": "1", **units_of_measures(scene_from_dict(scene))}
 
     def records(self) -> list[dict[str, Any]]:
         """One flat record for each pulse of each row, or one for a row without any."""

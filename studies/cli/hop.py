@@ -111,8 +111,7 @@ def hop(
         if scheduler is None:
             prepare(*compile_side_by_side(levels_of(_ends_of(asked)), place.beside))  # once for all workers
         found = hop_study(asked, pool=place, out=target, progress=progress, say=say)
-    if target is not None:
-        _write(found, target, ctx.obj)
+    left = "" if target is None else _write(found, target, ctx.obj)
     if as_json:
         click.echo(to_json(found.to_dict()))
     else:
@@ -121,7 +120,7 @@ def hop(
 
         show(*hop_sheets(found))
         if target is not None:
-            click.echo(f"Figures, film, table and report are in {target}; open {target / 'report.html'}.")
+            click.echo(f"{left} are in {target}; open {target / 'report.html'}.")
     return 1 if found.unfinished else 0
 
 
@@ -223,7 +222,8 @@ def _refusal(scene: Scene) -> SceneError | None:
     return None
 
 
-def _write(found: HopStudy, target: Path, line: str) -> None:
+def _write(found: HopStudy, target: Path, line: str) -> str:
+    """All that a study leaves, and what that is; where nothing hops there is no hop to draw."""
     from ..hop.figures import chosen, of_hop
     from ..hop.film import film
     from ..hop.report import hop_report
@@ -236,6 +236,7 @@ def _write(found: HopStudy, target: Path, line: str) -> None:
     numbers = [
         write_frame(found.to_dataframe(), target / "hop.csv"),
         write_text(target / "hop.json", to_json(found.to_dict())),
+        write_text(target / "units.json", to_json(found.units)),
     ]
     with bar("figures, film and report") as progress:
         drawn = chosen(found)
@@ -245,3 +246,4 @@ def _write(found: HopStudy, target: Path, line: str) -> None:
         if drawn is not None:
             images["hop"] = film(drawn, target / "hop.gif")
         hop_report(found, images, line, page, numbers)
+    return "Figures, table and report" if drawn is None else "Figures, film, table and report"

@@ -90,6 +90,7 @@ def limit(
         numbers = [
             write_frame(found.to_dataframe(), target / "limit.csv"),
             write_text(target / "limit.json", to_json(told)),
+            write_text(target / "units.json", to_json(found.units)),
         ]
         drawn = of_limit(found) | ({"damping": damping_figure(spots)} if mapped else {})
         images = {name: save_both(figure, target / name) for name, figure in drawn.items()}

@@ -144,6 +144,7 @@ def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool, p
     numbers = [
         write_text(target / "study.csv", found.to_csv()),
         write_text(target / "study.json", to_json(found.to_dict())),
+        write_text(target / "units.json", to_json(found.units)),
     ]
     images, lost, beside = {}, None, []
     with bar("figures and fields") as progress:
@@ -224,6 +225,7 @@ def sweep(
         table = run_sweep(asked, place, target, progress, announce)
     begin_results(target)
     write_text(target / "table.csv", table.to_csv())
+    write_text(target / "units.json", to_json(table.units))
     if as_json:
         click.echo(to_json({"rows": table.records(), "failures": table.failures}))
     else:

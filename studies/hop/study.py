@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 from rigid import Scene, scene_to_dict
 from rigid.output import summary
+from rigid.output.units import unit_names
 
 from ..running.case import Case, Outcome
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
-from .rolling.roll import SOLVER, STIFFNESS, WHOLE, Ask, HopMap
-from .rolling.rule import DECADE
+from .rolling.energies import HopEnergies
+from .rolling.roll import SOLVER, STIFFNESS, WHOLE, Ask, Flight, HopMap
+from .rolling.rule import DECADE, Scales
 from .rolling.scaling import foreseen
 from .rolling.threshold import TOLD, WHERE, HopCase, Line, windows
 
@@ -26,8 +28,8 @@ if TYPE_CHECKING:
 FINER = 3.0
 """By how much the tolerance is less at which thresholds are held against the map's."""
 
-
 _COLUMNS = ("bending_stiffness", "k", "mass_ratio", "foundation", "mu_s", "mu", "damping", "chatter", "completed")
+_THRESHOLD = ("value", "low", "high", "foreseen", "omega_1_t", "times_duration_squared", "gaps", "undecided_between")
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -55,6 +57,16 @@ class HopStudy(summary.Summarised):
     def unfinished(self) -> list[HopCase]:
         """Those that stopped before their end."""
         return [case for case in self.cases if not case.motion["completed"]]
+
+    @property
+    def units(self) -> dict[str, str]:
+        """What the numbers of table and JSON are measured in, by name."""
+        told = unit_names(self.rolled, Flight, HopEnergies, Scales)
+        return {
+            **dict.fromkeys((*_COLUMNS[:-1], *_THRESHOLD, "rtol", "hops"), "1"),
+            **told,
+            "energy": told["stored_in_ring"],
+        }
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A row for each hop, and one without a hop for each roll that has none."""

@@ -24,6 +24,7 @@ from ..inner.events import REVERSAL, START, Event, Passage, Stretch, passage
 from ..inner.layers import slip_behind
 from ..inner.march import BRUSH, PATCH, REGULARISED
 from ..inner.scales import epsilon
+from ..running.measures import OF_THE_MEASURE, units_of_measures
 from . import onset
 from .outer import Shift, delay_of_break, delay_of_stop, grown, passed, roll_along, slide_along
 
@@ -195,6 +196,20 @@ def _through(way: Passage, event: Event, shift: Shift, creeps: bool) -> Shift:
             shift, slip=shift.slip + change, omega=shift.omega - b * change / rolling_inertia(body, event.psi)
         )
     return shift
+
+
+def units_told(scene: Scene) -> dict[str, str]:
+    """What the numbers of a limit study are measured in, by name: measures in units of the scene, events never."""
+    pure = ("foundation", "separate", "exponent", "phi", "peak_ratio", "critical_damping", "damping", "decay")
+    of_measures = ("value", "numerical_error", "limit", "distance", "predicted", "coefficient")
+    weight, tau = "(m + m_h) g", "eps sqrt(R/g)"
+    return {
+        **dict.fromkeys(pure, "1"),
+        **{name: unit for name, unit in units_of_measures(scene).items() if name in MEASURES},
+        **dict.fromkeys(of_measures, OF_THE_MEASURE),
+        **{"t": "sqrt(R/g)", "omega": "sqrt(g/R)", "normal_force": weight, "friction_force": weight},
+        **{"resticks": tau, "settles": tau, "period": tau, "creep": "eps sqrt(gR)"},
+    }
 
 
 def _with_units(scene: Scene, way: Passage, found: dict[float, NDArray[np.float64]]) -> Prediction:

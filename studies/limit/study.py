@@ -31,7 +31,7 @@ from ..running.measures import MEASURES
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
 from .compliant import Sight, at_foundation, go_through, seen_by_rigid_ring
-from .prediction import ROUND_OFF, Prediction, predict
+from .prediction import ROUND_OFF, Prediction, predict, units_told
 
 if TYPE_CHECKING:
     import pandas
@@ -165,24 +165,27 @@ class LimitStudy(summary.Summarised):
         term = self.prediction.terms[name]
         return sight.values[name] - term.limit, float(term.at(self.small(sight.foundation))) - term.limit
 
+    @property
+    def units(self) -> dict[str, str]:
+        """What the numbers of table and JSON are measured in, by name."""
+        return units_told(self.scene)
+
     def to_dict(self) -> dict[str, Any]:
         """The study as JSON prints it; coefficients are distances over the leading power of the small parameter."""
         observed: dict[str, Any] = {}
         for name in OBSERVED:
             power = self.prediction.terms[name].exponent
             rows = []
-            for sight in self.sights:
+            for sight in (each for each in self.sights if each.failure or name in each.values):
                 row: dict[str, Any] = {"solver": sight.solver, "foundation": sight.foundation}
                 if sight.failure:
                     row["failure"] = sight.failure
-                elif name in sight.values:
+                else:
                     scale = self.small(sight.foundation) ** power
                     found, foreseen = self.distance(name, sight)
                     row |= {"value": sight.values[name], "coefficient": found / scale, "predicted": foreseen / scale}
                     if name in sight.errors:
                         row["numerical_error"] = sight.errors[name]
-                else:
-                    continue
                 rows.append(row)
             observed[name] = rows
         return {

@@ -142,6 +142,15 @@ def duration(motion: Motion, pulse: Pulse) -> float:
     return pulse.t_end - pulse.t_start
 
 
+OF_THE_MEASURE = "that of the measure"
+"""Unit of what is told of one measure after the other, as limits are."""
+
+
+def units_of_measures(scene: Scene) -> dict[str, str]:
+    """What each is measured in by name; "1" for a pure number."""
+    return {name: entry.unit.label(scene) or "1" for name, entry in MEASURES.items()}
+
+
 def measures(motion: Motion, pulse: Pulse) -> dict[str, float]:
     """Every measure of a pulse by name."""
     return {name: float(entry.of(motion, pulse)) for name, entry in MEASURES.items()}

@@ -14,7 +14,7 @@ from rigid.output import summary
 
 from ..running.case import SAME, SHARE, Outcome
 from ..running.history import rows_to_csv
-from ..running.measures import MEASURES
+from ..running.measures import MEASURES, OF_THE_MEASURE, units_of_measures
 from .coefficient import Coefficient, coefficient
 from .ladder import Ladder
 from .limits import CONFIDENCE, Limit, fitted_series
@@ -27,6 +27,10 @@ if TYPE_CHECKING:
 
 LIMITS = ("impulse_ratio", "friction_loss", "normal_impulse")
 """Measures whose limit is sought."""
+
+_OF_MEASURES = ("value", "uncertainty", "rigid", "error", "last_distance", "limit", "coefficient", "observed")
+_RATES = ("rate", "rate_interval", "exponent", "exponents")
+_PURE = ("bending_stiffness", "contact_stiffness", "low", "high", "count", "separate", "mu_s", "rtol", *_RATES)
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,6 +195,12 @@ class StiffnessStudy(summary.Summarised):
         from ..plots.distance import draw
 
         return draw({name: self.distance(name) for name in names or LIMITS[:2]}, axes)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """What the numbers of records and JSON are measured in, by name."""
+        told = dict.fromkeys((*_OF_MEASURES, "predicted"), OF_THE_MEASURE) | dict.fromkeys(_PURE, "1")
+        return {**told, **units_of_measures(self.scene), "seconds": "s"}
 
     def records(self) -> list[dict[str, Any]]:
         """A flat record for each rung: its stiffness, the first pulse's measures, or why there are none."""

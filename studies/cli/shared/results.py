@@ -31,17 +31,23 @@ WRITTEN: dict[str, tuple[str, ...]] = {
     "hoop flexible": (*_MOTION, *_FIELDS),
     "hoop paper": (*_drawn(*_PAPER), *(f"{name}-*.csv" for name in _PAPER), "table.csv", "table.md"),
     "hoop study stiffness": (
-        *("report.html", "study.csv", "study.json"),
+        *("report.html", "study.csv", "study.json", "units.json"),
         *_drawn("pulse", "impulses", "distance", "energy", "series"),
         *_FIELDS,
     ),
-    "hoop study limit": ("report.html", "limit.csv", "limit.json", *_drawn("approach", "layers", "damping")),
+    "hoop study limit": (
+        "report.html",
+        "limit.csv",
+        "limit.json",
+        "units.json",
+        *_drawn("approach", "layers", "damping"),
+    ),
     "hoop study hop": (
-        *("report.html", "hop.csv", "hop.json", "hop.gif", "peers.json"),
+        *("report.html", "hop.csv", "hop.json", "units.json", "hop.gif", "peers.json"),
         *_drawn("map", "where", "energies", "liftoff", "peers"),
     ),
     "hoop study atlas": ("atlas.png", "atlas.npz", "atlas.json"),
-    "hoop study sweep": ("table.csv",),
+    "hoop study sweep": ("table.csv", "units.json"),
     "hoop bench": ("bench-{what}.json", "bench-{what}.png"),
     "hoop stress": ("stress.json", "stress.png"),
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -168,6 +169,8 @@ def test_what_a_command_writes_is_known(hoop, tmp_path, scene):
         known = {path for name in results.WRITTEN[command] for path in out.glob(name)}
         rest = {path.name for path in out.iterdir()} - {path.name for path in known}
         assert rest <= {"command.txt", "study.sqlite", "histories"}
+        told = json.loads((out / "units.json").read_text(encoding="utf-8"))
+        assert told["friction_loss"] == "mgR"  # all of these scenes are without units
         assert {path.name for path in (out / "fields").glob("*")} <= {path.name for path in known}
 
 

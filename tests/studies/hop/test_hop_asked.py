@@ -103,7 +103,11 @@ def test_the_map_in_units_keeps_those_of_the_scene():
 def test_what_was_run_is_told_beside_what_was_asked(hoop, tmp_path):
     """The page's scene is that of a roll, and of the others it says what is another; as numbers both are there."""
     line = ("study", "hop", "paper-3.3-heavier", "--over", f"{STIFFNESS}=1:100:3", "--over", "hoop.k=0.2,0.1")
-    hoop(*line, "--rtol", "2e-3", "--bisections", 1, "--workers", 1, "--out", tmp_path / "map")
+    _, out, _ = hoop(*line, "--rtol", "2e-3", "--bisections", 1, "--workers", 1, "--out", tmp_path / "map")
+    assert f"Figures, table and report are in {tmp_path / 'map'};" in " ".join(out.split()), (
+        "and no film: no hop is drawn"
+    )
+    assert json.loads((tmp_path / "map" / "units.json").read_text())["height"] == "R"
     told = json.loads((tmp_path / "map" / "hop.json").read_text())
     assert told["scene"]["run"] == {"turns": 2}
     asked = map_of(SCENE, ("hoop.k=0.1,0.2", f"{STIFFNESS}=1,100"), rtol=2e-3)

@@ -9,6 +9,8 @@ import pytest
 import flexible
 import rigid
 from rigid import load_scene
+from studies import HopStudy, Ladder, hop_study, limit_study, run_sweep, stiffness_study
+from studies.cli.hop import map_of
 from studies.running import history
 
 SCENE = load_scene("paper-3.3-light").replace(solve={"rtol": 1e-2}, run=rigid.Run(turns=1))
@@ -52,3 +54,84 @@ def test_every_column_of_a_history_has_its_unit(simulate):
     units = motion.units
     assert set(history.whole(motion)) <= set(units)
     assert (units["t"], units["normal_force"], units["phi"]) == ("sqrt(R/g)", "mg", "1")
+
+
+def names_of(told) -> set[str]:
+    """Names of all numbers, and lists of them, in what JSON prints of a study, its scenes aside."""
+    if isinstance(told, list):
+        return {name for entry in told for name in names_of(entry)}
+    found = set()
+    for name, value in told.items() if isinstance(told, dict) else ():
+        if name in ("scene", "as_run"):
+            continue
+        first = value[0] if isinstance(value, list) and value else value
+        number = isinstance(first, (int, float)) and not isinstance(first, bool)
+        found |= {name} if number else names_of(value)
+    return found
+
+
+def same(plain, heavy, units, rel=1e-6) -> None:
+    """Records of the same hoop in the paper's scaling and in SI differ by the sizes of the units that are told."""
+    for one, other in zip(plain, heavy, strict=True):
+        assert set(one) == set(other)
+        for name, value in one.items():
+            if not isinstance(value, float):
+                continue
+            si = other[name] / SIZES[units[name]]
+            assert (isnan(value) and isnan(si)) or si == pytest.approx(value, rel=rel, abs=1e-9), name
+
+
+def test_a_stiffness_study_tells_its_units():
+    plain, heavy = (stiffness_study(scene, Ladder.around(scene, "both", 1e6, 1e7, 2)) for scene in (SCENE, HEAVY))
+    same(plain.records(), heavy.records(), heavy.units)
+    assert {"value", "peak_normal_force", "seconds"} <= names_of(heavy.to_dict()) <= set(heavy.units)
+    assert plain.units["friction_loss"] == "mgR"
+    limits = ({n: limit.value for n, limit in found.limits.items()} for found in (plain, heavy))
+    same([next(limits)], [next(limits)], heavy.units)
+
+
+def test_a_limit_study_tells_its_units():
+    """Of measures those of the scene; its events are in R, g and the total mass whatever the scene is in."""
+    plain, heavy = (limit_study(scene, foundations=(1e10,)) for scene in (SCENE, HEAVY))
+    units = heavy.units
+    limits = ({name: term.limit for name, term in found.prediction.terms.items()} for found in (plain, heavy))
+    same([next(limits)], [next(limits)], units)
+    assert units["value"] == "that of the measure"
+    assert set(heavy.to_dataframe().select_dtypes("number")) <= set(units)
+    assert names_of(heavy.to_dict()) <= set(units)
+    for one, other in zip(plain.events, heavy.events, strict=True):
+        numbers = {name: value for name, value in one.to_dict().items() if isinstance(value, (float, list))}
+        assert set(numbers) <= set(units)
+        for name, value in numbers.items():
+            assert other.to_dict()[name] == pytest.approx(value, rel=1e-6, abs=1e-9), name
+            assert units[name] == plain.units[name]
+
+
+def test_a_hop_study_tells_its_units():
+    def study(**hoop: float) -> HopStudy:
+        scene = SCENE.replace(hoop={"mass_ratio": 0.1, **hoop}, solve={"elements": 120})
+        return hop_study(map_of(scene, ("ring.bending_stiffness=5",), bisections=0, rtol=3e-3))
+
+    plain, heavy = study(), study(R=0.5, m=2.0, g=9.81)
+    (one,), (other,) = ([case.to_dict() for case in found.cases] for found in (plain, heavy))
+    assert one["hops"]
+    for name in ("hops", "energies"):
+        parts = [[hop if name == "hops" else hop["energies"] for hop in told["hops"][:1]] for told in (one, other)]
+        same(*parts, heavy.units, rel=1e-3)
+    same([one["scales"]], [other["scales"]], heavy.units)
+    assert set(heavy.to_dataframe().select_dtypes("number")) | names_of(heavy.to_dict()) <= set(heavy.units)
+    assert (heavy.units["height"], heavy.units["energy"], heavy.units["mu"]) == ("m", "J", "1")
+
+
+def test_a_sweep_tells_its_units():
+    """SI where any of its scenes is: of R = m = g = 1 the numbers are those in metres too."""
+    lists = {
+        "hoop": {"k": 0.1}, "friction": {"mu_s": 0.35, "mu": 0.3}, "release": {"phi0_deg": [10.0, 20.0]},
+        "sweep": {"solvers": ["rigid"]},
+    }  # fmt: skip
+    plain = run_sweep(lists)
+    heavy = run_sweep({**lists, "hoop": {"k": 0.1, "R": 0.5, "m": 2.0, "g": 9.81}})
+    pure = {**heavy.units, "release.phi0_deg": "1"}
+    same(plain.records(), heavy.records(), pure)
+    assert plain.units["duration"] == "sqrt(R/g)"
+    assert run_sweep({**lists, "hoop": {"k": 0.1, "R": [1.0, 0.5], "m": 1.0, "g": 1.0}}).units == heavy.units
