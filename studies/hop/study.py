@@ -60,13 +60,11 @@ class HopStudy(summary.Summarised):
 
     @property
     def units(self) -> dict[str, str]:
-        """What the numbers of table and JSON are measured in, by name."""
-        told = unit_names(self.rolled, Flight, HopEnergies, Scales)
-        return {
-            **dict.fromkeys((*_COLUMNS[:-1], *_THRESHOLD, "rtol", "hops"), "1"),
-            **told,
-            "energy": told["stored_in_ring"],
-        }
+        """What the numbers of table and JSON are measured in, by name; those of "energies" as "energies.friction"."""
+        pure = dict.fromkeys((*_COLUMNS[:-1], *_THRESHOLD, "rtol", "hops"), "1")
+        energies = unit_names(self.rolled, HopEnergies)
+        parts = {f"energies.{name}": unit for name, unit in energies.items()}
+        return {**pure, **unit_names(self.rolled, Flight, Scales), "energy": energies["stored_in_ring"], **parts}
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A row for each hop, and one without a hop for each roll that has none."""

@@ -66,7 +66,8 @@ def names_of(told) -> set[str]:
             continue
         first = value[0] if isinstance(value, list) and value else value
         number = isinstance(first, (int, float)) and not isinstance(first, bool)
-        found |= {name} if number else names_of(value)
+        below = set() if number else names_of(value)  # a ratio and an energy are called damping
+        found |= {name} if number else {f"energies.{n}" for n in below} if name == "energies" else below
     return found
 
 
@@ -115,9 +116,11 @@ def test_a_hop_study_tells_its_units():
     plain, heavy = study(), study(R=0.5, m=2.0, g=9.81)
     (one,), (other,) = ([case.to_dict() for case in found.cases] for found in (plain, heavy))
     assert one["hops"]
-    for name in ("hops", "energies"):
-        parts = [[hop if name == "hops" else hop["energies"] for hop in told["hops"][:1]] for told in (one, other)]
-        same(*parts, heavy.units, rel=1e-3)
+    first, second = (told["hops"][0] for told in (one, other))
+    same([first], [second], heavy.units, rel=1e-3)
+    energies = {name.removeprefix("energies."): unit for name, unit in heavy.units.items()}
+    same([first["energies"]], [second["energies"]], energies, rel=1e-3)
+    assert (energies["damping"], heavy.units["damping"]) == ("J", "1")
     same([one["scales"]], [other["scales"]], heavy.units)
     assert set(heavy.to_dataframe().select_dtypes("number")) | names_of(heavy.to_dict()) <= set(heavy.units)
     assert (heavy.units["height"], heavy.units["energy"], heavy.units["mu"]) == ("m", "J", "1")
