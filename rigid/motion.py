@@ -107,7 +107,7 @@ class Pulse(Same):
         ValueError
             A pulse that belongs to no motion, or a quantity that there is not.
         """
-        from .output.axes import draw
+        from .output.axes import columns_of, draw
 
         if self.sample is None:
             raise ValueError("This pulse belongs to no motion that could be sampled.")
@@ -116,7 +116,7 @@ class Pulse(Same):
         middle = sampling.bottom(lambda t: sample(t, "right").phi, *span)
         t = sampling.times(lambda t: sampling.forces_of(sample(t, "right")), span, [middle])
         paper = getattr(getattr(sample, "scene", None), "dimensionless", True)
-        return draw(_columns(sample(t, "right")), quantities, over, dimensionless=paper, axes=axes)
+        return draw(columns_of(sample(t, "right")), quantities, over, dimensionless=paper, axes=axes)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -205,7 +205,8 @@ class Motion(summary.Summarised):
         return sampling.instants(self, start, self.t_end if end is None else end)
 
     def plot(self, *quantities: str, over: str = "t", axes: Any = None) -> NDArray[np.object_]:
-        """Curves of the motion, a panel for each quantity; phases that do not roll are shaded, up to a thousand.
+        """Curves of the motion, a panel for each quantity; phases that do not roll are shaded if there are no more than
+        200 of all: over the time behind the curves, over anything else, where the motion may come by again, along them.
 
         Parameters
         ----------
@@ -214,29 +215,24 @@ class Motion(summary.Summarised):
         over : str
             The abscissa: "t", "phi" or any other.
         axes : matplotlib Axes or sequence of them, optional
-            Where to draw; by default a new figure.
+            Where to draw, shades labelled for ``axes.legend()``; by default a new figure, which has a legend of them.
 
         Returns
         -------
         (n,) array of matplotlib Axes
         """
-        from .output.axes import draw
+        from .output.axes import of_motion
 
-        where = {"t": ("t_start", "t_end"), "phi": ("phi_start", "phi_end")}.get(over)
-        spans = [(str(p.kind), getattr(p, where[0]), getattr(p, where[1])) for p in self.phases[:1000]] if where else []
-        paper = self.scene.dimensionless
-        return draw(_columns(self.at(self.times())), quantities, over, dimensionless=paper, spans=spans, axes=axes)
+        return of_motion(self, quantities, over, axes)
 
     def to_dataframe(self, t: ArrayLike | None = None) -> pandas.DataFrame:
-        """The states at times ``t`` (n,), by default :meth:`times`, and the kind of phase: a row for each."""
-        import pandas
+        """The states at times ``t`` (n,), by default :meth:`times`, and the kind of phase: a row for each.
 
-        states = self.at(self.times() if t is None else np.atleast_1d(np.asarray(t, dtype=float)))
-        frame = pandas.DataFrame(_columns(states))
-        starts = [phase.t_start for phase in self.phases]
-        kinds = np.array([str(phase.kind) for phase in self.phases], dtype=object)
-        frame["phase"] = kinds[np.maximum(np.searchsorted(starts, frame["t"], "right") - 1, 0)]
-        return frame
+        ``attrs["units"]`` of the table has what each column of numbers is measured in, as :attr:`units`.
+        """
+        from .output.frame import states_of
+
+        return states_of(self, t)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the motion into a file, with its scene and the version of this program; ``load_motion`` reads it.
@@ -293,7 +289,3 @@ class Motion(summary.Summarised):
             "ended": self.ended,
             "completed": self.completed,
         }
-
-
-def _columns(states: States) -> dict[str, Array]:
-    return {entry.name: getattr(states, entry.name) for entry in dataclasses.fields(states)}

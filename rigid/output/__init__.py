@@ -3,7 +3,7 @@
 ``units``     what a quantity is measured in, part of its definition; the solvers' numbers and a scene's
 ``sampling``  times between which forces are straight
 ``axes``      curves over time or angle, in matplotlib
-``frame``     the pulses of many scenes as a table, in pandas
+``frame``     the states of a motion, and the pulses of many scenes, as a table, in pandas
 ``summary``   text of a screen's length, and the same as HTML
 ``file``      arrays and a header, written whole and read with care
 ``same``      equality of values that may be unknown

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -29,13 +30,15 @@ _WORDS = {
 }
 """Name, symbol and unit of everything that a state has."""
 
-_SHADES = {"spin": "#cfe3f3", "skid": "#fbe0cd", "flight": "#e6e6e6", "skim": "#e6e6e6"}
+_SHADES = {"spin": "#cfe3f3", "skid": "#fbe0cd", "flight": "#e6e6e6", "skim": "#e3efd6"}
 """Behind the phases in which the contact point does not roll."""
 
 MOST_SHADES = 200  # more phases than this are not shaded: nobody could see them
 
+_BAND = 9.0  # points, of a shade that goes along its curve
+
 Span = tuple[str, float, float]
-"""A kind of phase and where it begins and ends on the abscissa."""
+"""A kind of phase and the times at which it begins and ends."""
 
 
 def label(name: str, dimensionless: bool) -> str:
@@ -50,6 +53,11 @@ def _grouped(unit: str) -> str:
     return unit if unit.startswith("\\") or len(unit) == 1 else f"({unit})"
 
 
+def columns_of(states: Any) -> dict[str, Array]:
+    """What a record of arrays has, by name."""
+    return {entry.name: getattr(states, entry.name) for entry in dataclasses.fields(states)}
+
+
 def check(names: Iterable[str]) -> None:
     """Refuse what no state has.
 
@@ -61,6 +69,14 @@ def check(names: Iterable[str]) -> None:
     for name in names:
         if name not in _WORDS:
             raise ValueError(f"{name!r} is not a quantity of a motion: known are {', '.join(_WORDS)}.")
+
+
+def of_motion(motion: Any, quantities: Sequence[str], over: str, axes: Any) -> NDArray[np.object_]:
+    """Curves of a whole motion, its phases shaded; see :meth:`rigid.Motion.plot`."""
+    phases = motion.phases[: MOST_SHADES + 1]
+    spans = [(str(phase.kind), phase.t_start, phase.t_end) for phase in phases] if len(phases) <= MOST_SHADES else []
+    columns = columns_of(motion.at(motion.times()))
+    return draw(columns, quantities, over, dimensionless=motion.scene.dimensionless, spans=spans, axes=axes)
 
 
 def draw(
@@ -77,7 +93,7 @@ def draw(
     Parameters
     ----------
     columns : mapping
-        Arrays (n,) by name.
+        Arrays (n,) by name, ``t`` of them ascending.
     quantities : sequence of str
         What is drawn; N, F and slip velocity if nothing is named.
     over : str
@@ -87,7 +103,7 @@ def draw(
     spans : sequence
         Phases, of which those that do not roll are shaded.
     axes : matplotlib Axes or sequence of them, optional
-        Where to draw; as many as there are quantities.
+        Where to draw; as many as there are quantities. On a figure of its own shades have a legend above the panels.
 
     Returns
     -------
@@ -108,10 +124,27 @@ def draw(
         if len(panels) != len(quantities):
             raise ValueError(f"{len(quantities)} quantities need as many axes, not {len(panels)}.")
     for panel, name in zip(panels, quantities, strict=True):
-        for kind, start, end in spans if len(spans) <= MOST_SHADES else ():
-            if kind in _SHADES and end != start:
-                panel.axvspan(start, end, color=_SHADES[kind], linewidth=0, zorder=0)
+        _shade(panel, columns, name, over, [span for span in spans if span[0] in _SHADES and span[1] < span[2]])
         panel.plot(columns[over], columns[name], linewidth=1.2)
         panel.set_ylabel(label(name, dimensionless))
     panels[-1].set_xlabel(label(over, dimensionless))
+    handles, words = panels[0].get_legend_handles_labels()
+    if axes is None and handles:
+        figure.legend(handles, words, loc="outside upper right", ncols=len(words), frameon=False, fontsize="small")
     return np.array(panels, dtype=object)
+
+
+def _shade(panel: Axes, columns: Mapping[str, Array], name: str, over: str, spans: Iterable[Span]) -> None:
+    """Shade spans, the first of each kind with a label: over time all of the panel's height; elsewhere, where a motion
+    may come by again and do something else, along the stretch of the curve.
+    """
+    told: set[str] = set()
+    for kind, start, end in spans:
+        look: dict[str, Any] = {"color": _SHADES[kind], "label": "_" if kind in told else kind}
+        told.add(kind)
+        if over == "t":
+            panel.axvspan(start, end, linewidth=0, zorder=0, **look)
+            continue
+        t = columns["t"]
+        own = slice(np.searchsorted(t, start), np.searchsorted(t, end, "right" if end >= t[-1] else "left"))
+        panel.plot(columns[over][own], columns[name][own], linewidth=_BAND, solid_capstyle="butt", zorder=1, **look)

@@ -1,15 +1,30 @@
-"""The pulses of many scenes as one table."""
+"""States of a motion as a table, and the pulses of many scenes."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+
+from .axes import columns_of
 
 if TYPE_CHECKING:
     import pandas
+
+
+def states_of(motion: Any, t: ArrayLike | None) -> pandas.DataFrame:
+    """A row for each instant, with the kind of phase; see :meth:`rigid.Motion.to_dataframe`."""
+    import pandas
+
+    columns = columns_of(motion.at(motion.times() if t is None else np.atleast_1d(np.asarray(t, dtype=float))))
+    frame = pandas.DataFrame(columns)
+    starts = [phase.t_start for phase in motion.phases]
+    kinds = np.array([str(phase.kind) for phase in motion.phases], dtype=object)
+    frame["phase"] = kinds[np.maximum(np.searchsorted(starts, frame["t"], "right") - 1, 0)]
+    frame.attrs["units"] = {name: motion.units[name] for name in columns}
+    return frame
 
 
 def pulses_of_scenes(

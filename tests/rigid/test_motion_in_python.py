@@ -66,12 +66,49 @@ def test_over_the_angle_and_on_given_axes(motion):
     # a turn lies between two of the 129 times at least, where phi = phi_max - alpha (dt)^2/2
     assert phi.max() == pytest.approx(motion.turns[0].phi, abs=(motion.t_end / 128) ** 2)
     assert "varphi" in drawn[-1].get_xlabel()
-    slipping = [phase for phase in motion.phases if phase.kind != "roll"]
-    assert len(drawn[0].patches) == len(slipping)
+    assert len(drawn[0].lines) == 1 + len([phase for phase in motion.phases if phase.kind != "roll"])
+    assert not drawn[0].get_legend()
     with pytest.raises(ValueError, match="3 quantities need as many axes"):
         motion.plot(axes=axes[:2])
     with pytest.raises(ValueError, match="'speed' is not a quantity of a motion: known are t, phi"):
         motion.plot("speed")
+
+
+def bands(axes):
+    """Points of the shades along a curve, by what the legend calls their colour."""
+    named = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+    return {
+        word: np.vstack([line.get_xydata() for line in axes.lines[:-1] if line.get_color() == one.get_color()])
+        for word, one in named.items()
+    }
+
+
+def test_shades_over_the_angle_where_the_hoop_comes_back(motion):
+    """It skids on through its turn, back over angles at which it came spinning: F = mu N, v < 0 where it spins, and
+    F = -mu N, v > 0 where it skids, there and back."""
+    mu, turn = motion.scene.friction.mu, motion.turns[0].phi
+    axes = motion.plot("slip_velocity", "friction_force", over="phi")
+    (speed, friction), skid = map(bands, axes), next(p for p in motion.phases if p.kind == "skid")
+    assert list(speed) == ["spin", "skid"]
+    assert (speed["spin"][1:, 1] < 0).all()
+    assert (speed["skid"][1:, 1] > 0).all()
+    normal = bands(motion.plot("normal_force", over="phi")[0])
+    for word, way in (("spin", mu), ("skid", -mu)):
+        np.testing.assert_allclose(friction[word][1:, 1], way * normal[word][1:, 1], rtol=1e-9)
+    reached = speed["skid"][:, 0]
+    assert reached[0] == pytest.approx(skid.phi_start, abs=1e-9)
+    assert reached.max() == pytest.approx(turn, abs=(motion.t_end / 128) ** 2)
+    assert reached[-1] == pytest.approx(skid.phi_end, abs=1e-9)
+
+
+@pytest.mark.parametrize("over", ["t", "phi"])
+def test_shades_are_named_above_the_panels(motion, over):
+    axes = motion.plot(over=over)
+    figure = axes[0].figure
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["spin", "skid"]
+    figure.canvas.draw()
+    assert legend.get_window_extent().y0 > axes[0].get_window_extent().y1
 
 
 def test_a_pulse_draws_itself(motion):
@@ -104,6 +141,8 @@ def test_a_table_of_states(motion):
     assert (table["friction_force"] == states.friction_force).all()
     assert list(table["phase"].unique()) == ["roll", "spin", "skid"]
     assert list(motion.to_dataframe([0.0, 1.0])["t"]) == [0.0, 1.0]
+    assert table.attrs["units"] == {name: motion.units[name] for name in table.columns[:-1]}
+    assert simulate(HEAVY).to_dataframe([0.0]).attrs["units"]["friction_force"] == "N"
     assert len(motion.to_dataframe(0.5)) == 1
 
 
