@@ -49,6 +49,14 @@ class Sampler:
     pieces: tuple[Piece, ...]
     scene: Scene
 
+    @property
+    def step_times(self) -> Array:
+        """Times of all records of the flexible segments, (n,), in the scene's unit; those of events and of hand-overs,
+        where values jump, are there twice or more."""
+        known = [piece.segment["t"] for piece in self.pieces if piece.segment is not None]
+        met = [piece.t_start for piece in self.pieces[1:]] * 2
+        return np.sort(np.concatenate([met, *known])) * self.scene.time_unit
+
     def stored(self, motion: FlexibleMotion) -> Stored:
         """What a file keeps of the motion: the records of its flexible segments and the rigid motions between them,
         where each march stands, and the states of the ring if the motion has them."""

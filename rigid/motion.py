@@ -114,7 +114,8 @@ class Pulse(Same):
         sample = self.sample
         span = (self.t_start, self.t_end)
         middle = sampling.bottom(lambda t: sample(t, "right").phi, *span)
-        t = sampling.times(lambda t: sampling.forces_of(sample(t, "right")), span, [middle])
+        steps = sampling.steps_of(sample)
+        t = sampling.times(lambda t: sampling.forces_of(sample(t, "right")), span, [middle], steps=steps)
         paper = getattr(getattr(sample, "scene", None), "dimensionless", True)
         return draw(columns_of(sample(t, "right")), quantities, over, dimensionless=paper, axes=axes)
 
@@ -200,7 +201,8 @@ class Motion(summary.Summarised):
 
     def times(self, start: float = 0.0, end: float | None = None) -> Array:
         """Times at which to sample the motion for a picture or a table, both sides of every jump among them: N and F
-        are straight between them to two thousandths of their range, as far as some 20 000 times allow (200 pulses).
+        are straight between them to two thousandths of their range, as far as some 20 000 times allow (200 pulses). All
+        steps of a flexible motion are among them: there N, F, omega and slip velocity are straight between two.
         """
         return sampling.instants(self, start, self.t_end if end is None else end)
 

@@ -43,7 +43,13 @@ def instants(motion: Any, start: float, end: float) -> Array:
     else:
         lowest = [bottom(lambda t: motion.at(t).phi, pulse.t_start, pulse.t_end) for pulse in inside]
     edges = [phase.t_end for phase in motion.phases]
-    return times(lambda t: forces_of(motion.at(t)), (start, end), lowest, edges)
+    return times(lambda t: forces_of(motion.at(t)), (start, end), lowest, edges, steps_of(motion.sample))
+
+
+def steps_of(sample: Any) -> Array:
+    """Instants between which a solver that marches knows no more than a line, (n,) and ascending; twice where values
+    jump. None of a solver that does not say any."""
+    return np.asarray(getattr(sample, "step_times", ()), dtype=float)
 
 
 def forces_of(states: Any) -> Array:
@@ -56,6 +62,7 @@ def times(
     span: tuple[float, float],
     bottoms: Sequence[float] = (),
     edges: ArrayLike = (),
+    steps: ArrayLike = (),
     *,
     tolerance: float = 2e-3,
     limit: int = 20_000,
@@ -63,17 +70,18 @@ def times(
     """Times over a span between which forces are straight to ``tolerance`` of their range, as far as ``limit`` allows.
 
     The first grid crowds geometrically on ``bottoms``: the spike of a small disk there is k^2 wide, and bisection alone
-    would step over it. Both sides of every one of ``edges``, where forces jump, are among the times.
+    would step over it. Both sides of every one of ``edges``, where forces jump, are among the times, and all ``steps``
+    of a march, both sides of those that are there twice.
 
     Parameters
     ----------
     forces : callable
         Times (n,) to forces (m, n).
     span : (float, float)
-    bottoms, edges : sequence of float
+    bottoms, edges, steps : sequence of float
     tolerance : float
     limit : int
-        Of the number of times, about.
+        Of the number of times beside the steps, about.
     """
     start, end = span
     length = end - start
@@ -84,7 +92,10 @@ def times(
     grid += [side for middle in bottoms for side in (np.array([middle]), middle - crowd, middle + crowd)]
     nearest = 1e-12 * max(1.0, abs(end))
     jumps = np.asarray(edges, dtype=float)
-    grid += [jumps - nearest, jumps + nearest]
+    known = np.asarray(steps, dtype=float)
+    known = known[(known >= start) & (known <= end)]
+    grid += [jumps - nearest, jumps + nearest, known, known[1:][np.diff(known) <= nearest] - nearest]
+    limit += known.size
     t = np.unique(np.clip(np.concatenate(grid), start, end))
     values = forces(t)
     fresh = np.ones(t.size - 1, dtype=bool)

@@ -48,6 +48,33 @@ def test_curves_and_tables(motion):
     pyplot.close("all")
 
 
+@pytest.mark.parametrize("kept", [True, False])
+def test_tables_and_curves_of_a_hoop_that_bounces(kept):
+    """A soft one chatters: its forces are back where they were before the next of a hundred instants. The march knows
+    them at its steps, and a table, a picture and that of a pulse have every one, whether the motion kept them or not.
+    """
+    from matplotlib import pyplot
+
+    soft = {"hoop": {"mass_ratio": 0.1}, "ring": {"bending_stiffness": 5.0}, "contact": {"stiffness": 1e6}}
+    motion = simulate(SCENE.replace(**soft), history=kept)
+    steps = np.unique(np.concatenate([piece.segment["t"] for piece in motion.sample.pieces if piece.segment]))
+    between, table = (steps[1:] + steps[:-1]) / 2, motion.to_dataframe()
+    assert len(table) < 1.2 * motion.steps + 500
+    pulse, names = motion.pulses[0], ("normal_force", "friction_force", "slip_velocity", "omega")
+    inside = (between > pulse.t_start) & (between < pulse.t_end)
+    drawn = pulse.plot(*names)
+    for name, axes in zip(names, drawn, strict=True):
+        for t, (x, y) in ((between, (table["t"], table[name])), (between[inside], axes.lines[-1].get_xydata().T)):
+            off = np.interp(t, x, y) - getattr(motion.at(t), name)
+            assert np.abs(off).max() < 1e-6 * np.ptp(y)
+    jump = motion.sample.pieces[1].t_start  # where the flexible hoop takes over
+    for name in ("normal_force", "y_C"):
+        for side, when in (("left", jump - 1e-11), ("right", jump)):
+            expected = getattr(motion.at(jump, side), name)
+            assert np.interp(when, table["t"], table[name]) == pytest.approx(expected, rel=1e-6)
+    pyplot.close("all")
+
+
 def test_a_few_lines_say_what_it_is(motion):
     lines = repr(motion).splitlines()
     assert len(lines) <= 24
