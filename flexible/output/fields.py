@@ -84,9 +84,11 @@ def write_fields(
     directory : path
         Created if need be; a series that is already there is replaced.
     frames : int
-        Number of frames, at least 2, through a pulse and a little before and after, denser where N changes.
+        Number of frames, at least 2, through a pulse and a little before and after, denser where N changes, at steps of
+        the march where there are as many.
     times : array_like, optional
-        The instants themselves, in the scene's unit of time, in place of that.
+        The instants themselves, in the scene's unit of time, in place of that. A frame between two steps is of a
+        shorter step from the first, which rings with what the longer damps: N of it can be some percent off its curve.
     fields : sequence of str
         Out of ``FIELDS``; what is not asked for is not computed.
     pulse : int or None

@@ -36,7 +36,9 @@ class Instant:
 
 
 def times_of(motion: FlexibleMotion, frames: int, times: ArrayLike | None, pulse: int | None) -> Array:
-    """Times of the frames, in the scene's unit: those listed, or so many through a pulse, denser where N changes."""
+    """Times of the frames, in the scene's unit: those listed, or so many through a pulse, denser where N changes, and
+    at steps of the march where there are as many.
+    """
     end = motion.t_end
     if times is not None:
         listed = np.unique(np.asarray(times, dtype=float))
@@ -55,7 +57,31 @@ def times_of(motion: FlexibleMotion, frames: int, times: ArrayLike | None, pulse
     history = motion.history
     if history is None or not len(history.t):
         return frame_times(start, end, frames)
-    return frame_times(start, end, frames, history.t, history.normal_force)
+    chosen = frame_times(start, end, frames, history.t, history.normal_force)
+    return _at_steps(chosen, np.concatenate([clock * motion.scene.time_unit for clock in _clocks(motion)]))
+
+
+def _clocks(motion: FlexibleMotion) -> list[Array]:
+    """Times of the kept states, a flexible segment each, in the solver's units."""
+    return [np.array([state.t for state in kept.states]) for kept in motion.kept]
+
+
+def _at_steps(chosen: Array, steps: Array) -> Array:
+    """Times (n,), each at the step nearest to it if that is nearer than the next one; distinct and ascending as before.
+
+    Between two steps there is only a shorter step from the first of them, which rings with what the longer one damps.
+    """
+    steps = np.unique(steps[(steps >= chosen[0]) & (steps <= chosen[-1])])
+    if not steps.size:
+        return chosen
+    nearest = np.searchsorted((steps[1:] + steps[:-1]) / 2, chosen)
+    away, gaps = np.abs(steps[nearest] - chosen), np.diff(chosen)
+    near = away < np.maximum(np.append(gaps, gaps[-1]), np.insert(gaps, 0, gaps[0]))
+    # a step that is the nearest of several frames' is taken by the one that is nearest to it
+    order = np.lexsort((away, nearest))
+    first = np.zeros(chosen.size, dtype=bool)
+    first[order[np.insert(np.diff(nearest[order]) > 0, 0, True)]] = True
+    return np.where(near & first, steps[nearest], chosen)
 
 
 def _around(motion: FlexibleMotion, pulse: Pulse) -> tuple[float, float]:
@@ -81,8 +107,9 @@ def _instant(motion: FlexibleMotion, clocks: list[Array], t: float, told: float)
         i = min(max(int(np.searchsorted(steps, t, side="right")) - 1, 0), len(steps) - 2)
         before, after = kept.states[i], kept.states[i + 1]
         state: State | None = before
-        if t > before.t:
-            state = after if t >= after.t else attempt(kept.hoop, before, t - before.t)
+        slack = 1e-15 * last  # a step's time comes back from the scene's unit so far off
+        if t > before.t + slack:
+            state = after if t >= after.t - slack else attempt(kept.hoop, before, t - before.t)
         if state is None:
             state = min(before, after, key=lambda s: abs(s.t - t))
         place = Placement(float(state.pos[2]), state.x_C, 1 + float(state.pos[1]))
@@ -96,5 +123,5 @@ def _instant(motion: FlexibleMotion, clocks: list[Array], t: float, told: float)
 
 def instants_at(motion: FlexibleMotion, times: Array) -> list[Instant]:
     """The hoop at times in the scene's unit."""
-    clocks = [np.array([state.t for state in kept.states]) for kept in motion.kept]
+    clocks = _clocks(motion)
     return [_instant(motion, clocks, float(t) / motion.scene.time_unit, float(t)) for t in times]

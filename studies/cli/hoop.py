@@ -86,7 +86,8 @@ def rigid(scene: str, as_json: bool, out: Path | None) -> int:
 @click.option(
     "--times",
     metavar="T,T,...",
-    help="Frames at these times instead, in sqrt(R/g), or in seconds where the scene is in SI units.",
+    help="Frames at these times instead, in sqrt(R/g), or in seconds where the scene is in SI units; between two steps "
+    "of the march N of a frame can be some percent off its curve.",
 )
 @click.option(
     "--only",
