@@ -81,6 +81,23 @@ def test_a_stiff_ring_moves_as_its_mesh():
     assert np.abs(found - expected).max() < 1e-4 * np.abs(expected).max()
 
 
+@pytest.mark.parametrize(("r", "stiffness", "mass", "off"), [
+    (1.1, 10.0, 0.0, 0.045), (1.2, 35.0, 0.0, 0.03), (1.2, 10.0, 0.0, 0.1), (1.2, 10.0, 0.1, 0.008),
+])  # fmt: skip
+def test_energy_of_elements_through_a_pulse(r, stiffness, mass, off):
+    """Beside the ledger's, as README has it: a massless ring is pressed over the weld, where its dent is linear."""
+    hoop = scene(stiffness, mass).replace(
+        hoop={"r": r}, contact={"stiffness": 1e6, "damping": 1.0}, solve={"rtol": 1e-2, "level": "auto"}
+    )
+    (kept,) = flexible.simulate(hoop, history=True).kept
+    interior, states = interior_of(kept.hoop), kept.states[::6]
+    assert isinstance(kept.hoop, ChainHoop)
+    found = interior.element_energy(interior.displacement(states)).sum(axis=0)
+    ledger = np.array([kept.hoop.energies(state)[2] for state in states])
+    much = ledger > 0.1 * ledger.max()
+    assert np.abs(found[much] / ledger[much] - 1).max() < off
+
+
 def test_fields_of_a_soft_motion(tmp_path):
     """Frames of a soft ring through its pulse; velocities are near the mean ones of two steps, a few percent each."""
     soft = scene(20.0).replace(solve={"rtol": 1e-2, "level": "auto"})
