@@ -2,7 +2,8 @@
 
 The ringing that the end of a slip leaves in a patch decays and breaks the stick early where it is still there when the
 rigid hoop would slip again. So the distance to the limit, beyond what is predicted for a patch that has come to rest,
-depends on x = zeta omega T alone: omega the patch's frequency at that stiffness, T the rigid hoop's stick time.
+depends on x = zeta omega T alone: zeta and omega the patch's own damping ratio and frequency at that stiffness and the
+N of the stick, T the rigid hoop's stick time.
 """
 
 from __future__ import annotations
