@@ -15,10 +15,13 @@ from .rim import element_at, sideways, vertex_angle
 
 
 class Dent(NamedTuple):
-    """An element of the rim as it was when the step began: its sideways displacement x + rise xi + bend xi^2."""
+    """An element of the rim as it was when the step began: at a material angle theta its sideways displacement is
+    x + rise d + bend d^2, d = theta - origin.
+    """
 
     start: float  # material angles
     end: float
+    origin: float
     x: float
     rise: float
     bend: float
@@ -32,32 +35,30 @@ def dent_at(before: Before, rim: Rim, theta: float) -> Dent:
     """
     u, first = before.dent, before.first
     if u.shape[0] == 0:
-        return Dent(-inf, inf, 0.0, 0.0, 0.0)
+        return Dent(-inf, inf, 0.0, 0.0, 0.0, 0.0)
     s, c = sin(before.pose[2]), cos(before.pose[2])
     element = element_at(rim.vertex, theta)
     if rim.first <= element < rim.first + (before.u.shape[0] - 1) // 2:  # what is near the floor now was known as well
         u, first = before.u, rim.first
     last = first + (u.shape[0] - 1) // 2
     if element < first:
-        return Dent(-inf, vertex_angle(rim.vertex, first), sideways(u[0, 0], u[0, 1], s, c), 0.0, 0.0)
+        return Dent(-inf, vertex_angle(rim.vertex, first), 0.0, sideways(u[0, 0], u[0, 1], s, c), 0.0, 0.0)
     if element >= last:
-        return Dent(vertex_angle(rim.vertex, last), inf, sideways(u[-1, 0], u[-1, 1], s, c), 0.0, 0.0)
+        return Dent(vertex_angle(rim.vertex, last), inf, 0.0, sideways(u[-1, 0], u[-1, 1], s, c), 0.0, 0.0)
     k = 2 * (element - first)
     x0 = sideways(u[k, 0], u[k, 1], s, c)
     x1 = sideways(u[k + 1, 0], u[k + 1, 1], s, c)
     x2 = sideways(u[k + 2, 0], u[k + 2, 1], s, c)
     start, end = vertex_angle(rim.vertex, element), vertex_angle(rim.vertex, element + 1)
-    return Dent(start, end, x0, 4 * x1 - 3 * x0 - x2, 2 * (x0 + x2) - 4 * x1)
+    width = end - start
+    return Dent(start, end, start, x0, (4 * x1 - 3 * x0 - x2) / width, (2 * (x0 + x2) - 4 * x1) / width**2)
 
 
 @loop
 def displaced(dent: Dent, theta: float) -> tuple[float, float]:
     """Sideways displacement at a material angle in the element, and its derivative by that."""
-    if dent.rise == 0 and dent.bend == 0:
-        return dent.x, 0.0
-    width = dent.end - dent.start
-    xi = (theta - dent.start) / width
-    return dent.x + xi * (dent.rise + xi * dent.bend), (dent.rise + 2 * xi * dent.bend) / width
+    d = theta - dent.origin
+    return dent.x + d * (dent.rise + d * dent.bend), dent.rise + 2 * d * dent.bend
 
 
 @loop

@@ -178,7 +178,7 @@ def place(
     height, phi, phi_old = pose[1], pose[2], old_pose[2]
     s, c, s_old, c_old = sin(phi), cos(phi), sin(phi_old), cos(phi_old)
     dv, dphi = pose[0] - old_pose[0], phi - phi_old
-    outside, dent = False, Dent(inf, -inf, 0.0, 0.0, 0.0)
+    outside, dent = False, Dent(inf, -inf, 0.0, 0.0, 0.0, 0.0)
     # sines and cosines of psi/2 give all others; as they are what a point costs, most are turned on from the last ones
     s_turn, c_turn, s_half, c_half = sin(dphi / 2), cos(dphi / 2), sin(dphi / 4), cos(dphi / 4)
     s_next, c_next, sine, cosine = sin(spacing / 2), cos(spacing / 2), 0.0, 1.0
