@@ -232,24 +232,24 @@ def test_a_damped_soft_pulse_is_gone_through():
 
 
 @pytest.mark.slow
-def test_a_soft_pulse_against_all_nodes(monkeypatch):
+def test_a_soft_pulse_against_all_nodes():
     """The first pulse at E I = 10, where the rim turns by 0.03, on the same mesh: a percent in all that is measured.
 
-    At rtol = 3e-4 each of them is off by up to half a percent by itself; at 1e-3 a step is long beside the ring's fast
-    vibrations, and the largest force is another one for each. The time off the floor is off by a percent by itself (the
-    chain's is 0.0647, and 0.0654 from 3e-5 on), so two are allowed between them.
+    The mesh is coarse and the floor softer than in `hoop bench soft`, which has this hoop on 240 elements: what they
+    leave is the same for both.
     """
-    scene = HOOP.replace(ring={"bending_stiffness": 10.0}, hoop={"mass_ratio": 0.05}, solve={"rtol": 3e-4})
+    scene = HOOP.replace(
+        ring={"bending_stiffness": 10.0}, hoop={"mass_ratio": 0.05}, contact={"stiffness": 1e7},
+        solve={"rtol": 1e-3, "elements": 120, "through": 2},
+    )  # fmt: skip
     found = []
-    for kind in (ChainHoop, ExactHoop):
-        monkeypatch.setattr("flexible.run.solve.hoop_of", lambda inner, kind=kind: kind(inner, through=2))
-        pulse = flexible.simulate(scene).pulses[0]
+    for level in ("chain", "exact"):
+        pulse = flexible.simulate(scene.replace(solve={"level": level})).pulses[0]
         ratio = pulse.friction_impulse / pulse.normal_impulse
         found.append([
             pulse.normal_impulse, ratio, pulse.peak_normal_force, pulse.friction_loss, pulse.time_off_floor,
         ])  # fmt: skip
-    assert found[0][:-1] == pytest.approx(found[1][:-1], rel=0.01)
-    assert found[0][-1] == pytest.approx(found[1][-1], rel=0.02)
+    assert found[0] == pytest.approx(found[1], rel=0.01)
 
 
 @pytest.mark.slow
