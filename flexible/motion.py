@@ -48,9 +48,9 @@ class Ledger:
     and with a patch, and where it was put back: it tends to zero with growing stiffness. ``residual`` is all that the
     others leave unexplained: the work of a patch's points beyond that of the patch as a whole, which is summed by
     trapezoids over the steps. It falls more slowly than ``numerical_loss``, like rtol^(1/2) or so: below a tenth of
-    ``solve.rtol`` of the initial energy down to 1e-5 in thin walls that are not soft, but more than ``solve.rtol`` in
-    thick ones on stiff floors and in soft ones that land (README.md, section 4). It is a limit of the books,
-    and no part of the motion.
+    ``solve.rtol`` of the initial energy down to 1e-5 in thin walls that are not soft, but as much as ``solve.rtol`` in
+    thick soft ones, and some times that in soft ones that land (README.md, section 4). It is a limit of the books, and
+    no part of the motion.
     """
 
     initial: Energy[float]
