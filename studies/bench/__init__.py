@@ -2,6 +2,7 @@
 
 ``rigid``, ``flexible``, ``soft``, ``scaling``  what is timed, each with its claims
 ``knobs``, ``mesh``      what each of the four that ``rtol`` turns leaves; the elements by wall and stiffness
+``contact``            what places of points, steps and books leave
 ``skipped``            what each thing skipped saves
 ``race``               contestants in turns, rows, claims
 ``truth``              what is taken for true: forty digits, all nodes in the limit

@@ -91,6 +91,8 @@ class Result:
     """Entries of ``Row.more`` with a table of their own, and how far ``"NAME off"`` says that they are off."""
     parts: tuple[str, ...] = ()
     """Entries of ``Row.more`` of which the error is made up."""
+    told: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    """Titles of more tables, and the entries of ``Row.more`` in each; a row is in those of which it has the first."""
 
     def to_dict(self) -> dict[str, Any]:
         """What ``--json`` prints."""

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.argument("what", type=click.Choice(["rigid", "flexible", "mesh", "knobs", "soft", "scaling"]))
+@click.argument("what", type=click.Choice(["rigid", "flexible", "mesh", "knobs", "contact", "soft", "scaling"]))
 @as_json
 @out_folder("Write table and figures into this folder.")
 @click.option(
@@ -42,6 +42,9 @@ def bench(
     knobs     what elements, modes, contact points and steps each leave at
               the tolerance that chose them; a quarter of an hour, a minute
               with --quick
+    contact   what the places of points, the books and the force at an
+              instant leave, steps by tolerance; five minutes, a few
+              seconds with --quick
     soft      pulses of rings that bend far, beside all nodes of the exact
               ring; three quarters of an hour, six minutes with --quick
     scaling   cost against stiffness, turns, mesh, scenes and workers

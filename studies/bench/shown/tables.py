@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import isfinite
 from typing import Any
 
 from ...plots.sheet import Column, Sheet
-from ..race import NAN, Result
+from ..race import NAN, Result, Row
 
 
 def _number(value: float, digits: int = 3) -> str:
@@ -16,7 +17,7 @@ def _number(value: float, digits: int = 3) -> str:
 def bench_tables(result: Result) -> list[Any]:
     """Rows, fitted exponents, stated ratios."""
     rows = result.rows
-    keys = [Column(name, [getattr(row, name) for row in rows], words=True) for name in ("scene", "solver", "setting")]
+    keys = _keys(rows)
     columns = [
         Column("median\n[ms]", [_number(1e3 * row.median, 4) for row in rows]),
         Column("least\n[ms]", [_number(1e3 * row.least, 4) for row in rows], joined=True),
@@ -30,8 +31,16 @@ def bench_tables(result: Result) -> list[Any]:
     if result.compared:
         shown.append(_compared(result))
     if result.parts:
-        parts = [Column(name, [_number(row.more.get(name, NAN), 2) for row in rows]) for name in result.parts]
-        shown.append(Sheet("What the error is made up of", keys, [*parts, Column("error", columns[3].cells)]))
+        shown.append(
+            _of(
+                "What the error is made up of",
+                [row for row in rows if result.parts[0] in row.more],
+                result.parts,
+                error=True,
+            )
+        )
+    for title, names in result.told.items():
+        shown.append(_of(title, [row for row in rows if names[0] in row.more], names))
     if result.exponents:
         against = [Column("cost against", list(result.exponents), words=True)]
         powers = [Column("exponent", [f"{power:.2f}" for power in result.exponents.values()])]
@@ -51,10 +60,24 @@ def bench_tables(result: Result) -> list[Any]:
     return shown
 
 
+def _of(title: str, rows: Sequence[Row], names: Sequence[str], error: bool = False) -> Sheet:
+    """Entries of ``Row.more``, each a column, and the error."""
+    columns = [
+        Column(name, [_number(row.more.get(name, NAN), 3 if name == "steps" else 2) for row in rows]) for name in names
+    ]
+    if error:
+        columns.append(Column("error", [_number(row.error, 2) for row in rows]))
+    return Sheet(title, _keys(rows), columns)
+
+
+def _keys(rows: Sequence[Row]) -> list[Column]:
+    return [Column(name, [getattr(row, name) for row in rows], words=True) for name in ("scene", "solver", "setting")]
+
+
 def _compared(result: Result) -> Sheet:
     """What the solvers found, and how far off in percent."""
     rows = [row for row in result.rows if any(name in row.more for name in result.compared)]
-    keys = [Column(name, [getattr(row, name) for row in rows], words=True) for name in ("scene", "solver", "setting")]
+    keys = _keys(rows)
     columns = []
     for name in result.compared:
         columns.append(Column(name, [_number(row.more.get(name, NAN), 4) for row in rows]))
