@@ -23,12 +23,13 @@ from .race import Claim, Result, Row
 from .truth.reference import errors, massless_brush, massless_pulse
 
 SOLVER = "hoop-pulse"
+AVERAGE = "on average [m g]"
 PLACES = (1.0, 1.01, 1.02, 1.03, 1.04, 1.05)  # of the number of points: they lie anywhere in the patch
 SCATTER = ("J_F/J_N", "loss", "N_max")
 MOST_SCATTER = 0.5  # of it over rtol
-BOOKS, FORCE, STEPS = "left by the books, over rtol", "F off on average [m g]", "steps"
+BOOKS, FORCE, STEPS = "left by the books, over rtol", "F off, at most [N]", "steps"
 MOST_LEFT = {"thin": 0.1, "thick": 1.0}
-MOST_OFF = 1e-4  # of F on average, m g, where the floor gives way by more than the ring
+MOST_OFF = 1.5e-3  # of F over N, where the floor gives way by more than the ring
 MOST_GROWTH = 10.0  # of the steps from 1e-4 to 1e-6
 
 Job = tuple[str, Scene, tuple[float, ...]]
@@ -106,7 +107,7 @@ def force_of_rolling(scene: Scene, rtol: float) -> dict[str, float]:
     rigid = [rolling_forces(body, *at)[1] for at in zip(psi, seen.omega[inside], strict=True)]
     off = seen.friction_force[inside] - total * np.array(rigid)
     most = float(np.abs(off / seen.normal_force[inside]).max())
-    return {FORCE: float(np.abs(off.mean())), "at most [N]": most, STEPS: float(motion.steps)}
+    return {FORCE: most, AVERAGE: float(np.abs(off.mean())), STEPS: float(motion.steps)}
 
 
 def _run(scene: Scene, rtol: float) -> Any:
@@ -125,7 +126,7 @@ def bench(quick: bool = False, peers_too: bool = False, progress: Callable[[floa
         (lambda scene, rtol: {STEPS: float(_run(scene, rtol).steps)}, list(grown(quick))),
     ]
     result = Result(parts=SCATTER, told={"What the books leave": (BOOKS, STEPS)})
-    result.told |= {"F at an instant": (FORCE, "at most [N]", STEPS), "Steps by tolerance": ("growth", STEPS)}
+    result.told |= {"F at an instant": (FORCE, AVERAGE, STEPS), "Steps by tolerance": ("growth", STEPS)}
     jobs = [(measure, name, scene, rtol) for measure, of in kinds for name, scene, rtols in of for rtol in rtols]
     for number, (measure, name, scene, rtol) in enumerate(jobs):
         row = Row(SOLVER, f"rtol {rtol:.0e}", name, [])
@@ -164,6 +165,6 @@ def _claims(rows: list[Row]) -> Iterator[Claim]:
         if left:
             yield Claim(f"{wall} walls: what the books leave, over rtol", max(left), most, at_most=True)
     off = [row.more[FORCE] for row in rows if FORCE in row.more and "E I = 50 " not in row.scene]
-    yield Claim("rolling in thick walls: F off on average, m g", max(off, default=nan), MOST_OFF, at_most=True)
+    yield Claim("rolling in thick walls: F off, over N", max(off, default=nan), MOST_OFF, at_most=True)
     steps = [row.more["growth"] for row in rows if "growth" in row.more]
     yield Claim("steps at rtol 1e-6, over those at 1e-4", max(steps, default=nan), MOST_GROWTH, at_most=True)

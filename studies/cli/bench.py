@@ -43,8 +43,8 @@ def bench(
               the tolerance that chose them; a quarter of an hour, a minute
               with --quick
     contact   what the places of points, the books and the force at an
-              instant leave, steps by tolerance; five minutes, a few
-              seconds with --quick
+              instant leave, steps by tolerance; three minutes, half
+              a one with --quick
     soft      pulses of rings that bend far, beside all nodes of the exact
               ring; three quarters of an hour, six minutes with --quick
     scaling   cost against stiffness, turns, mesh, scenes and workers
