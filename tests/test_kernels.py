@@ -132,6 +132,7 @@ def test_machine_code_is_made_of_what_python_calls(tmp_path):
     assert run(installation, tmp_path / "cache", OF_WHAT + PROGRAM + CALLED_BY_PYTHON_ALONE)[:2] == (-1.5, True)
 
 
+@pytest.mark.slow
 def test_a_numba_whose_insides_are_not_known_compiles_in_its_own_way(tmp_path):
     installation = copy_of_the_packages(tmp_path / "installation")
     newer = "import rigid.kernel.insides.parts as parts\nparts._NEXT = parts._OLDEST\n"

@@ -209,6 +209,7 @@ def test_neighbouring_frames_have_different_stamps(tmp_path):
     assert [float(stamp.split()[2]) for stamp in told] == pytest.approx(np.linspace(1.3, 1.3002, 9), abs=1e-5)
 
 
+@pytest.mark.slow
 @needs_renderer
 def test_a_gif_of_a_pulse_is_below_a_megabyte(series, tmp_path):
     animate(series, tmp_path / "a.gif", timing=Timing(frames=30))

@@ -350,6 +350,7 @@ def _hears_interrupts() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
+@pytest.mark.slow
 def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(tmp_path):
     file, slow = sweep_file(tmp_path), by("third_solver:slow")
     out = tmp_path / "out"
@@ -394,6 +395,7 @@ def test_a_number_of_thousands_of_digits_is_no_toml(tmp_path):
         load_sweep(sweep_file(tmp_path, k="1" * 5000))
 
 
+@pytest.mark.slow
 def test_kill_9_loses_no_finished_case_and_leaves_no_worker_behind(tmp_path):
     file, slow = sweep_file(tmp_path), by("third_solver:slow")
     file.write_text(file.read_text() + "histories = true\n")

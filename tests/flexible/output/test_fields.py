@@ -291,6 +291,7 @@ def test_200_frames_in_50_megabytes(motion, tmp_path):
     assert size < 50e6
 
 
+@pytest.mark.slow
 def test_a_killed_run_leaves_whole_frames(tmp_path):
     code = (
         "import sys; from flexible import simulate; from flexible import write_fields\n"

@@ -96,6 +96,7 @@ def test_what_a_plain_installation_lacks_is_not_imported(monkeypatch):
     assert not any("pyvista" in command or "scipy" in command for command in asked)
 
 
+@pytest.mark.slow
 def test_bench_rigid_as_json_with_its_figure(hoop, tmp_path):
     status, out, err = hoop("bench", "rigid", "--quick", "--json", "--out", tmp_path)
     assert (status, err) == (0, "")

@@ -40,6 +40,7 @@ def completed(*words: str) -> list[str]:
     return [line.partition(",")[2] for line in done.stdout.splitlines()]
 
 
+@pytest.mark.slow
 def test_a_shell_completes_commands_scenes_and_keys():
     assert set(completed("hoop", "st")) == {"study", "stress"}
     assert set(completed("hoop", "study", "")) >= {"stiffness", "limit", "hop", "sweep"}
@@ -157,6 +158,7 @@ def test_what_went_wrong_is_said_however_quiet(hoop):
     assert is_one_sentence(err)
 
 
+@pytest.mark.slow
 def test_a_folder_of_another_command_is_taken(hoop, tmp_path):
     out = tmp_path / "results"
     assert hoop("rigid", "paper-3.1", "--out", out)[0] == 0
@@ -256,6 +258,7 @@ def without_posix(program: str, *arguments: object) -> subprocess.CompletedProce
     return subprocess.run(line, env=environment(), capture_output=True, text=True, timeout=HANGS)
 
 
+@pytest.mark.slow
 def test_every_module_imports_without_posix():
     ours = [name for name in modules() if ".peers." not in name and not name.endswith(".__main__")]
     done = without_posix(f"import importlib\nfor name in {ours}: importlib.import_module(name)")

@@ -57,6 +57,7 @@ def test_frames_at_listed_times_with_listed_fields(hoop, run, tmp_path):
     assert set(series[1].blocks["ring"].point_data) == {"von_mises", "displacement"}
 
 
+@pytest.mark.slow
 @needs_renderer
 def test_view_draws_a_picture_and_an_animation(hoop, run, tmp_path):
     from PIL import Image

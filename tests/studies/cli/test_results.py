@@ -192,6 +192,7 @@ def test_every_command_with_a_folder_is_known():
     assert writing == set(results.WRITTEN)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("line", [("stress", "--quick"), ("bench", "rigid", "--quick"), ("paper",)])
 def test_an_interrupted_command_says_only_what_is_true(hoop, tmp_path, monkeypatch, line):
     """Nothing is kept and no folder stays, made by the command or above it; one that was there is left."""

@@ -105,6 +105,7 @@ def test_the_table_fits_a_plain_screen(verdicts):
         assert all(word in text for word in f"{verdict.what} {verdict.ours}".split())
 
 
+@pytest.mark.slow
 def test_all_figures_and_the_table_are_written(tmp_path, verdicts):
     seen = []
     assert reproduce(tmp_path, ["png"], lambda done, total, what: seen.append((done, total))) == verdicts
@@ -120,6 +121,7 @@ def test_all_figures_and_the_table_are_written(tmp_path, verdicts):
     assert "figure-12" in (tmp_path / "table.md").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_the_command_ends_with_the_table(hoop, tmp_path):
     status, out, _ = hoop("paper", "--out", tmp_path, "--format", "svg")
     assert status == 0

@@ -52,6 +52,7 @@ def test_a_number_that_differs_is_told(capsys):
     assert again.check([stated], bench, "it is 0.1700") == 1
 
 
+@pytest.mark.slow
 def test_a_picture_is_made_by_its_command(tmp_path):
     (tmp_path / "images").mkdir()
     picture = readme.Picture("ring.msh", ("hoop scenes", "hoop rigid paper-3.1 --out here"), "here/pulse.png")

@@ -148,6 +148,7 @@ def test_a_table_keeps_its_last_column_where_it_is_too_wide(page):
     assert "max-width: 86rem" in style
 
 
+@pytest.mark.slow
 def test_the_page_comes_when_all_that_it_names_is_there(hoop, tmp_path, monkeypatch):
     """Fields that cannot be written are told; the page is whole without them, and an older one is gone meanwhile."""
     import studies.cli.shared.output as output
