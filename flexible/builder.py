@@ -19,7 +19,7 @@ from .motion import FlexibleMotion, FlexiblePulse, Kept, Ledger, March
 from .pieces import Piece, Sampler
 from .segment import Segment, history_of
 from .time.adaptive import LIMITS, Limits, march
-from .time.course import Course, Marched, Stop
+from .time.course import Course, Marched, Stop, goes_past
 from .time.events import Ends
 from .time.methods import METHODS
 
@@ -175,7 +175,7 @@ class Builder:
                     progress(t, phi)
 
         number, states = len(self.marches), list[State]()
-        earlier, last = self._earlier(number, state)
+        earlier, last = self._earlier(number, state, ends)
         if earlier is not None and self.kept is not None and self.earlier is not None:
             states = list(self.earlier.kept[number].states)
         if earlier is not None and not last:
@@ -199,18 +199,22 @@ class Builder:
         rise = momentum(hoop, state, np.eye(len(state.vel))[1]) / (1 + self.hoop.mass_ratio)
         return marched.state, self._add_flexible(marched, rise), marched.stop
 
-    def _earlier(self, number: int, state: State) -> tuple[March | None, bool]:
+    def _earlier(self, number: int, state: State, ends: Ends) -> tuple[March | None, bool]:
         """The march of that number in the motion to go on from, and whether it is to be taken up, as its last one, or
-        one so near the end of its run that this may have cut the step in which it ends.
+        one so near the end of its run, or of this one, that this may have cut the step in which it ends.
 
-        One to be taken up that the end of its run had begin elsewhere (the rigid pulse, cut, was shorter) is none.
+        One to be taken up that the end of its run had begin elsewhere (the rigid pulse, cut, was shorter) is none, nor
+        is one that went on where this run ends, or that begins elsewhere for that.
         """
         known = self.earlier.marches if self.earlier is not None else ()
         if self.earlier is None or number >= len(known):
             return None, False
-        first, t_end = known[number].marched.records[0], self.earlier.scene.to_dimensionless().run.t_end
-        last = number == len(known) - 1 or known[number].marched.state.t > (t_end or np.inf) - LIMITS.longest
+        marched, t_end = known[number].marched, self.earlier.scene.to_dimensionless().run.t_end
+        first, until = marched.records[0], min(t_end or np.inf, ends.t)
+        last = number == len(known) - 1 or marched.state.t > until - LIMITS.longest
         began, now = (first.t, first.phi, first.omega), (state.t, state.pos[2], state.vel[2])
+        if goes_past(marched, ends):
+            return None, False
         if np.allclose(began, now, rtol=0 if last else 1e-6, atol=0 if last else 1e-6):  # machines differ in round-off
             return known[number], last
         if not last:

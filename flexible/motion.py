@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Motion, Phase, Pulse
+from rigid import Motion, Phase, Pulse, Scene
 from rigid.output.units import (
     AngularAcceleration,
     AngularVelocity,
@@ -144,6 +144,16 @@ class Kept:
 
     def __repr__(self) -> str:
         return f"Kept({len(self.states)} states)"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """A copy, in this process or another, has a hoop of its own, since a factored matrix cannot be copied."""
+        return _kept, (self.hoop.scene, self.states)
+
+
+def _kept(scene: Scene, states: tuple[State, ...]) -> Kept:
+    from .models.select import hoop_of
+
+    return Kept(hoop_of(scene), states)
 
 
 class March(NamedTuple):

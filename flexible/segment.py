@@ -247,7 +247,7 @@ class Segment:
             newton_restitution=float(-velocity[-1] / velocity[0]) if velocity[0] else 0.0,
             poisson_restitution=float((total - compression) / compression) if compression > 0 else 0.0,
             energetic_restitution=sqrt(max(0.0, -returned / absorbed)) if absorbed < 0 else 0.0,
-            time_off_floor=gain("off_floor"),
+            time_off_floor=max(gain("off_floor"), 0.0),  # of a pulse without any it is round-off
             ring_energy_peak=strain,
             contact_energy_peak=spring,
             damping_loss=gain("damping_loss"),

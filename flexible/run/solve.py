@@ -51,7 +51,7 @@ def simulate(
     history, states : bool
         Keep every step, as ``motion.history``, and (or not, quicker) the ring's states, of which fields are made.
     progress : callable, optional
-        Called with the fraction done, 0 to 1.
+        Called with the fraction done, 0 to 1, as far as it can be foreseen; with 1 at the end of a run that came to it.
     most_steps : int, optional
         Of all flexible segments together, after which the motion ends incomplete; by default 50 000 in each.
     resume : FlexibleMotion, optional
@@ -85,6 +85,8 @@ def simulate(
     ending = run(inner, hoop, builder, Progress(progress))
     ended, complaint = in_words(ending, scene), builder.range.complaint()
     completed = ending.completed if isinstance(ending, Motion) else not isinstance(ending, Stop)
+    if progress is not None and completed:
+        progress(1.0)
     return builder.motion(scene, f"{ended}; {complaint}" if complaint else ended, completed, history)
 
 

@@ -8,6 +8,9 @@ from typing import Any, NamedTuple
 
 from ..models.state import Books, Record, State
 from .control import AFRESH, Pace
+from .events import Ends
+
+PAST = 1e-8  # of a time or an angle, past the end of a march: it ends within 1e-9, and machines differ in round-off
 
 
 class Standing(NamedTuple):
@@ -87,3 +90,11 @@ class Marched(NamedTuple):
     attempts: int  # steps tried
     stop: Stop | None  # None when one of the ends was reached; a file does not keep it: what goes on stops anew
     course: Course  # an instant before the steps that the march's own ends made shorter
+
+
+def goes_past(marched: Marched, ends: Ends) -> bool:
+    """Whether a march went on where one with these ends would not have."""
+    phi = [record.phi for record in marched.records]
+    if min(phi) < ends.low - PAST or max(phi) > ends.high + PAST:
+        return True
+    return marched.state.t > ends.t + PAST or 0 < ends.turns <= marched.course.now.turns

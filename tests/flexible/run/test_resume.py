@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import pickle
 from typing import Any
 
 import numpy as np
@@ -86,6 +87,35 @@ def test_a_run_that_came_to_its_time_just_behind_a_turn(behind: float) -> None:
     beyond = scene.replace(run={"turns": None, "t_end": turn + 0.5})
     part = simulate(scene.replace(run={"turns": None, "t_end": turn + behind}), history=True)
     assert_same(simulate(beyond, history=True, resume=part), simulate(beyond, history=True))
+
+
+@pytest.mark.parametrize("name", ["pulses", "throughout"])
+@pytest.mark.parametrize("less", [{"t_end": 3.0}, {"t_end": 5.84}, {"t_end": "behind"}, {"until": "pulse"}])
+def test_a_run_that_ends_earlier(name: str, less: dict[str, Any]) -> None:
+    """Before the march of a pulse, inside it, a hundredth of a step behind the first turn, or at the pulse's end."""
+    if less == {"t_end": "behind"}:
+        less = {"t_end": whole(name).turns[0].t + 1e-4}
+    scene = SCENES[name].replace(run=rigid.Run(**less))
+    assert_same(simulate(scene, history=True, resume=whole(name)), simulate(scene, history=True))
+
+
+def test_a_motion_with_its_states_is_copied() -> None:
+    """As a pool of processes does: the hoop is made anew, and fields and a run that goes on are the same."""
+    motion = whole("pulses")
+    copy = pickle.loads(pickle.dumps(motion))
+    assert copy == motion
+    assert_same(copy, motion)
+    first, second = (each.kept[0].hoop.displacement(each.kept[0].states[-1], (0, 5)) for each in (motion, copy))
+    np.testing.assert_array_equal(first, second)
+    longer = SCENES["pulses"].replace(run={"turns": 3})
+    assert_same(simulate(longer, history=True, resume=copy), simulate(longer, history=True, resume=motion))
+
+
+def test_progress_ends_with_the_whole() -> None:
+    seen: list[float] = []
+    simulate(SCENES["pulses"], progress=seen.append)
+    assert seen == sorted(seen)
+    assert seen[-1] == 1.0
 
 
 def test_a_run_that_came_to_its_end_is_itself() -> None:
