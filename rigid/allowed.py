@@ -52,11 +52,16 @@ def in_radians(key: str, value: Any) -> float:
 
 def plain(key: str, value: Any) -> Any:
     """A number or a word as Python has it, a scalar of numpy's included."""
-    if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0):
-        value = value.item()
+    value = _item(value)
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         raise SceneError(f"{key} = {shown(value)} is not possible: it must be a number or a word.")
     return value
+
+
+def _item(value: Any) -> Any:
+    """What Python has for a scalar of numpy's; anything else as it is."""
+    scalar = isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0)
+    return value.item() if scalar else value
 
 
 def answering(
@@ -119,14 +124,15 @@ def answering(
 
 def require(
     key: str, value: Any, low: float, high: float, allowed: str, *, open_low: bool = False, open_high: bool = False
-) -> None:
-    """Refuse a value that is no finite number from ``low`` to ``high``, which belong to it unless open."""
+) -> float:
+    """A number as Python has it; refused if it is none from ``low`` to ``high``, which belong to it unless open."""
+    value = _item(value)
     number = isinstance(value, (int, float)) and not isinstance(value, bool)
     if number and abs(value) <= sys.float_info.max:
         above = value > low if open_low else value >= low
         below = value < high if open_high else value <= high
         if above and below:
-            return
+            return value
     elif number:
         allowed = "it must be a finite number"
     elif isinstance(value, str):
@@ -148,7 +154,9 @@ def require_choice(key: str, value: Any, choices: tuple[str, ...]) -> None:
         raise SceneError(f"{key} = {shown(value)} is not possible: it must be one of {', '.join(map(repr, choices))}.")
 
 
-def require_whole(key: str, value: Any, low: int, high: int) -> None:
-    """Refuse what is no whole number from ``low`` to ``high``."""
+def require_whole(key: str, value: Any, low: int, high: int) -> int:
+    """A whole number as Python has it; refused if it is none from ``low`` to ``high``."""
+    value = _item(value)
     if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
         raise SceneError(f"{key} = {shown(value)} is not possible: it must be a whole number from {low} to {high}.")
+    return value

@@ -153,8 +153,9 @@ def simulate(scene: SceneLike, aloft: Aloft = ON_THE_FLOOR) -> Motion:
     """
     scene = as_scene(scene)
     height, rise = aloft
-    require("aloft's height", height, 0.0, 1e9, "the hoop is on the floor or over it")
-    require("aloft's rise", rise, 0.0 if height == 0 else -1e9, 1e9, "a hoop on the floor moves along it, or up")
+    height = require("aloft's height", height, 0.0, 1e9, "the hoop is on the floor or over it")
+    least = 0.0 if height == 0 else -1e9
+    rise = require("aloft's rise", rise, least, 1e9, "a hoop on the floor moves along it, or up")
     if (height or rise) and is_point_mass(scene.hoop.constants):
         raise SceneError("A point mass on a massless hoop is on the floor: what lands of it has no inertia.")
     return _motion(scene, _run(scene, (height / scene.hoop.R, rise * scene.time_unit / scene.hoop.R)))

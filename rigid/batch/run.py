@@ -102,9 +102,9 @@ def simulate_batch(
         A value that no scene can have, with its index, or a ``turns``, ``t_end`` or ``until`` that no run can have;
         ``pulses`` or ``workers`` that are no whole number.
     """
-    require_whole("pulses", pulses, 0, 1_000_000)
+    pulses = require_whole("pulses", pulses, 0, 1_000_000)
     if workers is not None:
-        require_whole("workers", workers, 1, 1024)
+        workers = require_whole("workers", workers, 1, 1024)
     turns = Run(turns, t_end, until).turns  # refuses what no run can be
     table = table_of(scenes)
     count = len(table)

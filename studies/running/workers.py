@@ -10,6 +10,7 @@ from contextlib import contextmanager, suppress
 from typing import Protocol, TypeVar
 
 from rigid import scene_to_dict
+from rigid.allowed import require_whole
 from rigid.batch.cores import cores
 
 from ..machine.kernels import compile_side_by_side, levels_of, prepare
@@ -148,8 +149,18 @@ class Cluster(Pool):
 
 @contextmanager
 def pool(workers: int | None = None, scheduler: str | None = None) -> Iterator[Pool]:
-    """Where cases run: the cluster at ``scheduler``, else ``workers`` processes, else (one worker) here."""
+    """Where cases run: the cluster at ``scheduler``, else ``workers`` processes, else (one worker) here.
+
+    Raises
+    ------
+    SceneError
+        ``workers`` that are no whole number from 1 to 1024.
+    StudyError
+        There is no scheduler at that address.
+    """
     place: Machine | Cluster
+    if workers is not None:
+        workers = require_whole("workers", workers, 1, 1024)
     if scheduler is not None:
         place = Cluster(scheduler)
     elif (workers or cores()) == 1:

@@ -243,6 +243,11 @@ def test_how_many_pulses_and_workers_are_whole_numbers(wrong):
         simulate_batch(["paper-3.1"], **wrong)
 
 
+def test_how_many_may_be_a_number_of_numpys():
+    batch = simulate_batch(["paper-3.1"], pulses=np.int64(1), workers=np.int32(1))
+    assert batch.impulse_ratio.tolist() == simulate_batch(["paper-3.1"], pulses=1).impulse_ratio.tolist()
+
+
 def test_a_table_of_pandas_is_a_batch():
     quantities = {"k": [0.1, 0.2], "mu_s": 0.35, "mu": 0.3, "phi0": 0.2}
     a, b = (simulate_batch(scenes) for scenes in (quantities, pandas.DataFrame(quantities)))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from rigid import Friction, Hoop, Kind, Landing, Release, Run, Scene, SceneError, simulate
+from rigid import Aloft, Friction, Hoop, Kind, Landing, Release, Run, Scene, SceneError, simulate
 from rigid.kernel.angle import chart
 from rigid.kernel.layout import ANGLE, OMEGA, SLIP, STATE, TOP, UN
 from rigid.phases.flight import height, touch_down
@@ -293,6 +293,15 @@ def test_a_hoop_let_fall_takes_the_time_of_its_fall():
     assert motion.phases[0].kind == Kind.FLIGHT
     assert motion.phases[0].t_end == pytest.approx(1.0, rel=1e-14)
     assert motion.phases[0].phi_end == pytest.approx(radians(10), rel=1e-14)
+
+
+@pytest.mark.parametrize("number", [np.float32, np.int64, np.float64, np.array])
+def test_a_height_may_be_a_number_of_numpys(number):
+    """As a scene's own may."""
+    scene = Scene(Hoop(0.1, 1.02), Friction(0.35, 0.3), Release(radians(10)), Run(turns=1))
+    assert simulate(scene, Aloft(number(1))).ended == simulate(scene, Aloft(1.0)).ended
+    with pytest.raises(SceneError, match="aloft's height"):
+        simulate(scene, Aloft(number(-1)))
 
 
 @pytest.mark.parametrize("aloft", [(-0.1, 0.0), (0.0, -0.1), (nan, 0.0), (0.0, inf)])

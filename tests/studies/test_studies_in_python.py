@@ -10,8 +10,8 @@ import flexible
 import meshes
 import rigid
 import studies
-from rigid import load_scene
-from studies import Ladder, StudyError, limit_study, run_sweep, stiffness_study, sweep_from_dict
+from rigid import SceneError, load_scene
+from studies import Ladder, StudyError, limit_study, pool, run_sweep, stiffness_study, sweep_from_dict
 from studies.running.solvers import version
 
 mpl.use("Agg")
@@ -21,6 +21,12 @@ mpl.use("Agg")
 def study():
     """A hoop that tends to the rigid one at a rate that is known."""
     return stiffness_study("paper-3.3-massless", Ladder("both", 1e7, 1e12, 6), solver="third_solver:softened")
+
+
+@pytest.mark.parametrize("workers", [-1, 0, "a", 1.5, 10_000])
+def test_workers_that_are_no_number_of_them_are_refused(workers):
+    with pytest.raises(SceneError, match=r"^workers = .* whole number from 1 to 1024"), pool(workers):
+        pass
 
 
 @pytest.mark.parametrize("rate", [float("nan"), float("inf"), -1.0, 0.0])
