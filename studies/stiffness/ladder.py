@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isfinite
+from math import inf
 
 import numpy as np
 
-from rigid import Scene, SceneError
+from rigid import Scene, SceneError, SceneLike, as_scene
+from rigid.allowed import require, require_choice, require_whole
 
 ALONG = ("both", "contact", "bending")
 
@@ -25,6 +26,11 @@ class Ladder:
         Foundation (or, along "bending", bending stiffness) of the softest and the stiffest rung.
     count : int
         Number of rungs, at least 2.
+
+    Raises
+    ------
+    SceneError
+        What no ladder can have.
     """
 
     along: str
@@ -33,23 +39,25 @@ class Ladder:
     count: int
 
     def __post_init__(self) -> None:
-        if self.along not in ALONG:
-            raise SceneError(f"along = {self.along!r} is not possible: it must be one of {', '.join(ALONG)}.")
-        if not (isfinite(self.low) and isfinite(self.high) and 0 < self.low < self.high):
-            raise SceneError(f"The range {self.low:g} to {self.high:g} is not possible: it runs upward from above 0.")
-        if not 2 <= self.count <= 1000:
-            raise SceneError(f"count = {self.count!r} is not possible: it is a whole number from 2 to 1000.")
+        require_choice("along", self.along, ALONG)
+        for end in ("low", "high"):
+            stiffness = require(end, getattr(self, end), 0, inf, "a stiffness is above 0", open_low=True)
+            object.__setattr__(self, end, stiffness)
+        if not self.low < self.high:
+            raise SceneError(f"The range {self.low:g} to {self.high:g} is not possible: it runs upward.")
+        object.__setattr__(self, "count", require_whole("count", self.count, 2, 1000))
 
     @classmethod
     def around(
         cls,
-        scene: Scene,
+        scene: SceneLike,
         along: str = "both",
         low: float | None = None,
         high: float | None = None,
         count: int = 9,
     ) -> Ladder:
         """The ladder of a scene: six decades that reach from two below its own stiffness to four above."""
+        scene = as_scene(scene)
         own = scene.ring.bending_stiffness if along == "bending" else scene.contact.stiffness
         return cls(along, own * 1e-2 if low is None else low, own * 1e4 if high is None else high, count)
 

@@ -219,6 +219,27 @@ def test_bad_ladders():
             Ladder("both", low, high, count)
 
 
+@pytest.mark.parametrize(
+    ("ends", "count", "told"),
+    [
+        ((1e7, 1e8), 2.0, "count = 2.0"),
+        ((1e7, 1e8), 2.5, "count = 2.5"),
+        ((None, 1e7), 3, "low = None"),
+        ((1e7, "1e8"), 3, "high = "),
+    ],
+)
+def test_a_ladder_of_what_is_no_number_is_refused(ends, count, told):
+    with pytest.raises(SceneError, match=f"^{told}"):
+        Ladder("both", *ends, count)
+
+
+def test_a_ladder_takes_numbers_of_numpy_and_a_scene_by_its_name():
+    ladder = Ladder("both", np.float64(1e7), np.int64(10**8), np.int64(3))
+    assert ladder == Ladder("both", 1e7, 1e8, 3)
+    assert type(ladder.count) is int
+    assert Ladder.around("paper-3.3-massless") == Ladder.around(load_scene("paper-3.3-massless"))
+
+
 def test_finished_rungs_are_found_again(tmp_path):
     scene, ladder = load_scene("paper-3.3-massless"), Ladder("contact", 1e8, 1e11, 4)
     first = stiffness_study(scene, ladder, solver=THIRD, out=tmp_path)
