@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     __version__: str
 
     from .atlas.study import Atlas, atlas_of
-    from .hop.rolling.roll import HopMap
+    from .hop.rolling.asked import HopMap
     from .hop.study import HopStudy, hop_study
     from .limit.study import LimitStudy, limit_study
     from .running.files import StudyError
@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 _HOMES = {
     "Atlas": "atlas.study",
     "atlas_of": "atlas.study",
-    "HopMap": "hop.rolling.roll",
+    "HopMap": "hop.rolling.asked",
     "HopStudy": "hop.study",
     "hop_study": "hop.study",
     "LimitStudy": "limit.study",

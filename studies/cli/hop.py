@@ -18,7 +18,7 @@ from .shared.options import Finite, SceneKey, SceneName, as_json, hop_keys, out_
 from .shared.results import begin_results, results_folder
 
 if TYPE_CHECKING:
-    from ..hop.rolling.roll import HopMap
+    from ..hop.rolling.asked import HopMap
     from ..hop.study import HopStudy
 
 
@@ -197,7 +197,7 @@ def map_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> HopMap:
     """
     import numpy as np
 
-    from ..hop.rolling.roll import DEFAULT, STIFFNESS, HopMap
+    from ..hop.rolling.asked import DEFAULT, STIFFNESS, HopMap
 
     ranges = [parse_over(text) for text in over]
     keys = [key for key, _ in ranges]
@@ -205,8 +205,6 @@ def map_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> HopMap:
         raise SceneError(f"--over takes {STIFFNESS} and one key more, each once: it was given {', '.join(keys)}.")
     stiffness = dict(ranges).get(STIFFNESS, tuple(np.geomspace(*DEFAULT).tolist()))
     other = next(((key, values) for key, values in ranges if key != STIFFNESS), (None, (None,)))
-    for value in stiffness:
-        scene.replace(ring={"bending_stiffness": value})
     asked = HopMap(scene, stiffness, other[0], other[1], **settings)
     refused = [error for line in asked.scenes if (error := _refusal(line)) is not None]
     if len(refused) == len(asked.scenes):

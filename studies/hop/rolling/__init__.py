@@ -1,6 +1,7 @@
 """Rolls from rest, what is read off them, and what the stiffness below which a hoop hops may be compared with.
 
 ``roll``       one roll, and every time that the hoop is off the floor in it
+``asked``      what a study rolls, and the scene of each roll
 ``energies``   what ring and floor stored before a hop, and where it went
 ``rule``       which flights are hops and which are chatter
 ``threshold``  a roll of the map, a line of them, and the stiffness below which it hops

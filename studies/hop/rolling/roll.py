@@ -9,15 +9,14 @@ import dataclasses
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import degrees, pi, sin, sqrt
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from flexible import FlexibleMotion, simulate
 from flexible.output.body import lowest
-from rigid import Run, Scene, SceneError, scene_from_dict, scene_to_dict
+from rigid import Run, Scene
 from rigid import simulate as rigid_motion
-from rigid.elastic import UNITS
 from rigid.output.units import Length, Number, Time, in_units, without_units
 
 from ...running.files import StudyError
@@ -28,20 +27,6 @@ from .threshold import hops_in, windows
 WHOLE = f"{__name__}:roll"
 SOLVER = f"{__name__}:roll_until_decided"
 """The names under which cases call it."""
-
-STIFFNESS = "ring.bending_stiffness"
-
-DEFAULT = (0.5, 1e4, 24)
-"""Range of the bending stiffness, and number of cases over it."""
-
-SAID_ELSEWHERE = {
-    STIFFNESS: "its range is the map's other axis",
-    "solve.rtol": "the tolerance is --rtol",
-    "solve.resolve": "a roll is flexible throughout",
-    "solve.start": "a roll starts from equilibrium",
-    "run": "how far to roll is --turns, or the scene's own",
-}
-"""Keys, and a table, that no second key can be of: a roll replaces what they say."""
 
 RTOL = 3e-4
 """Tolerance of the rolls; thresholds are held against a third of it."""
@@ -130,76 +115,6 @@ def through_the_pulse(scene: Scene) -> Scene:
         return scene
     turn = next((turn.t for turn in motion.turns if turn.t > pulse.t_end), motion.t_end)
     return scene.replace(run={"t_end": min((pulse.t_end + turn) / 2, scene.run.t_end)})
-
-
-class Ask(NamedTuple):
-    """A roll that the study wants."""
-
-    line: int
-    stiffness: float
-    rtol: float
-    whole: bool
-    """To the end, or only through the first pulse."""
-
-
-@dataclass(frozen=True, slots=True)
-class HopMap:
-    """What a hop study rolls.
-
-    Raises
-    ------
-    SceneError
-        A second key of which a roll replaces what it says, or a value that no scene can have.
-    StudyError
-        A hoop that is not released at rest, or stands still.
-    """
-
-    scene: Scene
-    stiffness: tuple[float, ...]
-    """In any order, each once however often it is given; so are the values."""
-    second: str | None = None
-    values: tuple[Any, ...] = (None,)
-    rtol: float = RTOL
-    bisections: int = 4
-    level: str | None = None
-    """Of the ring; the scene's own by default."""
-    whole: bool = False
-    """Whether rolls of the map go on to their end where all is decided before."""
-    scenes: tuple[Scene, ...] = field(init=False)
-    """One for each value of the second key, ready to roll."""
-
-    def __post_init__(self) -> None:
-        for key in (self.second, (self.second or "").partition(".")[0]):
-            if key in SAID_ELSEWHERE:
-                raise SceneError(f"{self.second} cannot be varied in a hop study: {SAID_ELSEWHERE[key]}.")
-        object.__setattr__(self, "stiffness", tuple(sorted(set(self.stiffness))))
-        object.__setattr__(self, "values", tuple(sorted(set(self.values))))
-        object.__setattr__(self, "scenes", tuple(self._scene(value) for value in self.values))
-
-    def _scene(self, value: Any) -> Scene:
-        solve: dict[str, Any] = {"rtol": self.rtol} | ({} if self.level is None else {"level": self.level})
-        scene = self.scene.replace(solve=solve)
-        if self.second is not None:
-            data = scene_to_dict(scene)
-            if scene.dimensionless:  # one of R, m, g alone would be in other units than the others
-                data["hoop"] = {name: its for name, its in data["hoop"].items() if name not in UNITS}
-            part, _, key = self.second.partition(".")
-            table = data.setdefault(part, {})
-            table[key] = value
-            if key.endswith("_deg"):  # in radians beside, to the last bit
-                table.pop(key.removesuffix("_deg"), None)
-            scene = scene_from_dict(data)
-        return from_rest(scene)
-
-    def scene_of(self, ask: Ask) -> Scene:
-        """The scene of a roll."""
-        scene = self.scenes[ask.line] if ask.whole else through_the_pulse(self.scenes[ask.line])
-        return scene.replace(ring={"bending_stiffness": ask.stiffness}, solve={"rtol": ask.rtol})
-
-    @property
-    def count(self) -> int:
-        """Number of rolls of the map."""
-        return len(self.stiffness) * len(self.values)
 
 
 def roll(scene: Scene, *, history: bool = False, progress: Callable[[float], None] | None = None) -> RollingMotion:

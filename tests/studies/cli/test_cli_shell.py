@@ -20,7 +20,7 @@ from studies import StudyError
 from studies.atlas.plane import plane
 from studies.cli.hop import map_of
 from studies.cli.shared.options import atlas_keys, hop_keys, number_keys
-from studies.hop.rolling.roll import STIFFNESS
+from studies.hop.rolling.asked import STIFFNESS
 from studies.machine.processes import Processes
 from studies.running import progress
 

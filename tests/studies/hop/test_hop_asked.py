@@ -13,7 +13,7 @@ from command_line import is_one_sentence
 from rigid import Hoop, SceneError, load_scene, scene_to_dict
 from studies import HopMap, HopStudy, StudyError
 from studies.cli.hop import map_of
-from studies.hop.rolling.roll import STIFFNESS, Ask
+from studies.hop.rolling.asked import STIFFNESS, Ask
 from studies.hop.rolling.threshold import HopCase, Line, windows
 from studies.hop.summary import ends, verdict
 from studies.plots.page import toml
@@ -46,6 +46,26 @@ def test_a_key_that_a_roll_replaces_is_no_second_key(key, values, told):
     with pytest.raises(SceneError, match=f"^{key} cannot be varied in a hop study: .*{told}") as refused:
         HopMap(SCENE, (1.0, 10.0), key, values)
     assert is_one_sentence(f"hoop: {refused.value}\n")
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "settings", "told"),
+    [
+        ((), {}, r"stiffness = \(\)"),
+        (10.0, {}, r"stiffness = 10\.0"),
+        ((-1.0,), {}, r"ring\.bending_stiffness = -1\.0"),
+        ((1.0,), {"second": "hoop.k", "values": ()}, r"values = \(\)"),
+        ((1.0,), {"bisections": 1.5}, r"bisections = 1\.5"),
+        ((1.0,), {"bisections": -1}, "bisections = -1"),
+    ],
+)
+def test_a_map_that_cannot_be_rolled_is_refused(stiffness, settings, told):
+    with pytest.raises(SceneError, match=f"^{told} is not possible: "):
+        HopMap(SCENE, stiffness, **settings)
+
+
+def test_a_map_takes_a_scene_by_its_name():
+    assert HopMap("paper-3.3-heavier", (1.0, 10.0)) == HopMap(SCENE, (10.0, 1.0))
 
 
 def test_what_a_second_key_says_is_what_is_rolled():
@@ -121,6 +141,29 @@ def test_what_was_run_is_told_beside_what_was_asked(hoop, tmp_path):
     assert "at a tolerance of 0.002, and at 0.000666667 once more at the ends of thresholds." in said
 
 
+def rolled(stiffness: float, *flights: dict, completed: bool = True) -> HopCase:
+    motion = {"flights": list(flights), "completed": completed, "swept": 6.0, "scales": None, "t_end": 1.0}
+    return HopCase(stiffness, SCENE, Outcome("", "", {}, "", motion=motion))
+
+
+HOP = {"swept": 4.5, "phi": 4.7, "height": 1e-3, "prominence": 2.0}
+
+
+@pytest.mark.parametrize(
+    ("cases", "told"),
+    [
+        ((rolled(12.0), rolled(100.0)), "hops nowhere that was tried"),
+        ((rolled(12.0, completed=False), rolled(100.0)), "hops nowhere that was tried, 1 undecided"),
+        ((rolled(12.0, HOP), rolled(100.0, HOP)), "hops up to 100, the stiffest that was tried"),
+        ((rolled(12.0, HOP), rolled(100.0)), "hops at 12, none from 100 on"),
+    ],
+)
+def test_a_map_without_a_threshold_says_so(cases, told):
+    """Its bracket's ends are then 0 and infinity, which no hoop was rolled at."""
+    study = HopStudy(SCENE, None, (Line(None, SCENE, windows(SCENE), cases),))
+    assert [line for line in str(study).splitlines() if "anywhere" in line and line.endswith(f" {told}")]
+
+
 @pytest.mark.parametrize(
     ("low", "high", "told"),
     [
@@ -131,13 +174,7 @@ def test_what_was_run_is_told_beside_what_was_asked(hoop, tmp_path):
 )
 def test_a_threshold_is_told_by_the_ends_of_its_bracket(low, high, told):
     """However wide: from a geometric mean they are not equally far."""
-
-    def case(stiffness: float, *flights: dict) -> HopCase:
-        motion = {"flights": list(flights), "completed": True, "swept": 6.0, "scales": None, "t_end": 1.0}
-        return HopCase(stiffness, SCENE, Outcome("", "", {}, "", motion=motion))
-
-    hop = {"swept": 4.5, "phi": 4.7, "height": 1e-3, "prominence": 2.0}
-    line = Line(None, SCENE, windows(SCENE), (case(low, hop), case(high)))
+    line = Line(None, SCENE, windows(SCENE), (rolled(low, HOP), rolled(high)))
     (said,) = verdict(HopStudy(SCENE, None, (line,)))
     assert f"anywhere on its way {told}," in said
     assert ends(line.threshold("anywhere")) == told.partition("between ")[2].rstrip(")").replace("and", "to")

@@ -14,7 +14,8 @@ from rigid import SceneError, load_scene, simulate
 from studies import HopStudy, StudyError, hop_study
 from studies.cli.hop import map_of, parse_over
 from studies.hop.maps import place
-from studies.hop.rolling.roll import DEFAULT, RTOL, from_rest, spans, through_the_pulse
+from studies.hop.rolling.asked import DEFAULT
+from studies.hop.rolling.roll import RTOL, from_rest, spans, through_the_pulse
 from studies.hop.rolling.rule import DECADE, DURATION_OVER_PERIOD, HEIGHT_OVER_DEPTH, HEIGHT_OVER_SAG, Scales
 from studies.hop.rolling.scaling import suddenness
 from studies.hop.rolling.threshold import HopCase, Line, Window, bracket, hops_in, windows
