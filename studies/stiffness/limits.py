@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import stdtrit
 
-from .series import extrapolated, fewest, finite, inferred_series, settled
+from .series import ascending, extrapolated, fewest, finite, inferred_series, settled
 
 Array = NDArray[np.float64]
 
@@ -70,7 +70,7 @@ class Limit:
     rate_interval: tuple[float, float]
     """Confidence interval of that rate."""
     rate_cases: tuple[int, ...]
-    """Which cases that rate was fitted to, by their place among those given."""
+    """Which cases that rate was fitted to, by their place among those given, softest first."""
     distance: float
     """Distance to the rigid value at the stiffest case: what is left without any extrapolation."""
     span: float
@@ -247,7 +247,9 @@ def limit_of(
 
     ``exponents``, slowest first, are the leading rates where theory knows them, ``holds`` the stiffness from which on
     it does. With fewer than :func:`.series.fewest` cases there a rate is fitted, to all.
+    Cases come in any order of ``s``, which is above 0.
     """
+    s, y, error = ascending(s, y, error)
     (values, alike), stiff = settled(y, rigid), np.asarray(s, float) >= holds
     known = exponents is not None and (holds == 0 or int(np.isfinite(values[stiff]).sum()) >= fewest(exponents))
     if exponents is not None and known:

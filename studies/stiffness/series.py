@@ -125,6 +125,25 @@ def inferred_series(s: ArrayLike, y: ArrayLike, error: ArrayLike, exponents: Seq
     return found
 
 
+def ascending(s: ArrayLike, y: ArrayLike, error: ArrayLike | None) -> tuple[Array, Array, Array | None]:
+    """Stiffness, measure and its error of the cases in any order, softest first.
+
+    Raises
+    ------
+    ValueError
+        Not as many of each, or a stiffness that is none.
+    """
+    x, v, e = np.asarray(s, float), np.asarray(y, float), None if error is None else np.asarray(error, float)
+    lengths = [each.shape for each in (x, v, e) if each is not None]
+    if x.ndim != 1 or len(set(lengths)) > 1:
+        told = ", ".join(map(str, lengths))
+        raise ValueError(f"s, y and error of shapes {told} are not possible: there is one of each for every case.")
+    if not np.all(np.isfinite(x) & (x > 0)):
+        raise ValueError(f"s = {x[~(np.isfinite(x) & (x > 0))][0]:g} is not possible: a stiffness is above 0.")
+    order = np.argsort(x, kind="stable")
+    return x[order], v[order], None if e is None else e[order]
+
+
 def finite(s: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[Array, Array, Array]:
     """The cases that say something: their measure is finite, and so is its error, or not known and taken for none."""
     x, v, e = np.asarray(s, float), np.asarray(y, float), np.abs(np.asarray(error, float))

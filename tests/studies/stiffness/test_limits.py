@@ -212,3 +212,25 @@ def test_a_fitted_rate_is_no_better_known_than_the_slowest_that_may_be_behind_it
     y = 0.17 + 0.02 * S[0] / S
     found, slowest = limit_of(S, y, 0.17), richardson(S, y, exponent=1 / 3)[0]
     assert found.uncertainty >= abs(found.value - slowest) > 1e3 * richardson(S, y)[1]
+
+
+@pytest.mark.parametrize("exponents", [None, (1 / 3, 2 / 3)])
+def test_cases_come_in_any_order(exponents):
+    """The stiffest is the one of the greatest stiffness, wherever it stands."""
+    y, error = 0.17 + 1e-2 * (S / S[0]) ** (-1 / 3), np.geomspace(1e-6, 1e-9, S.size)
+    mixed = np.random.default_rng(3).permutation(S.size)
+    assert limit_of(S[mixed], y[mixed], 0.17, error[mixed], exponents) == limit_of(S, y, 0.17, error, exponents)
+
+
+@pytest.mark.parametrize(
+    ("s", "y", "error", "told"),
+    [
+        ([1.0, 2.0], [1.0], None, "shapes"),
+        ([1.0, 2.0], [1.0, 2.0], [0.1], "shapes"),
+        ([0.0, 2.0], [1.0, 2.0], None, "s = 0 "),
+        ([1.0, float("nan")], [1.0, 2.0], None, "s = nan "),
+    ],
+)
+def test_what_is_no_ladder_has_no_limit(s, y, error, told):
+    with pytest.raises(ValueError, match=f"{told}.*is not possible|{told}.*are not possible"):
+        limit_of(s, y, 0.17, error)
