@@ -165,8 +165,8 @@ def run_case(case: Case) -> Outcome:
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # a failing case is a row of the table, whatever it failed of: SystemExit too
-        kind = type(error).__name__
-        return Outcome(**known, failure=f"{kind}: {error}".rstrip(": "), seconds=running_clock() - start)
+        reason = " ".join(f"{type(error).__name__}: {error}".split()).rstrip(": ")
+        return Outcome(**known, failure=reason, seconds=running_clock() - start)
     return Outcome(**known, **found, seconds=running_clock() - start)
 
 

@@ -26,6 +26,15 @@ def test_all_that_is_asked_of_a_case_is_in_its_key(asked):
     assert dataclasses.replace(case, **asked).key != case.key
 
 
+def verbose(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
+    """Fails in many lines."""
+    raise ArithmeticError("no step\n  could be\tfound")
+
+
+def test_why_there_is_no_result_is_one_line():
+    assert run_case(Case("test_cases:verbose", SCENE)).failure == "ArithmeticError: no step could be found"
+
+
 def test_a_case_that_wants_histories_is_run_again_where_there_are_none(tmp_path):
     from studies.running.runs import run_cases
     from studies.running.workers import Here
