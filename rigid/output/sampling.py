@@ -82,11 +82,18 @@ def times(
     tolerance : float
     limit : int
         Of the number of times beside the steps, about.
+
+    Raises
+    ------
+    ValueError
+        A span that ends before it starts.
     """
     start, end = span
+    if not start <= end:
+        raise ValueError(f"Times from {start:g} to {end:g} are not possible: they run upward.")
     length = end - start
-    if length <= 0:
-        return np.array([start])
+    if length == 0:
+        return np.array([start], dtype=float)
     crowd = length * np.logspace(-9, 0, min(46, limit // (2 * max(len(bottoms), 1))))
     grid = [np.linspace(start, end, 129)]
     grid += [side for middle in bottoms for side in (np.array([middle]), middle - crowd, middle + crowd)]

@@ -144,6 +144,15 @@ def test_a_table_of_states(motion):
     assert table.attrs["units"] == {name: motion.units[name] for name in table.columns[:-1]}
     assert simulate(HEAVY).to_dataframe([0.0]).attrs["units"]["friction_force"] == "N"
     assert len(motion.to_dataframe(0.5)) == 1
+    with pytest.raises(ValueError, match="times must be one-dimensional"):
+        motion.to_dataframe([[1, 2]])
+
+
+@pytest.mark.parametrize("span", [(3, 1), (1e9,), (0.0, np.nan)])
+def test_times_run_upward(motion, span):
+    with pytest.raises(ValueError, match="they run upward"):
+        motion.times(*span)
+    assert motion.times(1, 1).dtype == float
 
 
 def test_thousands_of_pulses_are_sampled_in_a_few_calls():
