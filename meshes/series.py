@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import zipfile
 import zlib
 from collections.abc import Callable, Iterator, Mapping
@@ -237,7 +238,7 @@ def read(path: str | Path) -> Series:
         Nothing there, or something that is not a series; frames raise it when they are read.
     """
     pvd = Path(path)
-    if pvd.is_dir():
+    if os.path.isdir(pvd):  # which a name that is too long is not
         pvd = pvd / _PVD
         if not pvd.exists():
             raise SeriesError(f"{path} holds no series: there is no {_PVD} in it.")

@@ -234,14 +234,13 @@ def scene_tables(source: str | PathLike[str]) -> dict[str, Any]:
         No such scene, or not TOML.
     """
     path = Path(source)
-    if path.is_file():
-        try:
-            text = path.read_text(encoding="utf-8-sig")  # an editor may begin it with a mark
-        except (OSError, UnicodeDecodeError) as error:
-            raise SceneError(f"{path} cannot be read: {error}.") from None
-    elif str(source) in scene_names():
+    try:
+        text = path.read_text(encoding="utf-8-sig") if path.is_file() else None  # an editor may begin it with a mark
+    except (OSError, UnicodeDecodeError) as error:
+        raise SceneError(f"{path} cannot be read: {getattr(error, 'strerror', error)}.") from None
+    if text is None and str(source) in scene_names():
         text = (files("rigid.scenes") / f"{source}.toml").read_text(encoding="utf-8")
-    else:
+    if text is None:
         near = get_close_matches(str(source), scene_names(), n=3) or scene_names()
         raise SceneError(f"{source} is neither a file nor the name of a scene: try {', '.join(near)}.")
     try:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from rigid import Scene, SceneError, scene_from_dict, scene_to_dict
+from rigid.allowed import shown
 from rigid.elastic import SECTION, UNITS
 from rigid.scenefile import ensure_possible, scene_tables
 
@@ -68,7 +69,7 @@ class Sweep:
         return f"{self.cases} {'case' if self.cases == 1 else 'cases'}: {' × '.join(factors)}{once}"
 
 
-def load_sweep(path: str | PathLike[str], solvers: Sequence[str] = (), max_cases: int = MAX_CASES) -> Sweep:
+def load_sweep(path: str | PathLike[str], solvers: str | Sequence[str] = (), max_cases: int = MAX_CASES) -> Sweep:
     """A sweep from a TOML file: a scene in which any value may be a list, and a table [sweep].
 
     ``[sweep]`` may name ``scene`` (a shipped scene or file from which all starts), ``solvers`` ("rigid", "flexible" or
@@ -78,7 +79,7 @@ def load_sweep(path: str | PathLike[str], solvers: Sequence[str] = (), max_cases
     ----------
     path : path
         The file. It is data: whatever it holds, no code of its choice is run.
-    solvers : sequence of str, optional
+    solvers : str or sequence of str, optional
         Who runs each scene in place of those that the file names; here ``module:function`` is possible too.
     max_cases : int
         More cases than this are refused, before any of them is made.
@@ -103,8 +104,8 @@ def load_sweep(path: str | PathLike[str], solvers: Sequence[str] = (), max_cases
     return sweep_from_dict(data, solvers, max_cases)
 
 
-def sweep_from_dict(data: Mapping[str, Any], solvers: Sequence[str] = (), max_cases: int = MAX_CASES) -> Sweep:
-    """The sweep that a parsed TOML file describes; see :func:`load_sweep`."""
+def sweep_from_dict(data: Mapping[str, Any], solvers: str | Sequence[str] = (), max_cases: int = MAX_CASES) -> Sweep:
+    """The sweep that a parsed TOML file describes; see :func:`load_sweep`. ``scene`` may be a Scene too."""
     settings = data.get("sweep", {})
     if not isinstance(settings, Mapping):
         raise SceneError(f"sweep = {settings!r} is not possible: it is a table, [sweep].")
@@ -116,9 +117,10 @@ def sweep_from_dict(data: Mapping[str, Any], solvers: Sequence[str] = (), max_ca
         raise SceneError(f"sweep.histories = {histories!r} is not possible: it is true or false.")
     named = _named(settings.get("solvers", list(BOTH)))
     laid = {part: table for part, table in data.items() if part != "sweep"}
-    base = _base(str(settings["scene"]), laid) if "scene" in settings else {}
+    base = _base(settings["scene"], laid) if "scene" in settings else {}
     keys, choices, tables, repeated = _varied(laid, base)
-    sweep = Sweep(tuple(keys), tuple(choices), tables, tuple(solvers) or named, histories, repeated)
+    who = (solvers,) if isinstance(solvers, str) else tuple(solvers)
+    sweep = Sweep(tuple(keys), tuple(choices), tables, who or named, histories, repeated)
     if sweep.cases > max_cases:
         raise SceneError(
             f"{sweep.announcement()}. That is more than {max_cases}: shorten the lists, or allow it by --max-cases."
@@ -131,13 +133,20 @@ def sweep_from_dict(data: Mapping[str, Any], solvers: Sequence[str] = (), max_ca
 _RESTATED = {"ring": ("bending_stiffness", "thickness", "section_width"), "hoop": ("k", "r", "mass_ratio")}
 
 
-def _base(source: str, laid: Mapping[str, Any]) -> dict[str, Any]:
+def _base(source: Any, laid: Mapping[str, Any]) -> dict[str, Any]:
     """The tables of the scene from which all starts, over which others are to be laid.
 
     They are its file's own, so that a section in SI units is that of a hoop of another size or mass too; where it is
     what the section says that is laid over them without units, they are what it says of the scene's own.
+
+    Raises
+    ------
+    SceneError
+        No such scene, or what says no scene.
     """
-    tables = scene_tables(source)
+    if not isinstance(source, (Scene, str, PathLike)):
+        raise SceneError(f"sweep.scene = {shown(source)} is not possible: it is the name of a scene, or a path.")
+    tables = scene_to_dict(source) if isinstance(source, Scene) else scene_tables(source)
     scene = scene_from_dict(tables)
     given = {part: set(table) for part, table in laid.items() if isinstance(table, Mapping)}
     in_units = given.get("hoop", set()) & set(UNITS) or given.get("ring", set()) & set(SECTION)

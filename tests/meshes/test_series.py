@@ -292,3 +292,8 @@ def test_other_programs_are_told_which_component_of_the_stress_is_which(tmp_path
     (file,) = (tmp_path / "fields").glob("ring-*.vtu")
     names = [re.search(rf'ComponentName{i}="(..)"', file.read_bytes().decode("latin-1"))[1] for i in range(3)]
     assert dict(zip(names, stress[0], strict=True)) == pytest.approx({"xx": 0.0, "yy": 7.0, "xy": 0.0})
+
+
+def test_a_name_that_is_too_long_names_no_series():
+    with pytest.raises(SeriesError, match="cannot be read"):
+        read("x" * 300)

@@ -243,6 +243,10 @@ def test_how_many_pulses_and_workers_are_whole_numbers(wrong):
         simulate_batch(["paper-3.1"], **wrong)
 
 
+def test_a_name_that_is_too_long_names_no_scene():
+    assert "cannot be read: File name too long" in said(simulate, "x" * 300)
+
+
 def test_how_many_may_be_a_number_of_numpys():
     batch = simulate_batch(["paper-3.1"], pulses=np.int64(1), workers=np.int32(1))
     assert batch.impulse_ratio.tolist() == simulate_batch(["paper-3.1"], pulses=1).impulse_ratio.tolist()

@@ -212,6 +212,23 @@ def test_a_value_that_no_scene_can_have_is_refused_before_anything_runs(part, ke
         sweep_from_dict({"sweep": {"scene": "printed"}, part: {key: values}})
 
 
+@pytest.mark.parametrize("scene", ["x" * 300, 3, {"hoop": {"k": 0.1}}])
+def test_what_names_no_scene_is_refused(scene):
+    with pytest.raises(SceneError, match=r"cannot be read|is not possible: it is the name of"):
+        sweep_from_dict({"sweep": {"scene": scene}, "hoop": {"k": [0.1, 0.2]}})
+
+
+def test_a_sweep_in_python_takes_a_scene_and_one_solver(tmp_path):
+    """A word is one solver, and not its letters."""
+    laid = {"hoop": {"k": [0.1, 0.2]}}
+    named = sweep_from_dict({"sweep": {"scene": "paper-3.1", "solvers": "rigid"}, **laid})
+    given = sweep_from_dict({"sweep": {"scene": load_scene("paper-3.1")}, **laid}, "rigid")
+    assert given.solvers == ("rigid",)
+    assert list(given.points) == list(named.points)
+    (tmp_path / "sweep.toml").write_text('hoop.k = [0.1, 0.2]\nsweep.scene = "paper-3.1"')
+    assert load_sweep(tmp_path / "sweep.toml", "rigid") == named
+
+
 def test_a_case_that_fails_is_a_row_with_its_reason(hoop, tmp_path):
     file = sweep_file(
         tmp_path,
