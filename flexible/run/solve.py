@@ -74,7 +74,7 @@ def simulate(
         are asked for and were not kept.
     """
     if most_steps is not None:
-        require_whole("most_steps", most_steps, 1, 10**9)
+        most_steps = require_whole("most_steps", most_steps, 1, 10**9)
     scene = rigid.as_scene(scene)
     ensure_possible(scene)
     inner = scene.to_dimensionless()

@@ -7,7 +7,7 @@ from math import radians
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from strategies import scenes
 
 from rigid import Friction, Hoop, Kind, Release, Run, Scene, load_scene, scene_names, simulate
@@ -26,6 +26,7 @@ def moments(motion, states):
 
 @settings(max_examples=40, deadline=None)
 @given(scenes())
+@example(Scene(Hoop(1 / 64, 2.0), Friction(1.0, 1.0), Release(1.625, 4.0)))  # goes round two thousand times
 def test_balance_of_moments(scene):
     """In every phase of any scene; the two moments may cancel to round-off over the inertia."""
     motion = simulate(scene)
@@ -35,8 +36,9 @@ def test_balance_of_moments(scene):
         terms = (np.abs(states.normal_force) * hoop.e + np.abs(states.friction_force) * 2) / (
             hoop.K * (1 + hoop.mass_ratio)
         )
-        # the angle itself is rounded to 4e-16, and sin phi with it
-        assert (np.abs(states.alpha - moments(motion, states)) <= 1e-12 * (1 + terms)).all()
+        # the angle itself is rounded, and sin phi with it: a hoop that goes round has gone thousands of radians
+        rounded = 1e-12 + 4 * np.spacing(np.abs(states.phi))
+        assert (np.abs(states.alpha - moments(motion, states)) <= rounded * (1 + terms)).all()
 
 
 @pytest.mark.parametrize("name", [*PAPER, "flight"])
