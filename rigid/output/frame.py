@@ -26,7 +26,8 @@ def states_of(motion: Any, t: ArrayLike | None) -> pandas.DataFrame:
     starts = [phase.t_start for phase in motion.phases]
     kinds = np.array([str(phase.kind) for phase in motion.phases], dtype=object)
     frame["phase"] = kinds[np.maximum(np.searchsorted(starts, frame["t"], "right") - 1, 0)]
-    frame.attrs["units"] = {name: motion.units[name] for name in columns}
+    units = motion.units
+    frame.attrs["units"] = {name: units[name] for name in columns}
     return frame
 
 
