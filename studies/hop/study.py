@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import isfinite
 from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,7 +20,7 @@ from .rolling.energies import HopEnergies
 from .rolling.roll import SOLVER, WHOLE, Flight
 from .rolling.rule import DECADE, Scales
 from .rolling.scaling import foreseen
-from .rolling.threshold import TOLD, WHERE, Bracket, HopCase, Line, windows
+from .rolling.threshold import TOLD, WHERE, HopCase, Line, windows
 
 if TYPE_CHECKING:
     import pandas
@@ -96,7 +95,7 @@ class HopStudy(summary.Summarised):
             name = "all" if self.second is None else f"{line.value:g}"
             for where in line.windows:
                 found = line.threshold(where)
-                lines.append((f"{name}, {where}", _told(found)))
+                lines.append((f"{name}, {where}", found.told()))
         return lines
 
     def to_dict(self) -> dict[str, Any]:
@@ -178,16 +177,6 @@ def hop_study(
     more = run([Ask(n, s, finer, w) for n, line in enumerate(lines) for s, w in sorted(_ends(line).items())])
     lines = [_with(line, finer=[case for m, case in more if m == n]) for n, line in enumerate(lines)]
     return HopStudy(asked.scene, asked.second, tuple(lines))
-
-
-def _told(found: Bracket) -> str:
-    """Up to which of the stiffnesses that were tried it hops."""
-    undecided = f", {found.open} undecided" if found.open else ""
-    if not found.low:
-        return f"hops nowhere that was tried{undecided}"
-    if not isfinite(found.high):
-        return f"hops up to {found.low:.4g}{undecided or ', the stiffest that was tried'}"
-    return f"hops at {found.low:.4g}, none from {found.high:.4g} on"
 
 
 def _to_its_end(outcome: Outcome) -> bool:

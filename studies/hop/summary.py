@@ -19,22 +19,6 @@ PLACES = {
 }
 
 
-def ends(found: Bracket, digits: int = 3) -> str:
-    """A threshold in words."""
-    if found.low == 0:
-        return f"at no stiffness from {number(found.high, digits)} on" if isfinite(found.high) else "undecided"
-    if not isfinite(found.high):
-        return f"still at {number(found.low, digits)}"
-    digits = _telling(found, digits)
-    return f"{number(found.low, digits)} to {number(found.high, digits)}"
-
-
-def _telling(found: Bracket, least: int = 3) -> int:
-    """Digits that tell a threshold and the ends of its bracket apart."""
-    told = (found.low, found.value, found.high)
-    return next((digits for digits in range(least, 17) if len({number(each, digits) for each in told}) == 3), 17)
-
-
 def answer(study: HopStudy) -> str:
     """The answer, and how far its numbers hold."""
     if not any(case.hops for case in study.cases):
@@ -63,7 +47,7 @@ def _of_all_lines(study: HopStudy, where: str) -> str:
     if still:
         told.append(f"still at {number(still, 3)}, the stiffest that was rolled")
     if not told:
-        return ends(max(found, key=lambda bracket: bracket.high))
+        return max(found, key=lambda bracket: bracket.high).ends
     return " and ".join(told)
 
 
@@ -102,14 +86,10 @@ def _line_verdict(study: HopStudy, line: Line) -> str:
 
 def _below(line: Line, where: str) -> str:
     found = line.threshold(where)
-    if found.value is None:
-        return f"{ends(found)}{'' if found.low == 0 else ', the stiffest that was rolled'}"
-    value, low, high = (number(each, _telling(found)) for each in (found.value, found.low, found.high))
-    doubts = [f"between {low} and {high}", *([f"{found.open} undecided in between"] if found.open else [])]
-    if line.holds(where) is False:
-        finer = line.answers(where, cases=line.finer)
-        doubts.append(f"{'more' if finer[found.high] else 'less'} at a third of the tolerance")
-    return f"below {value} ({', '.join(doubts)})"
+    if line.holds(where) is not False:
+        return found.told()
+    finer = line.answers(where, cases=line.finer)
+    return found.told(f"{'more' if finer[found.high] else 'less'} at a third of the tolerance")
 
 
 def rule_sentence(study: HopStudy) -> str:
@@ -146,7 +126,7 @@ def threshold_sheet(study: HopStudy) -> Sheet:
     for where in PLACES:
         lines = [line if where in line.windows else None for line in study.lines]
         columns += [
-            Column(f"{where}\n", ["-" if line is None else ends(line.threshold(where)) for line in lines]),
+            Column(f"{where}\n", ["-" if line is None else line.threshold(where).ends for line in lines]),
             Column("rule over\na decade", ["-" if line is None else _span(line, where) for line in lines], joined=True),
             Column("rtol/3\nagrees", ["-" if line is None else _yes(line.holds(where)) for line in lines], joined=True),
         ]

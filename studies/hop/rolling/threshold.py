@@ -14,6 +14,7 @@ from typing import Any, Protocol
 
 from rigid import Kind, Run, Scene, simulate
 
+from ...plots.sheet import number
 from ...running.case import Outcome
 from .scaling import duration, suddenness
 
@@ -78,6 +79,37 @@ class Bracket:
     def value(self) -> float | None:
         """Their geometric mean, None without both."""
         return sqrt(self.low * self.high) if self.low > 0 and isfinite(self.high) else None
+
+    @property
+    def ends(self) -> str:
+        """Its ends in words, with digits enough to tell them and the threshold apart."""
+        if self.value is not None:
+            return f"{self._digits(self.low)} to {self._digits(self.high)}"
+        if self.low > 0:
+            return f"still at {self._digits(self.low)}"
+        return f"at no stiffness from {self._digits(self.high)} on" if isfinite(self.high) else "undecided"
+
+    def told(self, *doubts: str) -> str:
+        """Below which stiffness it hops, between which that lies, and what else there is to doubt."""
+        if self.value is None and self.low == 0 and not isfinite(self.high):
+            return self.ends
+        if self.open:
+            doubts = (f"{self.open} undecided{' in between' if self.value is not None else ''}", *doubts)
+        if self.value is not None:
+            between = f"between {self._digits(self.low)} and {self._digits(self.high)}"
+            return f"below {self._digits(self.value)} ({', '.join([between, *doubts])})"
+        stiffest = [] if self.low == 0 or self.open else ["the stiffest that was rolled"]
+        return ", ".join([self.ends, *stiffest, *doubts])
+
+    def _digits(self, stiffness: float) -> str:
+        return number(stiffness, self._telling)
+
+    @property
+    def _telling(self) -> int:
+        """Digits that tell the threshold and the ends of its bracket apart, three at least."""
+        known = [each for each in (self.low, self.value, self.high) if each]
+        apart = (n for n in range(3, 17) if len({number(each, n) for each in known}) == len(known))
+        return next(apart, 17)
 
     def to_dict(self) -> dict[str, Any]:
         """As JSON prints it."""

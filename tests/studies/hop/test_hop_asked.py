@@ -15,7 +15,7 @@ from studies import HopMap, HopStudy, StudyError
 from studies.cli.hop import map_of
 from studies.hop.rolling.asked import STIFFNESS, Ask
 from studies.hop.rolling.threshold import HopCase, Line, windows
-from studies.hop.summary import ends, verdict
+from studies.hop.summary import verdict
 from studies.plots.page import toml
 from studies.running.case import Outcome
 
@@ -152,10 +152,12 @@ HOP = {"swept": 4.5, "phi": 4.7, "height": 1e-3, "prominence": 2.0}
 @pytest.mark.parametrize(
     ("cases", "told"),
     [
-        ((rolled(12.0), rolled(100.0)), "hops nowhere that was tried"),
-        ((rolled(12.0, completed=False), rolled(100.0)), "hops nowhere that was tried, 1 undecided"),
-        ((rolled(12.0, HOP), rolled(100.0, HOP)), "hops up to 100, the stiffest that was tried"),
-        ((rolled(12.0, HOP), rolled(100.0)), "hops at 12, none from 100 on"),
+        ((rolled(12.0), rolled(100.0)), "at no stiffness from 12 on"),
+        ((rolled(12.0, completed=False), rolled(100.0)), "at no stiffness from 100 on, 1 undecided"),
+        ((rolled(12.0, HOP), rolled(100.0, HOP)), "still at 100, the stiffest that was rolled"),
+        ((rolled(12.0, HOP), rolled(100.0, completed=False)), "still at 12, 1 undecided"),
+        ((rolled(12.0, completed=False), rolled(100.0, completed=False)), "undecided"),
+        ((rolled(12.0, HOP), rolled(100.0)), "below 34.6 (between 12 and 100)"),
     ],
 )
 def test_a_map_without_a_threshold_says_so(cases, told):
@@ -177,4 +179,4 @@ def test_a_threshold_is_told_by_the_ends_of_its_bracket(low, high, told):
     line = Line(None, SCENE, windows(SCENE), (rolled(low, HOP), rolled(high)))
     (said,) = verdict(HopStudy(SCENE, None, (line,)))
     assert f"anywhere on its way {told}," in said
-    assert ends(line.threshold("anywhere")) == told.partition("between ")[2].rstrip(")").replace("and", "to")
+    assert line.threshold("anywhere").ends == told.partition("between ")[2].rstrip(")").replace("and", "to")
