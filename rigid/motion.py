@@ -55,7 +55,7 @@ class Phase:
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """An instant with phidot = 0 after release."""
+    """An instant with phidot = 0 after release; of an impact that turns the hoop round, what is behind the blow."""
 
     t: Time[float]
     phi: Number[float]

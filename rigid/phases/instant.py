@@ -42,10 +42,11 @@ from .pointmass import drop, roll_point_mass_on, skimming_acceleration
 from .rolling.closed_form import rolling_acceleration, rolling_forces
 from .rolling.phase import roll_on
 from .slipping.series import JAM, normal_force, slipping_acceleration
-from .slipping.step import NOTHING_YET, carry, end_of_slip, step
+from .slipping.step import NOTHING_YET, STOPS, carry, carry_steadily, end_of_slip, is_steady, step
 
 MOST_STEPS = 400_000  # in one phase: beyond the work bound of the motion itself
 LAST_DIGITS = 4e-16  # of a time
+TOUCHES = 1e-6  # of a phase is left at least where the slip that stops is not its end
 COLUMNS = 9  # phi, omega, x_C, height of the contact point, slip velocity, N, F, energy, phiddot
 
 
@@ -71,16 +72,20 @@ def entry_sample(par, phases, owner, times, out, work, state):
         for j in range(MOVING):
             state[j] = phases[p * WIDTH + 1 + j]
         start = state[T]
-        if kind in (SKID, SPIN):
+        if kind in (SKID, SPIN) and not is_steady(par, state):
             mu_hat = par[MU] if kind == SKID else -par[MU]
             p_known = inf
             steps = 0
             state[SLIP_SCALE] = 0.0
             state[T_FROM], state[T_SINCE] = start, 0.0
             while i < len(times) and owner[i] == p:
-                length = step(par, state, mu_hat, p_known, work)
-                length, event = end_of_slip(work, length, 1.0 if kind == SKID else -1.0)
+                whole = step(par, state, mu_hat, p_known, work)
+                length, event = end_of_slip(work, whole, 1.0 if kind == SKID else -1.0)
                 tt = work[S_T]
+                left = phases[(p + 1) * WIDTH + 1 + T] - start - state[T_SINCE] - value(tt, ORDER, length)
+                if event == STOPS and left > TOUCHES * (phases[(p + 1) * WIDTH + 1 + T] - start):
+                    # it comes to 0 and goes on as before, as it does on a smooth floor in every period: no end
+                    length, event = whole, NOTHING_YET
                 duration = value(tt, ORDER, length)
                 before = state[T_SINCE]
                 steps += 1
@@ -116,7 +121,10 @@ def entry_sample(par, phases, owner, times, out, work, state):
             normal = 0.0
             friction = 0.0
             alpha = 0.0
-            if kind == ROLL and par[GYR] > 0.0:
+            if kind in (SKID, SPIN):
+                carry_steadily(state, time)
+                normal = normal_force(par, 0.0, state[OMEGA], state[ANGLE], state[TOP])
+            elif kind == ROLL and par[GYR] > 0.0:
                 behind = (p + 1) * WIDTH + 1
                 if times[i] >= phases[behind + T] * (1 - LAST_DIGITS):
                     # its end, which may lie in a pulse narrower than what is rolled in the last digit of a late time

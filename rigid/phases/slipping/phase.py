@@ -68,6 +68,8 @@ from .step import (  # fmt: skip
     TIME_IS_UP,
     TURNS_BACK,
     carry,
+    carry_steadily,
+    is_steady,
     next_event,
     peak_force,
     slip_now,
@@ -90,6 +92,12 @@ def slide(par, state, work, rows, events):
     n = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
     if watch(par, state, n, events) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
+    if is_steady(par, state):
+        if par[T_END] == inf:
+            return SLIDES
+        carry_steadily(state, par[T_END] - state[T])
+        state[T] = par[T_END]
+        return TIME_REACHED
     while True:
         if state[RECORDS] * WIDTH + ROOM * WIDTH > len(events):
             return MORE

@@ -60,13 +60,17 @@ def peak_force(gyr, work, length):
             z, dz = value_and_slope(d, ORDER, x)
         top = max(top, gyr * y / z)
         slope = dy * z - y * dz
+        if k == 0 and slope == 0.0:
+            # from a turn, where N changes like the square of tau: its sign is that of a little later
+            (y, dy), (z, dz) = value_and_slope(b, ORDER, 1e-3 * length), value_and_slope(d, ORDER, 1e-3 * length)
+            slope = dy * z - y * dz
         if k > 0 and slope0 > 0 and slope < 0:
             low, high = x0, x
             slope_low, slope_high = slope0, slope
             middle = low
             # regula falsi (Illinois): the peak is flat, so eight digits of its place are sixteen of its
             # height
-            for _ in range(12):
+            for _ in range(40):
                 middle = (low * slope_high - high * slope_low) / (slope_high - slope_low)
                 y, dy = value_and_slope(b, ORDER, middle)
                 z, dz = value_and_slope(d, ORDER, middle)
@@ -101,6 +105,19 @@ def carry(par, state, mu_hat, work, x):
     state[XDOT] -= mu_hat * (dt + (-e * s1 * omega - ydot))
     state[OMEGA] = omega
     state[SLIP] = value(work[S_SLIP], ORDER, x)
+
+
+@kernel
+def is_steady(par, state):
+    """Whether nothing acts on a slip: the disk at rest right above or below the contact, on a smooth floor."""
+    return par[MU] == 0.0 and state[OMEGA] == 0.0 and state[ANGLE] == 0.0
+
+
+@kernel
+def carry_steadily(state, time):
+    """Advance such a slip."""
+    state[X_C] += state[XDOT] * time
+    state[T] += time
 
 
 @kernel
