@@ -80,7 +80,7 @@ from ..record.events import ROOM, begin, turn
 from ..record.pulse import energy, released, watch
 from .flight import fly, lifts, settle, touch_down
 from .impact import strike
-from .pointmass import choose_point_mass, roll_point_mass, skim
+from .pointmass import catch, choose_point_mass, roll_point_mass, skim
 from .rolling.closed_form import TIE, rolling_forces
 from .rolling.phase import roll
 from .slipping.phase import slide
@@ -188,6 +188,8 @@ def hit(par, state, events):
     if state[P_OPEN] != 0.0:
         # a jam, as a flight ends a pulse: no number bounds N, and the last D > 0 before it is round-off
         state[P_PEAK] = inf
+    if par[GYR] == 0.0:
+        return TURNS_REACHED if catch(state) and turn(par, state, events) else PHASE_OVER
     omega, slip, un, xdot, ydot = state[OMEGA], state[SLIP], state[UN], state[XDOT], state[YDOT]
     reverses = strike(par, state, par[RESTITUTION])
     if state[UN] <= SLOWEST_HOP:

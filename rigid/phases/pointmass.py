@@ -3,6 +3,12 @@
 Rolling, sin(phi/2) obeys S'' = S/4, so from rest sin(phi/2) = sin(phi0/2) cosh(t/2), with
 N = 2 cos^2(phi/2) - G/2 and F/N = tan(phi/2), G as in :mod:`rigid.phases.rolling.closed_form`. Where
 mu_s cannot hold that, the hoop skims: the mass falls freely, N = F = 0, until it hits the floor, where the motion ends.
+
+A hoop without inertia bears no force but one through the mass, along the line from the contact point, F/N =
+tan(phi/2). So it skims too while it slips, with one exception, the limit of small disks in which Painlevé's D < 0: where
+the slip goes down the slope of that line, less steep than mu, the floor catches the hoop at once. The blow takes the
+velocity v sin(phi/2) of the mass along the line, and phidot grows by v/2. Where the slip of a skimming hoop comes to 0
+it rolls if mu_s holds that.
 """
 
 # mypy: allow-untyped-defs
@@ -17,7 +23,10 @@ from ..kernel.layout import (  # fmt: skip
     CREEPS,
     FIRST_PULSE,
     HITS_FLOOR,
+    IMPACT,
     LIFTED,
+    MODE,
+    MU,
     MU_S,
     OMEGA,
     PERIOD,
@@ -41,6 +50,8 @@ from ..record.events import begin, turn
 from ..record.pulse import watch
 from .rolling.closed_form import TIE
 
+JUST_NOW = 1e-7  # a slip that begins is 0 no sooner again
+
 
 @kernel
 def choose_point_mass(par, state, events):
@@ -48,12 +59,30 @@ def choose_point_mass(par, state, events):
     F = 0.
     """
     s, _, h, _low = trig(state[ANGLE], state[TOP])
-    g = h + state[OMEGA] * state[OMEGA] * h
-    holds = h >= 0.5 * g * (1 - TIE) and abs(s) <= par[MU_S] * h * (1 + TIE)
-    if state[SLIP] == 0.0 and holds and h > 0.0:
+    if s == 0.0 and h > 0.0:
+        catch(state)  # upright, without a blow
+    if state[SLIP] * s < 0.0 and abs(s) < par[MU] * h:
+        state[MODE] = IMPACT
+    elif state[SLIP] == 0.0 and holds(par, s, h, state[OMEGA]):
         begin(par, state, ROLL, events)
     else:
         begin(par, state, SKIM, events)
+
+
+@kernel
+def holds(par, s, h, omega):
+    """Whether a hoop without slip rolls."""
+    g = h + omega * omega * h
+    return h > 0.0 and h >= 0.5 * g * (1 - TIE) and abs(s) <= par[MU_S] * h * (1 + TIE)
+
+
+@kernel
+def catch(state):
+    """End the slip at once; whether phidot changes its sign."""
+    before = state[OMEGA]
+    state[OMEGA] += 0.5 * state[SLIP]
+    state[SLIP] = 0.0
+    return before * state[OMEGA] < 0.0
 
 
 @kernel
@@ -157,10 +186,19 @@ def skim(par, state, events):
     if ydot > 0 and ydot * ydot >= 2 * low:
         to_lift = 2 * low / (ydot + sqrt(ydot * ydot - 2 * low))
     to_turn = ydot if ydot > 0 else inf
-    time = min(to_floor, to_lift, to_turn)
+    to_stop, to_catch = until_slip_stops(par, state), until_caught(par, state)
+    time = min(to_floor, to_lift, to_turn, to_stop, to_catch)
     reason = PHASE_OVER
     if state[T] + time >= par[T_END]:
         time, reason = par[T_END] - state[T], TIME_REACHED
+    elif time == to_stop:
+        drop(state, time)
+        state[SLIP] = 0.0
+        return PHASE_OVER
+    elif time == to_catch:
+        drop(state, time)
+        state[MODE] = IMPACT
+        return PHASE_OVER
     elif time == to_lift:
         reason = LIFTED
     elif time == to_floor:
@@ -173,6 +211,48 @@ def skim(par, state, events):
     elif reason == TIME_REACHED:
         state[T] = par[T_END]
     return reason
+
+
+@kernel
+def until_slip_stops(par, state):
+    """Time to where a skimming hoop has no slip and rolls on, infinite without one.
+
+    With tau since the mass is (or was, or would be) highest, at h = H, v = xdot - sgn(s) tau sqrt(h/(2 - h)) and
+    h = H - tau^2/2: a quadratic in tau^2.
+    """
+    s, _c, h, _low = trig(state[ANGLE], state[TOP])
+    ydot, xdot = -s * state[OMEGA], state[XDOT]
+    highest = h + 0.5 * ydot * ydot
+    half = highest - 0.5 * xdot * xdot
+    root = half * half - 2 * xdot * xdot * (2 - highest)
+    if root < 0.0 or half <= 0.0:
+        return inf
+    large = half + sqrt(root)
+    found = inf
+    for z in (large, 2 * xdot * xdot * (2 - highest) / large):
+        tau = sqrt(max(z, 0.0))
+        time = ydot + (tau if xdot * s > 0.0 else -tau)
+        if time <= (JUST_NOW if state[SLIP] == 0.0 else 0.0) or time >= found:
+            continue
+        then = highest - 0.5 * z
+        across = sqrt(max(then * (2 - then), 0.0))
+        if across > 0.0 and holds(par, across, then, (time - ydot) / across):
+            found = time
+    return found
+
+
+@kernel
+def until_caught(par, state):
+    """Time to where a skimming hoop that comes up is as steep as mu and slips down that slope, infinite if never."""
+    s, _c, h, _low = trig(state[ANGLE], state[TOP])
+    ydot, mu = -s * state[OMEGA], par[MU]
+    steep = 2 / (1 + mu * mu)
+    left = ydot * ydot - 2 * (steep - h)
+    if ydot <= 0.0 or h >= steep or left < 0.0:
+        return inf
+    time = ydot - sqrt(left)
+    slip = state[XDOT] - (time - ydot) * (1 / mu if s > 0.0 else -1 / mu)
+    return time if slip * s < 0.0 else inf
 
 
 @kernel

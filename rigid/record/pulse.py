@@ -58,6 +58,7 @@ from ..kernel.layout import (  # fmt: skip
 MOST_PHASES = float(SEQUENCE_BASE) ** 15  # of a pulse, in the digits that a float holds: what follows is not listed
 AT_BOTTOM = 1e-7  # of J_N, compression of a pulse that opens at the bottom, at a turn: no more than a root of round-off
 EDGE = 1e-12  # of N over M g: round-off at the edge of a pulse
+TOUCH = 1e-10  # of phi and of its rate squared, at a turn at the bottom: what many swings add up of round-off
 
 
 @kernel
@@ -101,7 +102,18 @@ def watch(par, state, normal_force, events):
                 state[P_CUT] = 1.0
         state[P_PEAK] = max(state[P_PEAK], normal_force)
         return False
+    if at_touch(state):
+        cross_bottom(state)
+        return False
     return close_pulse(par, state, events)
+
+
+@kernel
+def at_touch(state):
+    """Whether the hoop turns right at the bottom, as one that was set slipping there does in every swing: N comes down
+    to M g there and goes up again, and by round-off below it. The disk comes to the bottom in one pulse.
+    """
+    return state[TOP] == 0.0 and abs(state[ANGLE]) <= TOUCH and state[OMEGA] * state[OMEGA] <= TOUCH
 
 
 @kernel

@@ -57,7 +57,7 @@ from ...kernel.layout import (  # fmt: skip
 from ...kernel.polynomial import value
 from ...record.cycle import AT_PASS, AT_TURN, comes_round
 from ...record.events import ROOM, turn
-from ...record.pulse import cross_bottom, watch
+from ...record.pulse import at_touch, cross_bottom, watch
 from .poles import poles_of
 from .series import JAM, normal_force
 from .step import (  # fmt: skip
@@ -128,6 +128,8 @@ def slide(par, state, work, rows, events):
         # without friction the slip stops where the hoop turns, to the last digit
         if event == TURNS_BACK or (state[OMEGA] == 0.0 and turning):
             state[OMEGA] = 0.0
+            if at_touch(state):
+                cross_bottom(state)
             state[LOSSLESS_TURNS] += 1.0
             whirled = 0
             if turn(par, state, events):

@@ -41,7 +41,7 @@ from ...kernel.layout import (  # fmt: skip
 )
 from ...kernel.spectral import UNCLEAR, least_of, only_root
 from ...record.events import turn
-from ...record.pulse import cross_bottom, watch
+from ...record.pulse import at_touch, cross_bottom, watch
 from .panel import CLEAR, offset, panel_at, run_clock, spin_up
 from .poles import clear_of, first_length, starts, turn_ahead
 from .way import LIFTS, NEVER, STOPS, TIME_IS_UP, arrive_at, force_on, look_ahead, peak_on, set_out
@@ -171,6 +171,8 @@ def there_and_back(par, state, mu_hat, panel, at, rows, events):
     code = go(par, state, way, ahead, rows, events)
     if code != GOES_ON:
         return code
+    if at_touch(state):
+        cross_bottom(state)
     if turn(par, state, events):
         return TURNS_REACHED
     whole = way.whole  # that of the panel's chart: the turn may lie beyond it
