@@ -42,7 +42,17 @@ from .pointmass import drop, roll_point_mass_on, skimming_acceleration
 from .rolling.closed_form import rolling_acceleration, rolling_forces
 from .rolling.phase import roll_on
 from .slipping.series import JAM, normal_force, slipping_acceleration
-from .slipping.step import NOTHING_YET, STOPS, carry, carry_steadily, end_of_slip, is_steady, step
+from .slipping.step import (  # fmt: skip
+    NOTHING_YET,
+    STOPS,
+    carry,
+    carry_steadily,
+    end_of_slip,
+    energy_from_top,
+    is_steady,
+    keep_energy,
+    step,
+)
 
 MOST_STEPS = 400_000  # in one phase: beyond the work bound of the motion itself
 LAST_DIGITS = 4e-16  # of a time
@@ -78,7 +88,9 @@ def entry_sample(par, phases, owner, times, out, work, state):
             steps = 0
             state[SLIP_SCALE] = 0.0
             state[T_FROM], state[T_SINCE] = start, 0.0
+            from_top = energy_from_top(par, state)
             while i < len(times) and owner[i] == p:
+                keep_energy(par, state, from_top)
                 whole = step(par, state, mu_hat, p_known, work)
                 length, event = end_of_slip(work, whole, 1.0 if kind == SKID else -1.0)
                 tt = work[S_T]

@@ -69,7 +69,9 @@ from .step import (  # fmt: skip
     TURNS_BACK,
     carry,
     carry_steadily,
+    energy_from_top,
     is_steady,
+    keep_energy,
     next_event,
     peak_force,
     slip_now,
@@ -89,6 +91,7 @@ def slide(par, state, work, rows, events):
     p_known = inf
     state[LOSSLESS_TURNS], whirled = 0.0, 0
     state[SLIP_SCALE] = 0.0
+    from_top = energy_from_top(par, state)
     n = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
     if watch(par, state, n, events) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
@@ -104,6 +107,7 @@ def slide(par, state, work, rows, events):
         if state[STEPS] <= 0.0:
             return WORK_BOUND
         state[STEPS] -= 1.0
+        keep_energy(par, state, from_top)
         slip_now(par, state, trig(state[ANGLE], state[TOP])[2])
         code = stride(par, state, mu_hat, poles, rows, events)
         if code == GOES_ON:

@@ -3,7 +3,7 @@
 # mypy: allow-untyped-defs
 from __future__ import annotations
 
-from math import inf
+from math import inf, sqrt
 
 from ...kernel.angle import next_angle, trig
 from ...kernel.compile import kernel
@@ -40,6 +40,8 @@ from ...kernel.layout import (  # fmt: skip
 )
 from ...kernel.polynomial import first_crossing, value, value_and_slope
 from .series import series
+
+NEAR_TOP = 1e-8  # 1 - cos phi, and over M g R the energy from the top: of larger ones enough digits are left anyway
 
 # what a step is cut at
 NOTHING_YET, STOPS, LIFTS, TIME_IS_UP, TURNS_BACK, AT_BOTTOM, AT_WEIGHT = range(7)
@@ -118,6 +120,24 @@ def carry_steadily(state, time):
     """Advance such a slip."""
     state[X_C] += state[XDOT] * time
     state[T] += time
+
+
+@kernel
+def energy_from_top(par, state):
+    """Energy over M g R of a smooth floor's hoop, 0 at rest on top: near there it has digits that the whole has not."""
+    s, _, _, low = trig(state[ANGLE], state[TOP])
+    return 0.5 * state[OMEGA] * state[OMEGA] * (par[GYR] + par[ECC] * s * par[ECC] * s) - par[ECC] * low
+
+
+@kernel
+def keep_energy(par, state, from_top):
+    """On a smooth floor, near the top: phidot as the energy has it, on whose last digits it hangs how it goes on."""
+    s, _, _, low = trig(state[ANGLE], state[TOP])
+    if par[MU] != 0.0 or state[TOP] == 0.0 or low > NEAR_TOP or abs(from_top) > NEAR_TOP or state[OMEGA] == 0.0:
+        return
+    twice = 2 * (from_top + par[ECC] * low) / (par[GYR] + par[ECC] * s * par[ECC] * s)
+    if twice > 0.0:
+        state[OMEGA] = sqrt(twice) if state[OMEGA] > 0.0 else -sqrt(twice)
 
 
 @kernel
