@@ -5,8 +5,8 @@ N = 2 cos^2(phi/2) - G/2 and F/N = tan(phi/2), G as in :mod:`rigid.phases.rollin
 mu_s cannot hold that, the hoop skims: the mass falls freely, N = F = 0, until it hits the floor, where the motion ends.
 
 A hoop without inertia bears no force but one through the mass, along the line from the contact point, F/N =
-tan(phi/2). So it skims too while it slips, as the limit of small disks has it, but where their D < 0: there the slip
-goes towards the mass's side and tan(phi/2) < mu, and the floor catches the hoop at once. The blow takes the velocity
+tan(phi/2). So it skims too while it slips, as the limit of small disks has it, but where their D < 0: there the contact
+point slips away from the mass, tan(phi/2) < mu, and the floor catches the hoop at once. The blow takes the velocity
 v sin(phi/2) that the mass has along the line, and phidot grows by v/2. Where the slip of a skimming hoop comes to 0 it
 rolls if mu_s holds that.
 """
