@@ -28,7 +28,11 @@ P_SEQUENCE = 51
 # A slip's start and the time since: where phidot ~ 1/k, sums in T itself would move the angle by their round-off.
 T_FROM, T_SINCE = 52, 53
 A_KIND = 54  # the phase at the event of A_EVENT
-STATE = 55
+FROM_TOP, TOP_SIZE = (
+    55,
+    56,
+)  # on a smooth floor: the energy, 0 at rest on top, and the largest term of it (0: not known)
+STATE = 57
 SEQUENCE_BASE = 8
 
 # What a phase works in, rows of ORDER + 1 numbers (rigid.kernel.spectral.workspace): Taylor coefficients, for names see
@@ -53,6 +57,7 @@ CHOOSE, ROLL, SKID, SPIN, FLIGHT, SKIM, IMPACT = range(7)
 # PULSE its measures, a REPEAT what comes again and how often.
 WIDTH = 18
 TURN_ENERGY = 12  # where in a TURN
+PHASE_FROM_TOP, PHASE_TOP_SIZE = 13, 14  # where in the record of a slip
 PULSE_CUT, PULSE_SEQUENCE = 16, 17  # where in a PULSE: whether the run begins or ends inside it; its phases
 TURN, PULSE, END, REPEAT = 10, 11, 12, 13
 # where in a REPEAT: time and place up to which the motion has gone, its period, the way and the whole turns that it

@@ -16,6 +16,8 @@ from ..kernel.layout import (  # fmt: skip
     MU,
     OMEGA,
     ORDER,
+    PHASE_FROM_TOP,
+    PHASE_TOP_SIZE,
     ROLL,
     S_D,
     S_P,
@@ -48,7 +50,6 @@ from .slipping.step import (  # fmt: skip
     carry,
     carry_steadily,
     end_of_slip,
-    energy_from_top,
     is_steady,
     keep_energy,
     step,
@@ -71,6 +72,56 @@ def write_state(par, state, normal, friction, alpha, out, i):
 
 
 @kernel
+def sample_slip(par, phases, owner, times, i, out, work, state):
+    """Rows of ``out`` from the ``i``-th on for the times in one slip, from whose beginning ``state`` is; the next i."""
+    p, start = owner[i], state[T]
+    kind = phases[p * WIDTH]
+    mu_hat = par[MU] if kind == SKID else -par[MU]
+    p_known = inf
+    steps = 0
+    state[SLIP_SCALE] = 0.0
+    state[T_FROM], state[T_SINCE] = start, 0.0
+    from_top, size = phases[p * WIDTH + PHASE_FROM_TOP], phases[p * WIDTH + PHASE_TOP_SIZE]
+    while i < len(times) and owner[i] == p:
+        keep_energy(par, state, from_top, size)
+        whole = step(par, state, mu_hat, p_known, work)
+        length, event = end_of_slip(work, whole, 1.0 if kind == SKID else -1.0)
+        tt = work[S_T]
+        left = phases[(p + 1) * WIDTH + 1 + T] - start - state[T_SINCE] - value(tt, ORDER, length)
+        if event == STOPS and left > TOUCHES * (phases[(p + 1) * WIDTH + 1 + T] - start):
+            # it comes to 0 and goes on as before, as it does on a smooth floor in every period: no end
+            length, event = whole, NOTHING_YET
+        duration = value(tt, ORDER, length)
+        before = state[T_SINCE]
+        steps += 1
+        if event != NOTHING_YET and before + duration < times[i] - start:
+            # the last digits of the phase: near a jam the slip stops within them
+            carry(par, state, mu_hat, work, length)
+            duration = inf
+        elif work[S_D][0] <= JAM * par[GYR] or steps > MOST_STEPS:
+            duration = inf  # jammed: nothing moves in what is left of the phase
+        keep = (state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C], state[XDOT])
+        while i < len(times) and owner[i] == p and times[i] - start <= before + duration:
+            x = 0.0
+            if times[i] - start > before and duration < inf:
+                tt[0] = before - (times[i] - start)
+                # at the end of the step its time may be round-off short of what is asked for
+                x = polish(tt, ORDER, 0.0, length) if value(tt, ORDER, length) > 0.0 else length
+                tt[0] = 0.0
+                carry(par, state, mu_hat, work, x)
+            # a tiny disk may lift off between two instants that the clock can tell: a contact never pulls
+            normal = max(0.0, normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP]))
+            alpha = slipping_acceleration(par, mu_hat, normal, state[ANGLE], state[TOP])
+            write_state(par, state, normal, -mu_hat * normal, alpha, out, i)
+            state[T_SINCE] = before
+            state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C], state[XDOT] = keep
+            i += 1
+        p_known = value(work[S_P], ORDER, length)
+        carry(par, state, mu_hat, work, length)
+    return i
+
+
+@kernel
 def entry_sample(par, phases, owner, times, out, work, state):
     """Rows of ``out`` for increasing ``times``; ``phases`` are records of the event log, of which ``owner`` says by
     number which one each time belongs to.
@@ -83,48 +134,7 @@ def entry_sample(par, phases, owner, times, out, work, state):
             state[j] = phases[p * WIDTH + 1 + j]
         start = state[T]
         if kind in (SKID, SPIN) and not is_steady(par, state):
-            mu_hat = par[MU] if kind == SKID else -par[MU]
-            p_known = inf
-            steps = 0
-            state[SLIP_SCALE] = 0.0
-            state[T_FROM], state[T_SINCE] = start, 0.0
-            from_top = energy_from_top(par, state)
-            while i < len(times) and owner[i] == p:
-                keep_energy(par, state, from_top)
-                whole = step(par, state, mu_hat, p_known, work)
-                length, event = end_of_slip(work, whole, 1.0 if kind == SKID else -1.0)
-                tt = work[S_T]
-                left = phases[(p + 1) * WIDTH + 1 + T] - start - state[T_SINCE] - value(tt, ORDER, length)
-                if event == STOPS and left > TOUCHES * (phases[(p + 1) * WIDTH + 1 + T] - start):
-                    # it comes to 0 and goes on as before, as it does on a smooth floor in every period: no end
-                    length, event = whole, NOTHING_YET
-                duration = value(tt, ORDER, length)
-                before = state[T_SINCE]
-                steps += 1
-                if event != NOTHING_YET and before + duration < times[i] - start:
-                    # the last digits of the phase: near a jam the slip stops within them
-                    carry(par, state, mu_hat, work, length)
-                    duration = inf
-                elif work[S_D][0] <= JAM * par[GYR] or steps > MOST_STEPS:
-                    duration = inf  # jammed: nothing moves in what is left of the phase
-                keep = (state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C], state[XDOT])
-                while i < len(times) and owner[i] == p and times[i] - start <= before + duration:
-                    x = 0.0
-                    if times[i] - start > before and duration < inf:
-                        tt[0] = before - (times[i] - start)
-                        # at the end of the step its time may be round-off short of what is asked for
-                        x = polish(tt, ORDER, 0.0, length) if value(tt, ORDER, length) > 0.0 else length
-                        tt[0] = 0.0
-                        carry(par, state, mu_hat, work, x)
-                    # a tiny disk may lift off between two instants that the clock can tell: a contact never pulls
-                    normal = max(0.0, normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP]))
-                    alpha = slipping_acceleration(par, mu_hat, normal, state[ANGLE], state[TOP])
-                    write_state(par, state, normal, -mu_hat * normal, alpha, out, i)
-                    state[T_SINCE] = before
-                    state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C], state[XDOT] = keep
-                    i += 1
-                p_known = value(work[S_P], ORDER, length)
-                carry(par, state, mu_hat, work, length)
+            i = sample_slip(par, phases, owner, times, i, out, work, state)
             continue
         while i < len(times) and owner[i] == p:
             for j in range(MOVING):

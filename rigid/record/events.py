@@ -5,14 +5,21 @@ from __future__ import annotations
 
 from ..kernel.compile import kernel
 from ..kernel.layout import (  # fmt: skip
+    FROM_TOP,
     IMPACT,
     LAST_KIND,
     MODE,
     MOVING,
+    MU,
     P_OPEN,
+    PHASE_FROM_TOP,
     PHASE_T,
+    PHASE_TOP_SIZE,
     RECORDED,
     RECORDS,
+    SKID,
+    SPIN,
+    TOP_SIZE,
     TURN,
     TURN_ENERGY,
     TURNS,
@@ -22,7 +29,7 @@ from ..kernel.layout import (  # fmt: skip
     YDOT,
     T,
 )
-from .pulse import energy, note_phase, velocity_of_g
+from .pulse import energy, note_energy, note_phase, velocity_of_g
 
 ROOM = 8  # records that one turn of a loop may add
 
@@ -45,8 +52,14 @@ def begin(par, state, kind, events):
     state[XDOT], state[YDOT] = velocity_of_g(par, state)
     if state[P_OPEN] != 0.0:
         note_phase(state, kind)
+    slips = kind in (SKID, SPIN) and par[MU] == 0.0
+    if slips:
+        note_energy(par, state)
     if state[LAST_KIND] != kind or kind == IMPACT:
+        r = int(state[RECORDS]) * WIDTH
         record(state, kind, events)
+        if slips:
+            events[r + PHASE_FROM_TOP], events[r + PHASE_TOP_SIZE] = state[FROM_TOP], state[TOP_SIZE]
         state[LAST_KIND] = kind
         state[PHASE_T] = state[T]
 

@@ -17,6 +17,7 @@ from ..kernel.compile import kernel
 from ..kernel.layout import (  # fmt: skip
     ANGLE,
     ECC,
+    FROM_TOP,
     GAP,
     GYR,
     IMPACT,
@@ -47,6 +48,7 @@ from ..kernel.layout import (  # fmt: skip
     SEQUENCE_BASE,
     SLIP,
     TOP,
+    TOP_SIZE,
     UN,
     WHOLE,
     WIDTH,
@@ -58,6 +60,7 @@ from ..kernel.layout import (  # fmt: skip
 MOST_PHASES = float(SEQUENCE_BASE) ** 15  # of a pulse, in the digits that a float holds: what follows is not listed
 AT_BOTTOM = 1e-7  # of J_N, compression of a pulse that opens at the bottom, at a turn: no more than a root of round-off
 EDGE = 1e-12  # of N over M g: round-off at the edge of a pulse
+ALIKE = 1e-10  # of an energy: what a landing takes is more, round-off less
 TOUCH = 1e-10  # of phi and of its rate squared, at a turn at the bottom: what many swings add up of round-off
 
 
@@ -87,6 +90,18 @@ def energy(par, state):
     _, _, h, _ = trig(state[ANGLE], state[TOP])
     height = state[GAP] + par[ONE_MINUS_E] + par[ECC] * h
     return 0.5 * (x * x + y * y + par[GYR] * state[OMEGA] * state[OMEGA]) + height
+
+
+@kernel
+def note_energy(par, state):
+    """Of a slip on a smooth floor that begins: the energy, 0 at rest on top, to as many digits as any slip before has
+    known it. What begins near the top knows more of them than the whole energy has.
+    """
+    s, _, _, low = trig(state[ANGLE], state[TOP])
+    moving = 0.5 * state[OMEGA] * state[OMEGA] * (par[GYR] + par[ECC] * s * par[ECC] * s)
+    now, size, known = moving - par[ECC] * low, max(moving, par[ECC] * low), state[TOP_SIZE]
+    if known == 0.0 or size < known or abs(now - state[FROM_TOP]) > ALIKE * size:
+        state[FROM_TOP], state[TOP_SIZE] = now, size
 
 
 @kernel

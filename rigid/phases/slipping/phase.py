@@ -18,6 +18,7 @@ from ...kernel.layout import (  # fmt: skip
     ANGLE,
     FIRST_PULSE,
     FLIGHT,
+    FROM_TOP,
     GAP,
     GYR,
     IMPACT,
@@ -46,12 +47,14 @@ from ...kernel.layout import (  # fmt: skip
     T_SINCE,
     TIME_REACHED,
     TOP,
+    TOP_SIZE,
     TURNS,
     TURNS_REACHED,
     UN,
     UNTIL,
     WIDTH,
     WORK_BOUND,
+    XDOT,
     T,
 )
 from ...kernel.polynomial import value
@@ -69,7 +72,6 @@ from .step import (  # fmt: skip
     TURNS_BACK,
     carry,
     carry_steadily,
-    energy_from_top,
     is_steady,
     keep_energy,
     next_event,
@@ -78,6 +80,28 @@ from .step import (  # fmt: skip
     step,
 )
 from .stride import GOES_ON, NOT_TAKEN, stride
+
+
+@kernel
+def slide_steadily(par, state):
+    """The slip on which nothing acts, to the end of the run if it has one."""
+    if par[T_END] == inf:
+        return SLIDES
+    carry_steadily(state, par[T_END] - state[T])
+    state[T] = par[T_END]
+    return TIME_REACHED
+
+
+@kernel
+def over_edge(par, state, events):
+    """Over the edge of a pulse: why the run ends there, ``PHASE_OVER`` if it does not."""
+    if watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, events):
+        if par[UNTIL] == FIRST_PULSE:
+            return PULSE_OVER
+        on_a_smooth_floor = par[MU] == 0.0 and par[TURNS] == inf
+        if on_a_smooth_floor and comes_round(par, state, AT_PASS, events) and par[UNTIL] == REST:
+            return SLIDES
+    return PHASE_OVER
 
 
 @kernel
@@ -91,23 +115,18 @@ def slide(par, state, work, rows, events):
     p_known = inf
     state[LOSSLESS_TURNS], whirled = 0.0, 0
     state[SLIP_SCALE] = 0.0
-    from_top = energy_from_top(par, state)
     n = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
     if watch(par, state, n, events) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
     if is_steady(par, state):
-        if par[T_END] == inf:
-            return SLIDES
-        carry_steadily(state, par[T_END] - state[T])
-        state[T] = par[T_END]
-        return TIME_REACHED
+        return slide_steadily(par, state)
     while True:
         if state[RECORDS] * WIDTH + ROOM * WIDTH > len(events):
             return MORE
         if state[STEPS] <= 0.0:
             return WORK_BOUND
         state[STEPS] -= 1.0
-        keep_energy(par, state, from_top)
+        keep_energy(par, state, state[FROM_TOP], state[TOP_SIZE])
         slip_now(par, state, trig(state[ANGLE], state[TOP])[2])
         code = stride(par, state, mu_hat, poles, rows, events)
         if code == GOES_ON:
@@ -130,8 +149,11 @@ def slide(par, state, work, rows, events):
         if event == STOPS:
             state[SLIP] = 0.0
         # without friction the slip stops where the hoop turns, to the last digit
-        if event == TURNS_BACK or (state[OMEGA] == 0.0 and turning):
+        at_rest = par[MU] == 0.0 and state[XDOT] == 0.0
+        if event == TURNS_BACK or (turning and (state[OMEGA] == 0.0 or (at_rest and event == STOPS))):
             state[OMEGA] = 0.0
+            if at_rest:
+                state[SLIP], event = 0.0, STOPS
             if at_touch(state):
                 cross_bottom(state)
             state[LOSSLESS_TURNS] += 1.0
@@ -157,16 +179,9 @@ def slide(par, state, work, rows, events):
             cross_bottom(state)
         elif event == AT_WEIGHT:
             at_edge = True
-            if watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, events):
-                if par[UNTIL] == FIRST_PULSE:
-                    return PULSE_OVER
-                if (
-                    par[MU] == 0.0
-                    and par[TURNS] == inf
-                    and comes_round(par, state, AT_PASS, events)
-                    and par[UNTIL] == REST
-                ):
-                    return SLIDES
+            code = over_edge(par, state, events)
+            if code != PHASE_OVER:
+                return code
         if par[MU] == 0.0 and par[UNTIL] == REST and state[LOSSLESS_TURNS] >= 3.0:
             return SLIDES
         if par[MU] == 0.0 and whirled >= 3 and par[TURNS] < inf:

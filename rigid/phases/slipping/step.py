@@ -41,7 +41,11 @@ from ...kernel.layout import (  # fmt: skip
 from ...kernel.polynomial import first_crossing, value, value_and_slope
 from .series import series
 
-NEAR_TOP = 1e-8  # 1 - cos phi, and over M g R the energy from the top: of larger ones enough digits are left anyway
+NEAR_TOP = (
+    0.1  # energy from the top, over M g R, of a hoop that is held to it; of others phidot has the digits it needs
+)
+TINY = 1e-6  # K of a hoop whose phidot ~ 1/k at the bottom takes them from the energy
+A_TENTH = 0.1
 
 # what a step is cut at
 NOTHING_YET, STOPS, LIFTS, TIME_IS_UP, TURNS_BACK, AT_BOTTOM, AT_WEIGHT = range(7)
@@ -123,21 +127,20 @@ def carry_steadily(state, time):
 
 
 @kernel
-def energy_from_top(par, state):
-    """Energy over M g R of a smooth floor's hoop, 0 at rest on top: near there it has digits that the whole has not."""
-    s, _, _, low = trig(state[ANGLE], state[TOP])
-    return 0.5 * state[OMEGA] * state[OMEGA] * (par[GYR] + par[ECC] * s * par[ECC] * s) - par[ECC] * low
-
-
-@kernel
-def keep_energy(par, state, from_top):
-    """On a smooth floor, near the top: phidot as the energy has it, on whose last digits it hangs how it goes on."""
-    s, _, _, low = trig(state[ANGLE], state[TOP])
-    if par[MU] != 0.0 or state[TOP] == 0.0 or low > NEAR_TOP or abs(from_top) > NEAR_TOP or state[OMEGA] == 0.0:
+def keep_energy(par, state, from_top, size):
+    """On a smooth floor: phidot as the energy has it, but towards a turn, where it is a difference. What steps add up
+    to grows near the top without bound, and it hangs on the last digits how the hoop goes on from there.
+    """
+    if par[MU] != 0.0 or size == 0.0 or size > NEAR_TOP or par[GYR] < TINY or state[OMEGA] == 0.0:
         return
-    twice = 2 * (from_top + par[ECC] * low) / (par[GYR] + par[ECC] * s * par[ECC] * s)
-    if twice > 0.0:
-        state[OMEGA] = sqrt(twice) if state[OMEGA] > 0.0 else -sqrt(twice)
+    s, _, h, low = trig(state[ANGLE], state[TOP])
+    moving = from_top + par[ECC] * low
+    if moving > A_TENTH * max(size, par[ECC] * low):
+        omega = sqrt(2 * moving / (par[GYR] + par[ECC] * s * par[ECC] * s))
+        omega = omega if state[OMEGA] > 0.0 else -omega
+        if state[SLIP] != 0.0:
+            state[SLIP] -= (omega - state[OMEGA]) * (par[ONE_MINUS_E] + par[ECC] * h)
+        state[OMEGA] = omega
 
 
 @kernel
