@@ -72,7 +72,7 @@ class Pulse(Same):
     compression (split where ydot_G = 0), and the square root of Stronge's -W_r/W_c.
 
     ``cut`` marks a pulse in which the run begins or ends: its measures are those of the part that was run, its
-    restitutions NaN; 0 of one that opens at the bottom. ``sample`` is that of the motion which the pulse is a part of.
+    restitutions NaN. ``sample`` is that of the motion which the pulse is a part of.
     """
 
     t_start: Time[float]

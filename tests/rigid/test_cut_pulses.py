@@ -166,14 +166,3 @@ def test_energy_gained_in_a_pulse_would_show():
     scene = load_scene("paper-3.2-k0.75").replace(run={"turns": 40})
     losses = np.array([pulse.friction_loss for pulse in simulate(scene).pulses])
     assert np.abs(losses).max() < 1e-14
-
-
-def test_a_pulse_that_opens_at_the_bottom_has_no_restitution():
-    """The hoop turns there, so that nothing is compressed before it, and 0 is given back; impulses are exact."""
-    hoop = Hoop(0.1, 1.2, 0.1)
-    motion = simulate(Scene(hoop, Friction(0.65 / 3, 0.1), Release(pi, 0.0, -2.0), Run(until="pulse")))
-    pulse = motion.pulses[-1]
-    assert not pulse.cut
-    assert pulse.phi_start == pytest.approx(pi, abs=1e-6)
-    assert all(getattr(pulse, f"{name}_restitution") == 0 for name in ("newton", "poisson", "energetic"))
-    assert quadrature(motion, pulse) == pytest.approx([pulse.normal_impulse, pulse.friction_impulse], rel=1e-9)
