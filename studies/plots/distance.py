@@ -67,8 +67,7 @@ def panel(axes: Axes, distance: Distance, words: str, colour: str) -> None:
         _rate_line(axes, distance, colour)
     else:
         stiffness, fitted = distance.series
-        label = f"fitted series; rate {_rate_words(distance)}"
-        axes.plot(stiffness, abs(fitted), color=colour, linewidth=1, linestyle=(0, (5, 3)), label=label)
+        axes.plot(stiffness, abs(fitted), color=colour, linewidth=1, linestyle=(0, (5, 3)), label="fitted series")
     if distance.predicted is not None:
         axes.plot(*distance.predicted, color=RIGID, linewidth=1, label="predicted, leading powers, no fit")
     axes.set(xscale="log", yscale="log", xlabel=distance.label, title=words)

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .limits import CONFIDENCE, narrowest
-from .series import FEWEST, leading_part
+from .limits import CONFIDENCE
+from .series import FEWEST, leading_part, narrowest
 
 if TYPE_CHECKING:
     from ..limit.prediction import Term

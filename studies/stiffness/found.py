@@ -239,10 +239,11 @@ class StiffnessStudy(summary.Summarised):
         return f"Stiffness study: {len(self.rungs)} rungs, {len(self.failures)} failed"
 
     def _lines(self) -> list[summary.Line]:
-        return [
-            (name, f"{limit.value:.6g} ± {limit.uncertainty:.2g} in the limit, {limit.rigid:.6g} of the rigid hoop")
-            for name, limit in self.limits.items()
-        ]
+        lines = []
+        for name, limit in self.limits.items():
+            told = f"{limit.value:.6g} ± {limit.uncertainty:.2g} in the limit" if limit.extrapolated else "no limit"
+            lines.append((name, f"{told}, {limit.rigid:.6g} of the rigid hoop"))
+        return lines
 
     def to_dict(self) -> dict[str, Any]:
         """The study as JSON prints it."""

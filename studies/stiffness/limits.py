@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import stdtrit
 
-from .series import ascending, extrapolated, fewest, finite, inferred_series, settled
+from .series import ascending, extrapolated, fewest, finite, inferred_series, narrowest, settled
 
 Array = NDArray[np.float64]
 
@@ -41,10 +41,10 @@ class Rate:
     """How fast a distance d(s) goes to zero: d = c s^-p, fitted on log-log axes."""
 
     value: float
-    """Observed rate p."""
+    """Observed rate p; NaN where there is none: too few points, or an interval that is not above 0."""
     interval: tuple[float, float]
     """Its t-interval at the level CONFIDENCE, widened by the change of p when a point more or fewer is used;
-    infinite when fewer than five points can be used."""
+    infinite where there is no rate."""
     cases: tuple[int, ...]
     """Which points were used, by their place in the sequence."""
 
@@ -54,7 +54,7 @@ class Limit:
     """The limit of a measure as stiffness grows, and whether the rigid value is it."""
 
     value: float
-    """Extrapolated limit L, found without knowing the rigid value."""
+    """Extrapolated limit L, found without knowing the rigid value; NaN where cases are too few for one."""
     uncertainty: float
     """Half width of its interval at the level CONFIDENCE. With known exponents: terms not seen and numerical error;
     with a fitted one: scatter about the fit, choice of the fitted points, numerical error of the cases, and the change
@@ -66,7 +66,7 @@ class Limit:
     rigid: float
     """The value of the rigid hoop that this limit is expected to be."""
     rate: float
-    """Observed rate at which the distance to the rigid value goes to zero."""
+    """Observed rate at which the distance to the rigid value goes to zero; NaN where none is to be seen."""
     rate_interval: tuple[float, float]
     """Confidence interval of that rate."""
     rate_cases: tuple[int, ...]
@@ -75,6 +75,11 @@ class Limit:
     """Distance to the rigid value at the stiffest case: what is left without any extrapolation."""
     span: float
     """How far apart the values are from which it was extrapolated, or their numerical error where that is more."""
+
+    @property
+    def extrapolated(self) -> bool:
+        """Whether there were cases enough for a limit."""
+        return isfinite(self.uncertainty)
 
     @property
     def rigid_inside(self) -> bool | None:
@@ -92,24 +97,34 @@ class Limit:
         """Limit minus rigid value."""
         return self.value - self.rigid
 
+    @property
+    def half_widths(self) -> float:
+        """How far the rigid value is from the limit, in half widths of its interval."""
+        off = abs(self.error)
+        return off / self.uncertainty if self.uncertainty else inf if off else 0.0
+
 
 def observed_rate(s: ArrayLike, distance: ArrayLike, error: ArrayLike | None = None) -> Rate:
     """Rate of ``distance -> 0`` by a line through log distance against log s of the stiffest points.
 
-    As many points are used as give the narrowest interval. Points whose numerical ``error`` exceeds half
-    their distance say nothing of the distance and are left out.
+    As many points are used as give the narrowest interval, and none beyond a change of sign, at which a distance has
+    no rate. Points whose numerical ``error`` exceeds half their distance say nothing of the distance and are left out.
     """
-    s, d = np.asarray(s, float), np.abs(np.asarray(distance, float))
+    s, off = np.asarray(s, float), np.asarray(distance, float)
+    d = np.abs(off)
     e = np.zeros_like(d) if error is None else np.abs(np.asarray(error, float))
-    use = np.isfinite(d) & (d > 0) & ~(e > 0.5 * d)
-    x, y, off = np.log(s[use]), np.log(d[use]), e[use] / d[use]
-    if x.size < 3 + _SPARE:
-        slope = float(np.polyfit(x, y, 1)[0]) if x.size > 1 else nan
-        return Rate(-slope, (-inf, inf), tuple(np.flatnonzero(use).tolist()))
-    fits = {n: _slope(x[-n:], y[-n:], off[-n:]) for n in range(3 + _SPARE, x.size + 1)}
+    told = np.flatnonzero(np.isfinite(d) & (d > 0) & ~(e > 0.5 * d))
+    turns = np.flatnonzero(np.diff(np.sign(off[told])))
+    use = told[turns[-1] + 1 if turns.size else 0 :]
+    x, y, share = np.log(s[use]), np.log(d[use]), e[use] / d[use]
+    fits = {n: _slope(x[-n:], y[-n:], share[-n:]) for n in range(3 + _SPARE, x.size + 1)}
+    if not fits:
+        return Rate(nan, (-inf, inf), tuple(use.tolist()))
     points, half = narrowest(fits)
     rate = fits[points][0]
-    return Rate(rate, (rate - half, rate + half), tuple(np.flatnonzero(use)[-points:].tolist()))
+    if not rate - half > 0:  # whether it falls at all is not told
+        return Rate(nan, (-inf, inf), tuple(use.tolist()))
+    return Rate(rate, (rate - half, rate + half), tuple(use[-points:].tolist()))
 
 
 def _slope(x: Array, y: Array, error: Array) -> tuple[float, float]:
@@ -128,7 +143,7 @@ def _slope(x: Array, y: Array, error: Array) -> tuple[float, float]:
     weights = np.linalg.pinv(design)[1]
     scatter = _t(free) * sqrt(float(residual @ residual) / free * float(weights @ weights))
     numerical = float(np.abs(weights) @ error)  # the worst the cases' own errors can do together
-    return float(found[1]), sqrt(scatter**2 + numerical**2)
+    return p, sqrt(scatter**2 + numerical**2) + abs(float(found[1]) - p)
 
 
 def _carried(weights: Array, error: Array) -> float:
@@ -158,29 +173,15 @@ def richardson(
     limit, uncertainty, exponent : float
         The uncertainty covers the scatter about the fit (t-interval), the change of the limit when one point
         more or fewer is fitted, and the numerical error carried into the limit. With too few points it is infinite,
-        and the limit is the last value.
+        and the limit is NaN.
     """
     x, v, e = finite(s, y, np.zeros(np.shape(y)) if error is None else error)
     unknowns = 2 if exponent is not None else 3
     fits = {n: _fit(x[-n:], v[-n:], e[-n:], exponent) for n in range(unknowns + _SPARE, v.size + 1)}
     if not fits:
-        return (float(v[-1]) if v.size else nan), inf, nan if exponent is None else exponent
+        return nan, inf, nan if exponent is None else exponent
     points, half = narrowest({n: (limit, half) for n, (limit, half, _) in fits.items()})
     return fits[points][0], half, fits[points][2]
-
-
-def narrowest(fits: dict[int, tuple[float, float]]) -> tuple[int, float]:
-    """Of fits ``{points: (value, half width)}`` the one of the narrowest interval, and half that interval's width.
-
-    The value's change when up to two points more or fewer are fitted counts into the interval: softer points
-    follow the law less well, and the scatter about one fit does not show that.
-    """
-    halves = {}
-    for n, (value, half) in fits.items():
-        near = [abs(value - other) for m, (other, _) in fits.items() if 0 < abs(m - n) <= 2]
-        halves[n] = sqrt(half**2 + max(near, default=0.0) ** 2)
-    points = min(halves, key=lambda n: halves[n])
-    return points, halves[points]
 
 
 def _fit(s: Array, y: Array, error: Array, exponent: float | None) -> tuple[float, float, float]:
@@ -281,11 +282,11 @@ def fitted_series(
 ) -> tuple[Array, Array] | None:
     """Stiffness and measure of the series that a limit was extrapolated with, over the cases that it was fitted to.
 
-    Parameters as of :func:`limit_of`; None where no exponents were known.
+    Parameters as of :func:`limit_of`; None where no exponents were known, or cases too few.
     """
-    stiff = np.asarray(s, float) >= holds
-    if not limit.known:
+    if not (limit.known and limit.extrapolated):
         return None
+    stiff = np.asarray(s, float) >= holds
     x, v, e = (np.asarray(values, float)[stiff] for values in (s, y, error))
     along = np.geomspace(x[0], x[-1], points)
     return along, inferred_series(x, v, e, limit.exponents, along)

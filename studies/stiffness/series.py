@@ -9,7 +9,7 @@ what they can tell, none has to be left out, and the interval holds what the ter
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import inf, nan
+from math import inf, nan, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -101,11 +101,11 @@ def extrapolated(
     Returns
     -------
     Extrapolated
-        With fewer than ``FEWEST`` cases its uncertainty is infinite and the value the last one.
+        With fewer than ``FEWEST`` cases its uncertainty is infinite, and the value NaN.
     """
     x, v, e = finite(s, y, error)
     if v.size < FEWEST:
-        return Extrapolated(float(v[-1]) if v.size else nan, inf)
+        return Extrapolated(nan, inf)
     span = float(np.ptp(v))
     if span == 0:
         return Extrapolated(float(v[-1]), float(e.max()))
@@ -149,6 +149,20 @@ def finite(s: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[Array, Array, 
     x, v, e = np.asarray(s, float), np.asarray(y, float), np.abs(np.asarray(error, float))
     use = np.isfinite(v) & ~np.isinf(e)
     return x[use], v[use], np.nan_to_num(e[use])
+
+
+def narrowest(fits: dict[int, tuple[float, float]]) -> tuple[int, float]:
+    """Of fits ``{points: (value, half width)}`` the one of the narrowest interval, and half that interval's width.
+
+    The value's change when up to two points more or fewer are fitted counts into the interval: softer points
+    follow the law less well, and the scatter about one fit does not show that.
+    """
+    halves = {}
+    for n, (value, half) in fits.items():
+        near = [abs(value - other) for m, (other, _) in fits.items() if 0 < abs(m - n) <= 2]
+        halves[n] = sqrt(half**2 + max(near, default=0.0) ** 2)
+    points = min(halves, key=lambda n: halves[n])
+    return points, halves[points]
 
 
 def leading_part(

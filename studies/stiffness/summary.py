@@ -18,7 +18,10 @@ REST = ("normal_impulse", "peak_normal_force", "time_off_floor")
 
 
 def fixed(study: StiffnessStudy, name: str, value: float, decimals: int) -> str:
-    """A measure with so many decimals in the paper's scaling, and in the units of the scene with as many digits."""
+    """A measure with so many decimals in the paper's scaling, and in the units of the scene with as many digits; a dash
+    for none."""
+    if not isfinite(value):
+        return "-"
     places = min(max(decimals - floor(log10(MEASURES[name].unit.of(study.scene))), 0), 300)
     return f"{round(value, places) + 0.0:.{places}f}"  # the other zero has no sign
 
@@ -100,7 +103,7 @@ def side_heading(study: StiffnessStudy) -> list[str]:
     return [
         "measure",
         "rigid",
-        *(number(r.contact_stiffness, 3) for r in study.rungs if not r.outcome.failure),
+        *(number(r.stiffness, 3) for r in study.rungs if not r.outcome.failure),
     ]
 
 
@@ -128,16 +131,25 @@ _MEANING = {
 _RAISED = {"both": "ring and floor are", "contact": "the floor is", "bending": "the ring is"}
 
 
+CLEAR = 2.0
+"""Half widths of its interval by which a limit must miss the rigid value before the answer is no: one in twenty misses
+it by one."""
+
+
 def verdict(study: StiffnessStudy) -> str:
     """The answer in words, and in the numbers that it stands on."""
     tied = {name: study.limits[name] for name in _MEANING}
     inside = [limit.rigid_inside for limit in tied.values()]
     hoop = "the rigid one" if study.reference_mu_s == study.scene.friction.mu_s else "a rigid one"
     question = f"as {_RAISED[study.ladder.along]} made stiffer, the flexible hoop"
-    if False in inside:
+    if any(limit.rigid_inside is False and limit.half_widths > CLEAR for limit in tied.values()):
         answer = f"No: {question} does not become {hoop} within the uncertainty of its limit"
-    elif None in inside:
+    elif not all(limit.extrapolated for limit in tied.values()):
         answer = f"Open: whether, {question} becomes {hoop}, too few rungs say"
+    elif None in inside:
+        answer = f"Open: whether, {question} becomes {hoop}, these rungs do not say"
+    elif False in inside:
+        answer = f"Open: whether, {question} becomes {hoop}, a smaller rtol or more rungs decide"
     else:
         answer = f"Yes: {question} becomes {hoop}"
     told = [_told(study, name, limit) for name, limit in tied.items()]
@@ -152,15 +164,21 @@ def verdict(study: StiffnessStudy) -> str:
 
 
 def _told(study: StiffnessStudy, name: str, limit: Limit) -> str:
-    if limit.rigid_inside is None:
+    if not limit.extrapolated:
         last, rigid = (fixed(study, name, value, 5) for value in (study.rungs_through[-1].measure(name), limit.rigid))
         return (
             f"{_MEANING[name]} is {last}{_unit(study, name)} at the stiffest rung and {rigid} for the rigid hoop, "
             "too few rungs for an interval"
         )
-    return (
-        f"{_MEANING[name]} {_tends(study, name, limit)}, {'inside' if limit.rigid_inside else 'outside'} that interval"
-    )
+    if limit.rigid_inside is None:
+        where = "but this interval is wider than all that was measured: a longer ladder or a smaller rtol"
+    elif limit.rigid_inside:
+        where = "inside that interval"
+    elif limit.half_widths > CLEAR:
+        where = f"outside that interval, {number(limit.half_widths, 3)} of its half widths off"
+    else:
+        where = f"at the edge of that interval, {number(limit.half_widths, 3)} of its half widths off"
+    return f"{_MEANING[name]} {_tends(study, name, limit)}, {where}"
 
 
 def _tends(study: StiffnessStudy, name: str, limit: Limit) -> str:
@@ -187,7 +205,10 @@ def ladder_sentence(study: StiffnessStudy) -> str:
 
 def extrapolation_sentence(study: StiffnessStudy) -> str:
     """How the limits were found."""
-    limit = next(iter(study.limits.values()))
+    found = [limit for limit in study.limits.values() if limit.extrapolated]
+    if not found:
+        return "Too few rungs: no limit was extrapolated."
+    limit = found[0]
     s = f"s the {study.ladder.label}"
     if limit.known:
         powers = " + ".join(

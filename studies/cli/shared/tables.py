@@ -140,7 +140,8 @@ def study_tables(study: StiffnessStudy) -> list[Any]:
         for name, column in zip(LIMIT_HEADING, zip(*limit_rows(study), strict=True), strict=True)
     ]
     limits = Sheet("Limit for infinite stiffness", limit_columns[:1], limit_columns[1:])
-    failed = [f"Foundation {number(r.contact_stiffness, 3)} failed: {r.outcome.failure}" for r in study.failures]
+    raised = "Bending stiffness" if study.ladder.along == "bending" else "Foundation"
+    failed = [f"{raised} {number(r.stiffness, 3)} failed: {r.outcome.failure}" for r in study.failures]
     loose = any(not r.outcome.resolved for r in study.rungs if not r.outcome.failure)
     star = ["* The numerical error is more than a tenth of the distance to the rigid hoop."] if loose else []
     foreseen = [prediction_sentence(study)] if study.prediction is not None else []

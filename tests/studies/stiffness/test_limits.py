@@ -137,6 +137,28 @@ def test_the_rate_is_that_of_the_cases_which_it_names():
     assert found.value == pytest.approx(1 / 3, abs=1e-6)
 
 
+def test_a_distance_that_changes_its_sign_has_the_rate_of_its_last_side():
+    """1/3, where |d| has a dip on the way; of the last side alone, and none where that has too few cases."""
+    x = S / S[0]
+    distance = x ** (-1 / 3) - 3.5 * x ** (-2 / 3)
+    found = observed_rate(S, distance)
+    assert (distance[list(found.cases)] > 0).all()
+    assert found.interval[0] <= 1 / 3 <= found.interval[1]
+    late = observed_rate(S, x ** (-1 / 3) - 10 * x ** (-2 / 3))
+    assert np.isnan(late.value)
+    assert late.interval == (-np.inf, np.inf)
+
+
+@pytest.mark.parametrize(
+    "distance", [[6.12e-4, 7.37e-5, 3.11e-5, 1.43e-5, 6.58e-6], (S[:6] / S[0]) ** 0.2, [3e-3, 1e-3, 2e-3, 3e-3, 1e-3]]
+)
+def test_a_distance_of_which_it_is_not_told_that_it_falls_has_no_rate(distance):
+    """It bends by more than a line has, or grows, or scatters: an interval of rates that is not above 0 is none."""
+    found = observed_rate(S[: len(distance)], distance)
+    assert np.isnan(found.value)
+    assert found.interval == (-np.inf, np.inf)
+
+
 def test_cases_too_soft_for_the_theory_do_not_count():
     """The series holds from 1e9 on; what is below is off by 10 % of all, and the limit is none the worse for it."""
     rates = (1 / 3, 2 / 3)
@@ -174,6 +196,7 @@ def test_cases_that_are_all_numerical_error_say_nothing_of_the_rate():
 def test_too_few_cases_give_no_false_certainty(count):
     found = limit_of(S[:count], (0.17 + S**-0.3)[:count], 0.17)
     assert found.uncertainty == np.inf
+    assert np.isnan(found.value)  # the last case is no limit
     assert found.rate_interval == (-np.inf, np.inf)
     assert found.rigid_inside is None
 

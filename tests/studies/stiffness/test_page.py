@@ -18,6 +18,7 @@ import pytest
 from rigid import load_scene, scene_from_dict, simulate
 from studies import Ladder, StudyError, limit_of, stiffness_study
 from studies.cli import hoop as cli
+from studies.cli.shared.tables import study_tables
 from studies.limit.prediction import predict
 from studies.machine.processes import WorkerDied
 from studies.plots.difference import (
@@ -32,7 +33,14 @@ from studies.running.workers import Here
 from studies.stiffness import report
 from studies.stiffness.figures import distances, impulse_space
 from studies.stiffness.limits import CONFIDENCE, fitted_series
-from studies.stiffness.summary import case_cells, case_heading, prediction_sentence, rigid_cells, verdict
+from studies.stiffness.summary import (
+    case_cells,
+    case_heading,
+    prediction_sentence,
+    rigid_cells,
+    side_heading,
+    verdict,
+)
 
 THIRD = "third_solver:softened"
 LINE = ("study", "stiffness", "paper-3.3-massless", "--solver", THIRD, "--workers", 1, "--count", 5)
@@ -64,6 +72,34 @@ def test_the_verdict_is_that_of_the_intervals(study, rigid, word):
     """A rigid value that is the limit, or half a unit beside it, which is far outside any interval here."""
     limits = {name: replace(limit, rigid=limit.value + rigid) for name, limit in study.limits.items()}
     assert verdict(replace(study, limits=limits)).startswith(f"{word}: ")
+
+
+@pytest.mark.parametrize(("halves", "word"), [(0.9, "Yes"), (1.15, "Open"), (1.9, "Open"), (2.1, "No")])
+def test_one_miss_in_twenty_is_no_answer(study, halves, word):
+    """A rigid value beside the interval, which at 95 % it is one time in twenty, is told to be so, and by how much."""
+    limits = {name: replace(limit, rigid=limit.value) for name, limit in study.limits.items()}
+    loss = limits["friction_loss"]
+    limits["friction_loss"] = replace(loss, rigid=loss.value + halves * loss.uncertainty)
+    told = verdict(replace(study, limits=limits))
+    assert told.startswith(f"{word}: ")
+    assert (f"{halves:g} of its half widths off" in told) == (halves > 1)
+    assert ("a smaller rtol or more rungs decide" in told) == (word == "Open")
+
+
+def test_an_interval_that_is_too_wide_is_not_for_want_of_rungs(study):
+    limits = {name: replace(limit, span=limit.uncertainty / 2) for name, limit in study.limits.items()}
+    told = verdict(replace(study, limits=limits))
+    assert told.startswith("Open: ")
+    assert told.count("wider than all that was measured: a longer ladder or a smaller rtol") == 2
+    assert "too few" not in told
+
+
+def test_a_ladder_of_bending_stiffness_names_its_rungs_by_that():
+    found = stiffness_study("paper-3.3-massless", Ladder("bending", 1e2, 1e6, 5), solver=THIRD)
+    assert [float(cell) for cell in side_heading(found)[2:]] == pytest.approx(found.ladder.stiffness, rel=1e-2)
+    broken = replace(found.rungs[0], outcome=replace(found.rungs[0].outcome, failure="it broke"))
+    told = study_tables(replace(found, rungs=(broken, *found.rungs[1:])))
+    assert "Bending stiffness 100 failed: it broke" in told
 
 
 def test_the_scene_is_shown_as_it_was_run(page):

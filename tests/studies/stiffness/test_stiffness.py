@@ -14,7 +14,7 @@ from rigid import Friction as Coefficients
 from rigid import Hoop, Release, Scene, SceneError, load_scene, simulate
 from studies import Ladder, StudyError, stiffness_study
 from studies.running.case import SHARE
-from studies.stiffness.summary import law_sentence
+from studies.stiffness.summary import extrapolation_sentence, law_sentence, limit_rows
 
 THIRD = "third_solver:softened"
 
@@ -163,7 +163,15 @@ def test_three_or_four_rungs_are_too_few_for_an_interval(hoop, count):
     assert words.count("too few rungs for an interval") == 2  # J_F/J_N and the loss
     assert "inside that interval" not in words
     limit = json.loads(hoop(*line, "--json")[1])["limit"]
-    assert all(entry["rigid_inside"] is None and entry["uncertainty"] is None for entry in limit.values())
+    for name in ("value", "uncertainty", "error", "rigid_inside", "rate"):
+        assert all(entry[name] is None for entry in limit.values())
+
+
+def test_where_no_limit_was_extrapolated_the_page_does_not_say_how():
+    found = stiffness_study("paper-3.3-massless", Ladder("both", 1e8, 1e11, 3), solver=THIRD)
+    assert extrapolation_sentence(found) == "Too few rungs: no limit was extrapolated."
+    assert all((row[1], row[4]) == ("-", "-") for row in limit_rows(found))
+    assert "nan" not in str(found)
 
 
 @pytest.mark.parametrize("how", ["failing", "unfinished"])
