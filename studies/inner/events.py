@@ -32,11 +32,13 @@ class Event:
     """F/N in the slip before it, None where the hoop rolled."""
     behind: float | None
     """F/N in the slip behind it, None where the hoop rolls."""
+    bottom: float = pi
+    """phi of the rigid motion where the disk is lowest in this pulse: -pi of a hoop that rolls left from the top."""
 
     @property
     def phi(self) -> float:
-        """Angle from the top, of the turn in which the pulse lies."""
-        return self.psi + pi
+        """Angle from the top, as the rigid motion counts it."""
+        return self.psi + self.bottom
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,7 +122,7 @@ def passage(scene: Scene) -> Passage:
             psi = phase.phi_start - turn
             before, behind = stretches[-1].pull, pulls[phase.kind]
             kind = START if before is None else STOP if behind is None else REVERSAL
-            events.append(Event(kind, phase.t_start / scene.time_unit, psi, omega, before, behind))
+            events.append(Event(kind, phase.t_start / scene.time_unit, psi, omega, before, behind, turn))
         stretches.append(Stretch(psi, psi_end, omega, pulls[phase.kind]))
     ends = [_state(motion, t, turn) for t in (first, pulse.t_start, pulse.t_end)]
     return Passage(

@@ -45,6 +45,7 @@ _patience = Patience(is_ready=lambda: not is_cold(march.__module__), load=0, com
 MOST = 1_000_000  # steps of a layer: some 1 s
 TOO_FAST = "its damper, or the smoothing of its friction, is far faster than its patch"
 _POINTS = 300  # of a brush to its patch
+_CARRIED = 1 - 1e-8  # of mu N, by a smoothed law whose slip starts: all of it is carried by no finite V
 _RELEASED = 0.95  # of the part that sticks at the most a brush carries, where its running away begins
 
 
@@ -149,6 +150,8 @@ def layer(
     kept = bristles(2 * half / _POINTS)
     mode = STICK
     if event.kind == START:
+        if contact.law == REGULARISED:
+            friction = float(np.clip(friction, *(_CARRIED * contact.mu * normal * np.array([-1, 1]))))
         state[SLIP] = creep(contact, normal, friction, event.omega).slip
         if contact.law == PATCH:
             mode = SLIDE_RIGHT if (event.behind or 0.0) > 0 else SLIDE_LEFT
@@ -162,7 +165,7 @@ def layer(
     ends = np.array([duration, np.inf * np.sign(event.omega), fineness, 1.0, MOST])
     records, switches, end, done = _marched(System(body, contact, eps), state, mode, kept, ends)
     if not done:
-        raise StudyError(f"The layer at phi = {event.psi + pi:.4g} takes more than {MOST:g} steps: {TOO_FAST}.")
+        raise StudyError(f"The layer at phi = {event.phi:.4g} takes more than {MOST:g} steps: {TOO_FAST}.")
     columns = dict(zip(COLUMNS, records.T, strict=True))
     return Layer(
         event=event,

@@ -6,9 +6,9 @@ from math import isfinite, pi, radians
 
 import pytest
 
-from rigid import Contact, Friction, Hoop, Release, Run, Scene, load_scene
+from rigid import Contact, Friction, Hoop, Release, Run, Scene, load_scene, simulate
 from studies import StudyError, limit_study
-from studies.inner.events import passage
+from studies.inner.events import START, passage
 from studies.inner.separate import separate_from
 from studies.limit.compliant import at_foundation, go_through
 from studies.limit.damping import damping_map
@@ -77,6 +77,31 @@ def test_a_patch_that_comes_nowhere_near_its_limit_has_none_seen():
     assert not told["patch, no damping"].tends
     assert told["regularised, any damping"].prediction is None
     assert "no damping: -0.3000 to -0.3000, no limit seen" in "".join(other_sentences(study))
+
+
+@pytest.mark.parametrize("name", ["paper-3.1", "paper-3.2-k0.25", "paper-3.3-heavier"])
+def test_a_smoothed_law_has_a_layer_where_a_slip_starts(name):
+    """Nothing jumps there, and |F| = mu N throughout; to the last bit, which no finite V carries."""
+    scene = load_scene(name).replace(contact={"law": "regularised"})
+    found = limit_study(scene, foundations=())
+    starts = [event for event in found.events if event.event.kind == START]
+    assert starts
+    for start in starts:
+        layer = start.layer
+        assert abs(start.before[1]) == pytest.approx(scene.friction.mu * start.before[0], rel=1e-12)
+        assert layer.friction_force == pytest.approx(start.before[1], rel=1e-6)
+        assert layer.normal_force == pytest.approx(start.before[0], rel=1e-6)
+
+
+@pytest.mark.parametrize("phi0_deg", [10, -10])
+def test_an_event_is_where_the_rigid_motion_has_it(phi0_deg):
+    """A hoop that rolls left comes to the bottom at phi = -180 degrees."""
+    scene = load_scene("paper-3.1").replace(release={"phi0_deg": phi0_deg}, run={"until": "pulse"})
+    begins = [phase.phi_start for phase in simulate(scene).phases]
+    events = passage(scene).events
+    assert events
+    for event in events:
+        assert min(abs(event.phi - phi) for phi in begins) < 1e-12
 
 
 def test_what_is_far_faster_than_the_patch_is_a_sentence():
