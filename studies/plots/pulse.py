@@ -173,7 +173,8 @@ def impulses(
         _enlarged_end(close, axes, curves, reach)
         for beside in more:
             for (_, columns, colour), difference in zip(curves, apart, strict=False):
-                beside.plot(columns["normal_impulse"], np.abs(difference), color=colour)
+                late = columns["normal_impulse"] >= 0.75 * reach  # the axis is to have no more than is seen
+                beside.plot(columns["normal_impulse"][late], np.abs(difference)[late], color=colour)
             _of_differences(beside)
             beside.set_xlim(0.75 * reach, 1.02 * reach)
             beside.set_xlabel(r"normal impulse $J_N/(m\sqrt{gR})$")

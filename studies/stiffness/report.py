@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..plots.page import write_page
+from .found import LIMITS
 from .summary import (
     LIMIT_HEADING,
     case_cells,
@@ -37,13 +39,36 @@ that turns toward the other line has reversed its slip. The slope from the origi
 ratio. On the right how far each friction impulse is from the rigid hoop's at the same normal impulse.""",
     "distance": """\
 How far the flexible hoop's measures are from the rigid ones. Triangles are the numerical error, known
-from a second run at a quarter of the tolerance; the dashed line is what was fitted to the cases that it spans: the
-series whose powers are known, which dips where the distance changes its sign, or a single power; the black one is the
-leading powers as predicted from the rigid motion, without any of the cases, and begins where they hold.""",
+from a second run at a quarter of the tolerance.""",
     "energy": """\
 Where the energy is and where it goes; below, the small terms on a logarithmic axis.""",
 }
-"""What stands under each figure, in their order."""
+"""What stands under each figure, in their order; more where there is more in it, see :func:`captions`."""
+
+_FITTED = """\
+ The dashed line is what was fitted to the cases that it spans: the series whose powers are known, which dips where the
+distance changes its sign, or a single power."""
+_FORESEEN = """\
+ The black line is the leading powers as predicted from the rigid motion, without any of the cases; it begins where
+they hold."""
+
+
+def captions(study: StiffnessStudy) -> dict[str, str]:
+    """What stands under each figure of a study: of lines and cases those that are drawn."""
+    from .figures import chosen
+
+    told = dict(CAPTIONS)
+    through = [rung for rung in study.rungs if rung.outcome.histories]
+    drawn = chosen(through)
+    if len(drawn) < len(through):
+        some = f" Of the {len(through)} cases {len(drawn)} are drawn, those that the legend names."
+        told |= {name: told[name] + some for name in ("pulse", "impulses")}
+    distances = [study.distance(name) for name in LIMITS[:2]]
+    if any(each.series is not None or isfinite(each.rate) for each in distances):
+        told["distance"] += _FITTED
+    if any(each.predicted is not None for each in distances):
+        told["distance"] += _FORESEEN
+    return told
 
 
 def write_figure(study: StiffnessStudy, name: str, folder: Path) -> Path | None:
@@ -84,6 +109,10 @@ its work let it.{{ unresolved }}</p>
 
 <h2>All measures of the first pulse, side by side</h2>
 {{ table(side_heading, side) }}
+<p>The three e are restitutions of the pulse, by the vertical velocity of the mass centre: Newton's is the velocity
+behind it over that before it, with the other sign; Poisson's the normal impulse while the centre rises over that while
+it falls; the energetic one the square root of the work that N does on the centre while it rises over what it takes from
+it while it falls.</p>
 """
 
 
@@ -114,6 +143,7 @@ def stiffness_report(
     """
     scene = study.scene
     hoop = f"k = {scene.hoop.k:g}, r = {scene.hoop.r:g}, m_h/m = {scene.hoop.mass_ratio:g}"
+    under = captions(study)
     slow = [rung for rung in study.rungs if not rung.outcome.failure and not rung.outcome.resolved]
     told = {
         "title": f"The flexible hoop as stiffness grows: {hoop}",
@@ -123,7 +153,7 @@ def stiffness_report(
         "law": law_sentence(study),
         "damping": damping_sentence(study),
         "prediction": prediction_sentence(study),
-        "images": {name: (CAPTIONS.get(name, name), file) for name, file in images.items()},
+        "images": {name: (under.get(name, name), file) for name, file in images.items()},
         "heading": case_heading(study),
         "limit_heading": LIMIT_HEADING,
         "cases": [{"cells": case_cells(study, rung), "failure": rung.outcome.failure} for rung in study.rungs],

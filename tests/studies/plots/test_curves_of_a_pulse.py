@@ -27,6 +27,16 @@ def test_time_counts_from_the_instant_at_which_the_disk_is_lowest(way, turn):
     assert figure.axes[0].lines[0].get_xdata() == pytest.approx(t - 0.3, abs=1e-5)
 
 
+def test_the_axis_of_differences_is_that_of_what_is_seen():
+    """Of the pulse's last quarter, where they are 1e-4; before that they are small beyond measure."""
+    normal = np.linspace(0.0, 1.0, 41)
+    columns = {"t": normal, "normal_impulse": normal, "friction_impulse": 0.2 * normal}
+    apart = np.where(normal < 0.75, 1e-9, 1e-4 * (1 + normal))
+    axes = impulses([("1e9", columns, "0.5"), ("rigid", columns, RIGID)], 0.3, [apart]).axes[2]
+    low, high = axes.get_ylim()
+    assert 1e-5 < low < 1.75e-4 < 2e-4 < high < 1e-3
+
+
 @pytest.mark.parametrize("way", [1, -1])
 def test_a_motion_and_its_mirror_image_differ_from_themselves_by_nothing(way):
     """To either side; friction and slip change their sign in a mirror, and so does what is left of a larger force."""

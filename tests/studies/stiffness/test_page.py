@@ -102,6 +102,25 @@ def test_a_ladder_of_bending_stiffness_names_its_rungs_by_that():
     assert "Bending stiffness 100 failed: it broke" in told
 
 
+def test_the_page_says_what_restitutions_it_lists(study, tmp_path):
+    text = html.unescape(report.stiffness_report(study, {}, "hoop", tmp_path / "page.html").read_text(encoding="utf-8"))
+    for row in ("e Newton", "e Poisson", "e energetic"):
+        assert row in text
+    for word in ("restitutions of the pulse, by the vertical velocity of the mass centre", "Newton's", "Poisson's"):
+        assert word in text
+
+
+def test_captions_speak_of_what_is_drawn(study):
+    """Of a line that is foreseen where one is, and of how many cases have a curve where not all have."""
+    assert ["black" in report.captions(each)["distance"] for each in (study, foreseen(study))] == [False, True]
+    drawn = [dict.fromkeys(("t", "phi"), np.zeros(1))]
+    six = [replace(rung, outcome=replace(rung.outcome, histories=tuple(drawn))) for rung in study.rungs[:6]]
+    for rungs, told in ((six, True), (six[:5], False)):
+        under = report.captions(replace(study, rungs=tuple(rungs)))
+        for name in ("pulse", "impulses"):
+            assert ("Of the 6 cases 5 are drawn" in under[name]) == told
+
+
 def test_the_scene_is_shown_as_it_was_run(page):
     told = html.unescape(re.search(r"The scene as it was run</h2>\s*<pre>(.*?)</pre>", page[0], re.S)[1])
     shown = scene_from_dict(tomllib.loads(told))
@@ -162,7 +181,7 @@ def test_a_page_holds_its_pictures_and_says_how_it_was_made(study, tmp_path):
     found = re.findall(r'<img alt="([^"]*)"\s*src="data:image/([^;]*);base64,([^"]*)"', text)
     kinds = {"pulse": "svg+xml", "energy": "png"}
     assert [(alt, kind, base64.b64decode(data).decode()) for alt, kind, data in found] == [
-        (html.escape(report.CAPTIONS[name], quote=True), kinds[name], name) for name in drawn
+        (html.escape(report.captions(study)[name], quote=True), kinds[name], name) for name in drawn
     ]
 
 
