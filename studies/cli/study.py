@@ -59,7 +59,11 @@ def study() -> None:
     metavar="D",
     help="Damping ratio of the patch under the hoop's own weight; by default the scene's own, 0 included.",
 )
-@click.option("--all-pulses", is_flag=True, help="All pulses of the scene's run, not the first alone.")
+@click.option(
+    "--all-pulses",
+    is_flag=True,
+    help="Run all pulses of the scene's run, not the first alone; those behind it are in study.json, cases[].pulses.",
+)
 @click.option(
     "--solver",
     "solver_name",
@@ -123,7 +127,7 @@ def stiffness(
             click.echo(f"Figures, tables and report are in {target}; open {target / 'report.html'}.")
     if lost is not None:
         raise lost
-    if found.failures:
+    if found.failures or found.stopped:
         ctx.exit(1)
 
 

@@ -135,6 +135,11 @@ class Outcome:
     histories: tuple[Columns, ...] = field(default=(), repr=False)
     """Forces and the rest through each pulse, if asked for."""
 
+    @property
+    def stopped(self) -> str:
+        """Why a motion ended before what was asked whose pulses until then are the result; empty otherwise."""
+        return self.ended if self.motion and not self.motion["completed"] else ""
+
 
 class OtherBuild(RuntimeError):
     """A case came to a process whose sources or packages are not those it is meant for."""
@@ -249,8 +254,12 @@ def _pair(case: Case, rtol: float, most: float = inf) -> tuple[dict[str, Any], f
     coarse, fine = (
         _once(case, case.scene.replace(solve={"rtol": tolerance}), most) for tolerance in (rtol, rtol / FINER)
     )
-    if not fine["pulses"] or len(coarse["pulses"]) != len(fine["pulses"]):
+    common = min(len(coarse["pulses"]), len(fine["pulses"]))
+    if not common or (len(coarse["pulses"]) != len(fine["pulses"]) and not case.cut):
         raise Unfinished(f"no pulse came to its end: {fine['ended']}")
+    if case.cut:  # of a run that stopped the pulses that the other one has too
+        coarse, fine = (run | {name: run[name][:common] for name in ("pulses", "phases", "histories")}
+                        for run in (coarse, fine))  # fmt: skip
     errors = tuple(_errors(old, new) for old, new in zip(coarse["pulses"], fine["pulses"], strict=True))
     excess = 0.0
     for name, away in _distances(case, fine["pulses"][0]).items():

@@ -174,3 +174,11 @@ def inside(motion: Motion, pulse: Pulse) -> list[Phase]:
 def phase_sequence(motion: Motion, pulse: Pulse) -> list[str]:
     """What the contact does in the pulse, in order."""
     return [str(phase.kind.value) for phase in inside(motion, pulse)]
+
+
+def shortened(phases: list[str], most: int = 6) -> str:
+    """Phases in a row, the middle of a long row told by its number."""
+    if len(phases) <= most:
+        return " ".join(phases)
+    left_out = len(phases) - most
+    return f"{' '.join(phases[: most - 1])}, {left_out} more, {phases[-1]}"

@@ -22,7 +22,7 @@ def forces(study: StiffnessStudy) -> Figure:
     passage = passage_of(*_rigid_pulse(study))
     own = [rung.outcome.histories[0] for rung in chosen(study.rungs)]
     left = [dimensionless(at_the_same_angle(columns, passage), study.scene) for columns in own]
-    return pulse(_curves(study), "Through the first pulse", left, _raised(study))
+    return pulse(_curves(study), "Through the first pulse", left, study.ladder.raised)
 
 
 def impulse_space(study: StiffnessStudy) -> Figure | None:
@@ -32,7 +32,7 @@ def impulse_space(study: StiffnessStudy) -> Figure | None:
     along = impulses_along(*_rigid_pulse(study))
     own = [rung.outcome.histories[0] for rung in chosen(study.rungs)]
     left = [at_the_same_normal_impulse(columns, along) / study.scene.impulse_unit for columns in own]
-    return impulses(_curves(study), study.scene.friction.mu, left, _raised(study))
+    return impulses(_curves(study), study.scene.friction.mu, left, study.ladder.raised)
 
 
 def energies(study: StiffnessStudy) -> Figure | None:
@@ -41,13 +41,8 @@ def energies(study: StiffnessStudy) -> Figure | None:
     if not rungs:
         return None
     middle = rungs[len(rungs) // 2]
-    words = f"Where the energy is, {_raised(study)} {power_of_ten(middle.stiffness)}"
+    words = f"Where the energy is, {study.ladder.raised} {power_of_ten(middle.stiffness)}"
     return energy(dimensionless(middle.outcome.histories[0], study.scene), words)
-
-
-def _raised(study: StiffnessStudy) -> str:
-    """What the rungs of the ladder differ in, in a word or two."""
-    return "bending stiffness" if study.ladder.along == "bending" else "foundation"
 
 
 def _rigid_pulse(study: StiffnessStudy) -> tuple[Motion, Pulse]:

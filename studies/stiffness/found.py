@@ -70,6 +70,7 @@ class Rung:
             "resolved": found.resolved,
             "rtol": found.rtol,
             "seconds": found.seconds,
+            **({"stopped": found.stopped} if found.stopped else {}),
             "pulses": [{**pulse, "phases": phases} for pulse, phases in zip(found.pulses, found.phases, strict=True)],
         }
 
@@ -107,6 +108,11 @@ class StiffnessStudy(summary.Summarised):
     def failures(self) -> list[Rung]:
         """The rungs that have no result."""
         return [rung for rung in self.rungs if rung.outcome.failure]
+
+    @property
+    def stopped(self) -> list[Rung]:
+        """Those whose run stopped behind the pulses that are measured."""
+        return [rung for rung in self.rungs if rung.outcome.stopped]
 
     @property
     def rungs_through(self) -> list[Rung]:

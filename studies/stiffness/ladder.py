@@ -71,6 +71,11 @@ class Ladder:
         """What is raised, in words."""
         return "bending stiffness EI/(mgR²)" if self.along == "bending" else "contact foundation εR²/(mg)"
 
+    @property
+    def raised(self) -> str:
+        """The same in a word or two."""
+        return "bending stiffness" if self.along == "bending" else "foundation"
+
     def rungs(self, scene: Scene) -> list[Scene]:
         """The scene at every rung, softest first; what else the friction law ties to the foundation goes with it.
 

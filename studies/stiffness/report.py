@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,6 +19,7 @@ from .summary import (
     ladder_sentence,
     law_sentence,
     limit_rows,
+    notes,
     prediction_sentence,
     rigid_cells,
     side_heading,
@@ -106,6 +108,8 @@ FOUND = """\
 than what the steps themselves took of the energy; the tolerance was tightened until that error was a tenth of the
 distance to the rigid value, or of the predicted one where that is more, as far as the solver's own noise and a bound on
 its work let it.{{ unresolved }}</p>
+{% for note in notes %}<p>{{ note }}</p>
+{% endfor %}
 
 <h2>All measures of the first pulse, side by side</h2>
 {{ table(side_heading, side) }}
@@ -159,6 +163,7 @@ def stiffness_report(
         "cases": [{"cells": case_cells(study, rung), "failure": rung.outcome.failure} for rung in study.rungs],
         "rigid": rigid_cells(study),
         "unresolved": f" Not reached at {len(slow)} of the cases, marked *." if slow else "",
+        "notes": notes(replace(study, rungs=tuple(study.stopped))),
         "side_heading": side_heading(study),
         "side": side_rows(study),
         "ladder": ladder_sentence(study),

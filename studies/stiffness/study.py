@@ -59,7 +59,8 @@ def stiffness_study(
     solver : str
         Who runs the rungs: "flexible" or ``module:function``.
     all_pulses : bool
-        Go through all pulses of the scene's run instead of the first alone; the limit is that of the first.
+        Go through all pulses of the scene's run instead of the first alone; the limit is that of the first. Of a run
+        that stops on the way the pulses before that count.
     exponent : float, optional
         Rate of the extrapolation, in place of the contact law's own, or of the fitted one where it has none: with
         another solver than "flexible", along "bending" or "contact" alone, undamped, or with a pulse that rolling and
@@ -101,7 +102,11 @@ def stiffness_study(
     # 3. the flexible hoop on every rung, as finely as its distance from the rigid one asks for
     scenes = ladder.rungs(scene)
     pulse = reference.pulses[0]
-    cases = [Case(solver, rung, _against(rung, pulse, foreseen, separate), histories=True) for rung in scenes]
+    cases = [
+        # of a run that stops behind the first pulse that one is a result
+        Case(solver, rung, _against(rung, pulse, foreseen, separate), histories=True, cut=all_pulses)
+        for rung in scenes
+    ]
     outcomes = run_cases(cases[::-1], pool, out, progress)[::-1]  # the stiffest, which takes longest, first
     rungs = tuple(
         Rung(rung.ring.bending_stiffness, rung.contact.stiffness, stiffness, outcome)

@@ -6,7 +6,7 @@ from math import floor, isfinite, log10
 from typing import TYPE_CHECKING
 
 from ..plots.sheet import number, power_of
-from ..running.measures import MEASURES
+from ..running.measures import MEASURES, shortened
 
 if TYPE_CHECKING:
     from .found import Rung, StiffnessStudy
@@ -203,6 +203,17 @@ def ladder_sentence(study: StiffnessStudy) -> str:
     )
 
 
+def notes(study: StiffnessStudy) -> list[str]:
+    """Of rungs that have no result why, and of those whose run stopped behind its first pulse where."""
+    raised, told = study.ladder.raised.capitalize(), []
+    for rung in (r for r in study.rungs if r.outcome.failure or r.outcome.stopped):
+        why = f"failed: {rung.outcome.failure}" if rung.outcome.failure else (
+            f"did not end: {rung.outcome.stopped.rstrip('.')}. Its pulses before that are measured."
+        )  # fmt: skip
+        told.append(f"{raised} {number(rung.stiffness, 3)} {why}")
+    return told
+
+
 def extrapolation_sentence(study: StiffnessStudy) -> str:
     """How the limits were found."""
     found = [limit for limit in study.limits.values() if limit.extrapolated]
@@ -283,11 +294,3 @@ def prediction_sentence(study: StiffnessStudy) -> str:
             " patch has come to rest from the one before it, and no series in powers of ε describes these cases."
         )
     return said
-
-
-def shortened(phases: list[str], most: int = 6) -> str:
-    """Phases in a row, the middle of a long row told by its number."""
-    if len(phases) <= most:
-        return " ".join(phases)
-    left_out = len(phases) - most
-    return f"{' '.join(phases[: most - 1])}, {left_out} more, {phases[-1]}"

@@ -47,6 +47,15 @@ def unfinished(scene: Scene, *, history: bool = False, progress: object = None) 
     return motion
 
 
+def tiring(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
+    """The same, but above a foundation of 1e10 it stops behind the first pulse."""
+    motion = softened(scene)
+    if scene.contact.stiffness > 1e10:
+        ended = "stopped at t = 9.9: no step could be found"
+        motion = dataclasses.replace(motion, completed=False, ended=ended, pulses=motion.pulses[:1])
+    return motion
+
+
 def slow(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
     """The same, slowly enough to be interrupted, unless a test has no use for that."""
     time.sleep(float(os.environ.get("HOOP_TEST_PAUSE", "0.7")))

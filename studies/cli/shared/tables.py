@@ -14,7 +14,7 @@ from rich.console import Console
 from rigid import Motion, Scene, scene_from_dict
 
 from ...plots.sheet import Column, Sheet, number
-from ...running.measures import MEASURES, Unit, measures, phase_sequence
+from ...running.measures import MEASURES, Unit, measures, phase_sequence, shortened
 from ...stiffness.summary import (
     LIMIT_HEADING,
     case_cells,
@@ -22,9 +22,9 @@ from ...stiffness.summary import (
     damping_sentence,
     law_sentence,
     limit_rows,
+    notes,
     prediction_sentence,
     rigid_cells,
-    shortened,
     verdict,
 )
 from .account import HEADING, account, remarks
@@ -140,12 +140,19 @@ def study_tables(study: StiffnessStudy) -> list[Any]:
         for name, column in zip(LIMIT_HEADING, zip(*limit_rows(study), strict=True), strict=True)
     ]
     limits = Sheet("Limit for infinite stiffness", limit_columns[:1], limit_columns[1:])
-    raised = "Bending stiffness" if study.ladder.along == "bending" else "Foundation"
-    failed = [f"{raised} {number(r.stiffness, 3)} failed: {r.outcome.failure}" for r in study.failures]
     loose = any(not r.outcome.resolved for r in study.rungs if not r.outcome.failure)
     star = ["* The numerical error is more than a tenth of the distance to the rigid hoop."] if loose else []
     foreseen = [prediction_sentence(study)] if study.prediction is not None else []
-    return [ladder, *star, *failed, limits, *foreseen, law_sentence(study), damping_sentence(study), verdict(study)]
+    return [
+        ladder,
+        *star,
+        *notes(study),
+        limits,
+        *foreseen,
+        law_sentence(study),
+        damping_sentence(study),
+        verdict(study),
+    ]
 
 
 def sweep_tables(sweep: SweepTable, most: int = 40) -> list[Any]:

@@ -185,6 +185,20 @@ def test_failing_rungs_are_told_and_the_rest_is_used(hoop, how):
     assert found["limit"]["impulse_ratio"]["value"] is not None
 
 
+def test_a_pulse_that_was_measured_is_not_lost_with_a_later_one(hoop, tmp_path):
+    """The first one of each rung counts, as with that alone; where the run stopped is told."""
+    line = ["study", "stiffness", "paper-3.3-massless", "--workers", 1, "--json", "--solver"]
+    status, out, _ = hoop(*line, "third_solver:tiring", "--all-pulses", "--out", tmp_path)
+    assert status == 1
+    found, alone = json.loads(out), json.loads(hoop(*line, THIRD)[1])
+    for case, first in zip(found["cases"], alone["cases"], strict=True):
+        assert case["impulse_ratio"] == first["impulse_ratio"]
+        assert ("no step could be found" in case.get("stopped", "")) == (case["contact_stiffness"] > 1e10)
+        assert (len(case["pulses"]) == 1) == ("stopped" in case)
+    assert found["limit"] == alone["limit"]
+    assert "did not end: stopped at t = 9.9" in (tmp_path / "report.html").read_text(encoding="utf-8")
+
+
 def test_when_no_rung_comes_through_it_is_one_sentence():
     with pytest.raises(StudyError, match="no step could be found"):
         stiffness_study(
