@@ -139,6 +139,7 @@ class Friction:
 class Release:
     """The state at t = 0: angle ``phi0``, angular velocity ``omega0``, and the contact point's velocity ``slip0``.
 
+    ``omega0`` is in sqrt(g/R) and ``slip0`` in sqrt(g R); in rad/s and m/s where the scene has R, m, g in SI units.
     ``Release(phi0_deg=10)`` is ``Release(phi0=radians(10))``. A ``phi0`` beyond a turn with no more than two decimals
     looks like degrees, which a warning says.
     """
@@ -173,6 +174,7 @@ class Release:
 class Run:
     """How far to run: to a number of turns (instants with phidot = 0 after release), to a time, or until an event.
 
+    ``t_end`` is in sqrt(R/g), or in seconds where the scene has R, m, g in SI units.
     ``until`` is "pulse" (the end of the first whole pulse; one that the release cuts is none) or "rest" (nothing is
     lost any more).
     """

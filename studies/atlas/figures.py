@@ -179,10 +179,10 @@ def fixed(atlas: Drawn) -> str:
         ("hoop.r", f"$r = {hoop.r:g}$"),
         ("hoop.mass_ratio", f"$m_h/m = {hoop.mass_ratio:g}$"),
         ("release.phi0_deg", rf"from $\varphi_0 = {release.phi0_deg:.4g}°$"),
-        ("release.omega0", rf"$\omega_0 = {release.omega0:.4g}$"),
-        ("release.slip0", f"$v_0 = {release.slip0:.4g}$"),
+        ("release.omega0", rf"$\omega_0 = {release.omega0:.4g}\,\sqrt{{g/R}}$" if release.omega0 else ""),
+        ("release.slip0", rf"$v_0 = {release.slip0:.4g}\,\sqrt{{gR}}$" if release.slip0 else ""),
     ]
-    told = [text for key, text in said if key not in keys and not text.endswith("= 0$")]
+    told = [text for key, text in said if text and key not in keys and not text.endswith("= 0$")]
     varied = {"friction.mu", "friction.mu_s"} & set(keys)
     if not varied:
         told.append(rf"$\mu_s = {friction.mu_s:g}$, $\mu = {friction.mu:g}$")

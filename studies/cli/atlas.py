@@ -24,6 +24,7 @@ from .shared.results import begin_results, results_folder
     metavar="KEY=A:B",
     help="A quantity and its range, twice: across and up. hoop.k=0.02:0.9 and friction.mu=0.02:1 by default; also "
     "hoop.r, hoop.mass_ratio, friction.mu_s, release.phi0_deg, release.omega0, release.slip0, landing.restitution. "
+    "release.omega0 is in sqrt(g/R) and release.slip0 in sqrt(g R), of a SCENE in SI units too. "
     "Over two decades or more it runs evenly in the logarithm. One of mu and mu_s alone takes the other with it.",
 )
 @click.option(

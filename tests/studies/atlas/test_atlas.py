@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,9 +13,11 @@ from command_line import is_one_sentence
 from rigid import Friction, Hoop, Release, Scene, SceneError, load_scene, rolling_k, simulate
 from rigid.lists import phases_of
 from studies import Atlas, atlas_of
-from studies.atlas.plane import NO_HOOP, SYMBOLS, plane
+from studies.atlas.figures import Drawn, fixed
+from studies.atlas.plane import NO_HOOP, SYMBOLS, Region, plane
 from studies.atlas.refine import WITHIN
 from studies.atlas.study import SHADE
+from studies.atlas.summary import atlas_sheets
 
 SIDE = 64
 
@@ -317,6 +320,25 @@ def test_the_command_refuses_in_a_sentence(hoop, tmp_path, over: str):
     assert (status, out) == (2, "")
     assert is_one_sentence(err)
     assert not (tmp_path / "map").exists()
+
+
+def test_the_title_says_the_units_of_a_throw():
+    """A hoop of 0.5 m that is thrown at 8.86 rad/s, which is 2 sqrt(g/R), and 4.43 m/s, which is 2 sqrt(g R)."""
+    g, R = 9.81, 0.5
+    scene = load_scene("paper-3.1").replace(hoop={"R": R, "m": 1.0, "g": g})
+    scene = scene.replace(release={"omega0": 2 * (g / R) ** 0.5, "slip0": 2 * (g * R) ** 0.5})
+    told = fixed(Drawn(plane(scene, {"hoop.k": (0.1, 0.2), "friction.mu": (0.1, 0.2)}), None, ()))
+    assert r"\omega_0 = 2\,\sqrt{g/R}$" in told
+    assert r"v_0 = 2\,\sqrt{gR}$" in told
+
+
+def test_sequences_too_small_for_the_table_are_counted(drawn: Atlas):
+    tiny = [Region(10**6 + n, "spin", share) for n, share in enumerate((1e-5, 1e-6))]
+    sheet, *said = atlas_sheets(replace(drawn, regions=(*drawn.regions, *tiny)))
+    listed = len(sheet.keys[0].cells)
+    told = " ".join(map(str, said))
+    assert f"{len(drawn.regions) + 2 - listed} more sequences" in told
+    assert "atlas.json has all" in told
 
 
 def test_the_help_names_every_key(hoop):
