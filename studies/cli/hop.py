@@ -105,9 +105,10 @@ def hop(
     asked = map_of(described, over, rtol=rtol or RTOL, bisections=bisections, level=level, whole=whole)
     target = results_folder(out)
     say: Callable[[str], None] = (lambda sentence: None) if as_json else announce
-    more = f", and up to {3 * (bisections + 2)} more for each threshold line" if bisections else ""
-    say(f"{asked.count} rolls{more}.")
-    with bar(f"{asked.count} rolls") as progress, pool(workers, scheduler) as place:
+    rolls = f"{asked.count} roll{'s' if asked.count > 1 else ''}"
+    closing = bisections and len(asked.stiffness) > 1  # between two stiffnesses
+    say(f"{rolls}{f', and up to {3 * (bisections + 2)} more for each threshold line' if closing else ''}.")
+    with bar(rolls) as progress, pool(workers, scheduler) as place:
         if scheduler is None:
             prepare(*compile_side_by_side(levels_of(_ends_of(asked)), place.beside))  # once for all workers
         found = hop_study(asked, pool=place, out=target, progress=progress, say=say)

@@ -146,7 +146,8 @@ def hop_study(
         # the map is most of the work
         low, high = (0.0, 0.8) if stage == 0 else (0.8 + 0.2 * (stage - 1) / rounds, 0.8 + 0.2 * stage / rounds)
         told = None if progress is None else (lambda share: progress(low + (high - low) * share))
-        outcomes = run_cases(cases, pool or Here(), out, told, say=say)
+        part = " of the map" if stage == 0 and asked.bisections else ""
+        outcomes = run_cases(cases, pool or Here(), out, told, say=say, part=part)
         found = [
             (ask.line, HopCase(ask.stiffness, scene, outcome, ask.whole and _to_its_end(outcome)))
             for ask, scene, outcome in zip(asks, scenes, outcomes, strict=True)

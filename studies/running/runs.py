@@ -24,13 +24,14 @@ def run_cases(
     progress: Callable[[float], None] | None = None,
     forget: bool = False,
     say: Callable[[str], None] | None = None,
+    part: str = "",
 ) -> list[Outcome]:
     """Outcomes of cases, in their order; those that the folder ``out`` has already are not run again.
 
     A case that failed before is tried again, and so is one whose result is damaged. Each outcome is kept as it comes,
     so an interruption loses no more than the cases in flight. With ``forget`` histories and motions stay in the folder
     and do not come back: a sweep may have more of them than memory. ``say`` is told, in sentences, what was found
-    damaged and, after the first cases, what the rest will take.
+    damaged and, after the first cases, what the rest will take: of a ``part`` (" of the map"), where more are to come.
     """
     keyed = [(case.key, case) for case in cases]
     say = say or (lambda sentence: None)
@@ -44,7 +45,7 @@ def run_cases(
             say(f"{len(damaged)} damaged {'result' if len(damaged) == 1 else 'results'} in {out}: run again.")
     missing = {key: case for key, case in keyed if key not in found}  # the same scene twice runs once
     total = len(found) + len(missing)
-    estimate = Estimate(len(missing), pool.workers(), store)
+    estimate = Estimate(len(missing), pool.workers(), store, part)
 
     def told() -> None:
         if progress is not None:
@@ -68,8 +69,9 @@ def _light(outcome: Outcome) -> Outcome:
 class Estimate:
     """Time and bytes of the cases still to run, once the first of them are done."""
 
-    def __init__(self, count: int, workers: int, store: Store | None) -> None:
+    def __init__(self, count: int, workers: int, store: Store | None, part: str = "") -> None:
         self.count = count
+        self.part = part
         self.workers = workers
         self.store = store
         self.done = 0
@@ -92,7 +94,7 @@ class Estimate:
         if rest < WORTH:
             return None
         grown = "" if self.store is None else f" and {_bytes((self.store.size() - self.before) / self.done * left)}"
-        return f"By the first {self.done} cases, the other {left} take some {duration(rest)}{grown}."
+        return f"By the first {self.done} cases, the other {left}{self.part} take some {duration(rest)}{grown}."
 
 
 def duration(seconds: float) -> str:

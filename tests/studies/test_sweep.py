@@ -553,6 +553,13 @@ def test_what_a_long_sweep_takes_is_told_from_its_first_cases(tmp_path):
     assert size == pytest.approx(store.size() / 1e3, rel=0.3)  # SQLite's file grows by pages of 4 kB
 
 
+def test_what_a_part_of_the_work_takes_is_said_of_that():
+    """A map of two rolls of 80 s, whose thresholds are closed in on behind it."""
+    estimate = Estimate(2, 1, None, " of the map")
+    outcome = run_case(Case("rigid", load_scene("paper-3.1")))
+    assert "the other 1 of the map take some 80 seconds" in estimate.after(dataclasses.replace(outcome, seconds=80.0))
+
+
 @pytest.mark.parametrize("workers", [1, 2])
 def test_a_solver_that_leaves_is_a_failed_case(tmp_path, workers):
     with pool(workers) as place:

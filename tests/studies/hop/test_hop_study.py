@@ -127,6 +127,14 @@ def test_what_still_hops_at_the_stiffest_is_said_as_such(hoop):
 
 
 @pytest.mark.usefixtures("leaping")
+@pytest.mark.parametrize(("over", "said"), [("5", "hoop: 1 roll."), ("5,300", "hoop: 2 rolls, and up to 9 more for")])
+def test_as_many_rolls_are_announced_as_may_come(hoop, over, said):
+    """Of one stiffness there is no bracket to close in on."""
+    line = ("study", "hop", SCENE, "--over", f"ring.bending_stiffness={over}", "--workers", 1, "--bisections", 1)
+    assert hoop(*line)[2].startswith(said)
+
+
+@pytest.mark.usefixtures("leaping")
 def test_a_shorter_roll_can_be_asked(hoop):
     line = "study", "hop", SCENE, "--over", "ring.bending_stiffness=20,60", "--workers", 1, "--bisections", 0, "--json"
     ends = []
