@@ -83,13 +83,14 @@ def pulse(
         return figure
 
 
-def _of_differences(axes: Axes) -> None:
-    """The axis of differences: six decades, no more, are what one wants to see."""
+def _of_differences(axes: Axes, ends: Sequence[np.ndarray] = ()) -> None:
+    """The axis of differences: six decades, no more, are what one wants to see; one below the least of the ``ends``."""
     if not any(np.any(np.asarray(line.get_ydata(), dtype=float) > 0) for line in axes.get_lines()):
         return
     axes.set_yscale("log")
     low, high = axes.get_ylim()
-    axes.set_ylim(max(low, 1e-6 * high), high)
+    least = min((float(end[0]) for end in ends if end.size and end[0] > 0), default=0.0)
+    axes.set_ylim(max(low, 1e-6 * high, 0.1 * least), high)
 
 
 def _since_lowest(columns: Columns) -> Any:
@@ -173,9 +174,8 @@ def impulses(
         _enlarged_end(close, axes, curves, reach)
         for beside in more:
             for (_, columns, colour), difference in zip(curves, apart, strict=False):
-                late = columns["normal_impulse"] >= 0.75 * reach  # the axis is to have no more than is seen
-                beside.plot(columns["normal_impulse"][late], np.abs(difference)[late], color=colour)
-            _of_differences(beside)
+                beside.plot(columns["normal_impulse"], np.abs(difference), color=colour)
+            _of_differences(beside, [each[np.isfinite(each)][-1:] for each in map(np.abs, apart)])
             beside.set_xlim(0.75 * reach, 1.02 * reach)
             beside.set_xlabel(r"normal impulse $J_N/(m\sqrt{gR})$")
             beside.set_title("difference of $J_F$ from the rigid hoop, absolute", fontsize=10)
