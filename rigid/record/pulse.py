@@ -22,6 +22,7 @@ from ..kernel.layout import (  # fmt: skip
     GYR,
     IMPACT,
     LAST_KIND,
+    MU_S,
     OMEGA,
     ONE_MINUS_E,
     P_ANGLE,
@@ -212,7 +213,8 @@ def write_pulse(par, state, events):
     events[r + 5], events[r + 6], events[r + 7], events[r + 8] = state[T], state[ANGLE], state[TOP], state[WHOLE]
     events[r + 9] = normal
     events[r + 10] = x - state[P_XDOT]
-    events[r + 11] = state[P_ENERGY] - energy(par, state)
+    # without friction a difference of energies is its round-off
+    events[r + 11] = state[P_ENERGY] - energy(par, state) if par[MU_S] > 0.0 else 0.0
     events[r + 12] = state[P_PEAK]
     compression = -y0 + (state[P_T_BOTTOM] - state[P_T])
     events[r + 13] = events[r + 14] = events[r + 15] = nan if state[P_CUT] != 0.0 else 0.0

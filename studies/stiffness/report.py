@@ -91,7 +91,8 @@ def write_figure(study: StiffnessStudy, name: str, folder: Path) -> Path | None:
 FOUND = """\
 <h2>The limit of the first pulse</h2>
 {{ table(limit_heading, limits) }}
-<p>{{ extrapolation }} The rate is that of the distance to the rigid value, the last distance that of the stiffest case.
+<p>{{ extrapolation }} The rate is that of the distance to the rigid value where its sign no longer changes, a dash
+where the cases tell none; the last distance is that of the stiffest case.
 {{ prediction }} {{ law }} {{ damping }}</p>
 
 {{ pictures(figures) }}

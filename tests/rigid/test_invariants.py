@@ -17,6 +17,13 @@ from rigid import Friction, Hoop, Kind, Landing, Release, Run, Scene, load_scene
 from rigid.kernel.compile import Patience
 
 
+@pytest.mark.parametrize("name", ["paper-3.1", "paper-3.3-light"])
+def test_without_friction_nothing_is_lost_to_it(name):
+    motion = simulate(load_scene(name).replace(friction={"mu_s": 0, "mu": 0}, run={"turns": 4}))
+    assert len(motion.pulses) > 2
+    assert [pulse.friction_loss for pulse in motion.pulses] == [0.0] * len(motion.pulses)
+
+
 @settings(max_examples=60, deadline=None)
 @given(scenes())
 def test_any_scene(scene):
