@@ -129,6 +129,16 @@ def test_a_mirrored_friction_impulse_that_does_not_turn_over_is_found(monkeypatc
     assert broken(checks.repeated(motion)) == {"mirrored"}
 
 
+def test_a_mirrored_motion_with_a_turn_less_is_found(monkeypatch, motion):
+    """What has another number of turns has no difference, and is not the same."""
+
+    def fault(scene, found):
+        return replace(found, turns=found.turns[:1]) if scene.release.phi0 < 0 else found
+
+    again(monkeypatch, checks, fault)
+    assert broken(checks.repeated(motion)) == {"mirrored"}
+
+
 def test_a_motion_that_restarts_as_another_is_found(monkeypatch, motion):
     assert checks.restarted(motion) <= 1
 

@@ -49,6 +49,15 @@ def test_a_failure_prints_a_scene_that_can_be_run_again():
     assert "energy by 3" in text
 
 
+@pytest.mark.parametrize(("margin", "status"), [(0.5, 0), (3.0, 1)])
+def test_stress_ends_with_one_where_a_scene_failed(hoop, monkeypatch, margin, status):
+    """A margin is over what is allowed: 1."""
+    report = Report(0, [Finding("rigid", 0, next(draws.rigid_scenes(1, 0)), "ended", 0.1, {"energy": margin})])
+    monkeypatch.setattr(run, "run_stress", lambda *_: report)
+    for form in ((), ("--json",)):
+        assert hoop("stress", "--quick", *form)[0] == status
+
+
 def test_a_map_of_scenes_of_one_kind_is_drawn(tmp_path):
     """Of one scene two solvers draw none: their panels are empty, and no logarithmic axis looks for a number there."""
     scene = next(draws.rigid_scenes(1, 0))
