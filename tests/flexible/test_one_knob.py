@@ -8,7 +8,7 @@ import rigid
 from flexible.contact.laws.listing import LAWS
 from flexible.handover import hand_over
 from flexible.models.reduced import ReducedHoop
-from flexible.models.rim_contact import points_to_a_patch, share_of_steps
+from flexible.models.rim_contact import known_to, points_to_a_patch, share_of_linear_steps, share_of_steps
 from flexible.ring.reduction import modes_for
 from flexible.time.adaptive import march
 from flexible.time.events import Ends
@@ -78,3 +78,27 @@ def test_steps_of_soft_rings_have_a_part_of_a_rough_tolerance(law):
     assert share(2.0, 3e-4) == share(2.0, 1e-6) == share(0.5, 1e-6) == whole
     assert share(2.0, 5e-4) * 5e-4 == pytest.approx(whole * 3e-4), "no longer steps than a tolerance of 3e-4 has"
     assert share(0.25, 5e-4) * 5e-4 == pytest.approx(whole * 3e-4 / 8)
+
+
+def test_steps_of_a_thick_linear_ring_have_a_part_of_a_tolerance():
+    """From a wall of 0.15 R on 0.7 of it, and half from an rtol of 3e-4 down (README, section 5)."""
+
+    def share(r, rtol):
+        return share_of_linear_steps(HOOP.replace(hoop={"r": r}, solve={"rtol": rtol}))
+
+    assert {share(r, rtol) for r in (1.02, 1.17) for rtol in (1e-2, 1e-3, 1e-5)} == {1.0}
+    assert share(1.2, 1e-3) == pytest.approx(0.7)
+    assert share(1.2, 3e-4) == share(1.2, 1e-4) == pytest.approx(0.5)
+    assert ReducedHoop(HOOP.replace(hoop={"r": 1.2})).steps == share(1.2, HOOP.solve.rtol), "and a hoop takes it"
+
+
+def test_modes_are_more_like_the_fourth_root_of_the_tolerance():
+    """Ten thousand times as fine ten times as many, but for whole numbers."""
+    assert modes_for(1e-9, 0.02) / modes_for(1e-5, 0.02) == pytest.approx(10, rel=0.02)
+    assert modes_for(1e-9, 0.2) / modes_for(1e-5, 0.2) == pytest.approx(10, rel=0.02)
+
+
+def test_forces_are_known_better_than_the_tolerance():
+    """To a thirtieth of it at 1e-3, a thousandth at 1e-6."""
+    assert known_to(1e-3) <= 1e-3 / 30
+    assert known_to(1e-6) <= 1e-6 / 1000 * (1 + 1e-9)  # and round-off

@@ -77,6 +77,17 @@ def test_the_limit_is_inside_for_other_sequences_too(family, noise, floor):
     assert inside >= 72  # 76 of 80 is the level
 
 
+def test_the_interval_of_a_fit_alone_holds_the_limit_of_what_crosses_it():
+    """No noise: what one power is off by is its own misfit at the stiff end, which scatter about it does not tell."""
+    random = np.random.default_rng(22)
+    held = 0
+    for _ in range(40):
+        distance = 0.02 * FAMILIES["crosses the limit"](S / S[0], random.uniform(-1, 1), 0.0)
+        limit, uncertainty, _ = richardson(S, 0.17 + distance)
+        held += abs(limit - 0.17) <= uncertainty
+    assert held >= 34  # 38 of 40 is the level, and three standard deviations below it are 33.9
+
+
 KNOWN = {
     "patch": (1 / 3, 2 / 3),
     "brush, mu_s = mu": (1 / 3, 2 / 5),
@@ -111,6 +122,24 @@ def test_intervals_of_known_rates_hold_limit_and_further_cases(law, noise, floor
     assert limits >= 34
     assert held >= 34
     assert np.median(told) < 1  # more than the last case says
+
+
+@pytest.mark.parametrize("understated", [4, 8])
+def test_errors_that_are_understated_are_taken_for_possible(understated):
+    """Noise of so many times the errors that the cases state: the interval is of what they scatter by, too.
+
+    Such errors are held to be less likely than those stated, so less than the level is asked: four of five.
+    """
+    rates = KNOWN["patch"]
+    random = np.random.default_rng(2009)
+    held = 0
+    for _ in range(40):
+        distance = 0.02 * terms(S / S[0], rates)[:, :3] @ random.normal(size=3)
+        error = 0.003 * np.abs(distance) + 3e-6
+        y = 0.17 + distance + understated * error * random.uniform(-1, 1, S.size)
+        found = extrapolated(S, y, error, rates, CONFIDENCE)
+        held += abs(found.value - 0.17) <= found.uncertainty
+    assert held >= 32
 
 
 def test_powers_behind_the_given_ones_go_on_in_their_last_step():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from rigid import Friction as Coefficients
 from rigid import Hoop, Release, Scene, SceneError, load_scene, simulate
 from studies import Ladder, StudyError, stiffness_study
 from studies.running.case import SHARE
-from studies.stiffness.summary import extrapolation_sentence, law_sentence, limit_rows
+from studies.stiffness.summary import LIMIT_HEADING, extrapolation_sentence, law_sentence, limit_rows
 
 THIRD = "third_solver:softened"
 
@@ -278,3 +279,12 @@ def test_a_ladder_that_cannot_be_is_one_sentence(hoop, option):
     assert (status, out) == (2, "")
     assert option[0] in err
     assert len(err.splitlines()) == 1
+
+
+@pytest.mark.parametrize(("inside", "said"), [(True, "yes"), (False, "no"), (None, "-")])
+def test_the_row_of_a_limit_says_whether_the_rigid_value_is_inside(inside, said):
+    numbers = {"value": 0.17, "uncertainty": 1e-3, "rigid": 0.17, "error": 0.0, "rate": 0.3, "distance": 1e-3}
+    limit = SimpleNamespace(**numbers, rigid_inside=inside, rate_interval=(0.2, 0.4))
+    scene = load_scene("paper-3.1")
+    (row,) = limit_rows(SimpleNamespace(limits={"impulse_ratio": limit}, scene=scene))
+    assert dict(zip(LIMIT_HEADING, row, strict=True))["inside?"] == said
