@@ -175,6 +175,8 @@ def test_level_of_a_scene(caplog):
     select._tell_of_all_nodes.cache_clear()
     assert isinstance(hoop_of(HOOP.replace(solve={"level": "auto"})), ReducedHoop)
     assert type(hoop_of(HOOP.replace(solve={"level": "full"}))) is FullHoop
+    for bending, level in ((40.0, "reduced"), (39.999, "chain")):  # below 40, says the README
+        assert select.level_of(HOOP.replace(solve={"level": "auto"}, ring={"bending_stiffness": bending})) == level
     soft = HOOP.replace(solve={"level": "auto"}, ring={"bending_stiffness": 1.0})
     assert isinstance(hoop_of(soft), ChainHoop)
     assert not caplog.messages
@@ -228,15 +230,16 @@ def newton_errors(hoop, old, beta, dphi):
 
 @pytest.mark.parametrize("kind", [FullHoop, ExactHoop])
 def test_newton_converges_quadratically(kind):
-    """On a smooth step: the error's exponent doubles with each iteration until round-off."""
+    """On a smooth step: the error's exponent doubles with each iteration until round-off, here at the second.
+
+    A tangent of the contact that is 1 % wrong leaves fifty times as much there.
+    """
     hoop = kind(HOOP.replace(solve={"elements": 96}))
     old = equilibrium(hoop, Pose(2.2, 1.0, 0.0, 1.3, -0.2, Kind.ROLL))
     sizes = newton_errors(hoop, old, 2e-3, 2e-4)
     floor = 1e-7  # round-off of the elastic forces of a ring this stiff
-    falling = [i for i in range(len(sizes) - 1) if sizes[i] < 0.1 and sizes[i + 1] > floor]
-    assert sizes.min() < floor
-    for i in falling:
-        assert sizes[i + 1] < 10 * sizes[i] ** 2
+    assert sizes[2] < floor
+    assert (sizes[1:] < np.maximum(10 * sizes[:-1] ** 2, floor)).all()
 
 
 @pytest.mark.slow
