@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from meshes.draw.layout import Layout
 from meshes.draw.shots import Curves, MotionSource
 from rigid import load_scene, simulate
 
@@ -25,3 +26,15 @@ def test_curves_of_the_papers_motions_reach_the_peaks_of_their_pulses(name):
     for pulse in motion.pulses:
         inside = (curves.t >= pulse.t_start) & (curves.t <= pulse.t_end)
         assert curves.normal_force[inside].max() == pytest.approx(pulse.peak_normal_force, rel=0.01)
+
+
+def test_each_force_is_drawn_on_the_axis_that_bears_its_name():
+    t = np.linspace(0, 1, 11)
+    forces = {"N": 1 + t, "F": -t}
+    layout = Layout((640, 480), Curves(t, forces["N"], forces["F"]), (0, 1), None, {}, "forces")
+    axes = {ax.get_ylabel().split()[0]: ax for ax in layout.figure.axes if ax.get_ylabel()}
+    assert set(axes) == set(forces)
+    for name, force in forces.items():
+        (drawn,) = (line for line in axes[name].lines if len(line.get_xdata()) == len(t))
+        np.testing.assert_array_equal(drawn.get_xdata(), t)
+        np.testing.assert_array_equal(drawn.get_ydata(), force)

@@ -72,6 +72,15 @@ def test_a_motion_is_drawn_in_its_units(scene, units):
     assert shot.slip_velocity == state.slip_velocity
 
 
+#: powers of m, kg and s in what units are made of
+SCALED = {"R": (1, 0, 0), "√(R/g)": (0, 0, 1), "m g": (1, 1, -2), "√(g R)": (1, 0, -1), "m g/R²": (-1, 1, -2)}
+SI = {"m": (1, 0, 0), "s": (0, 0, 1), "N": (1, 1, -2), "m/s": (1, 0, -1), "Pa": (-1, 1, -2), "J/m³": (-1, 1, -2)}
+
+
+def test_units_with_and_without_a_scale_are_of_the_same_kind():
+    assert {kind: SI.get(unit) for kind, unit in SI_UNITS.items()} == {k: SCALED[unit] for k, unit in UNITS.items()}
+
+
 def test_a_particle_is_drawn_as_a_disk_that_can_be_seen():
     shot = MotionSource(simulate(load_scene("paper-point-mass"))).shot(0.5)
     assert np.ptp(shot.disk.points[:, 0]) == pytest.approx(2 * 0.025, rel=1e-3)

@@ -11,7 +11,7 @@ from third_solver import softened
 
 from flexible import FlexiblePulse
 from rigid import Motion, Scene, load_scene
-from studies.running.case import FINER, Case, run_case
+from studies.running.case import FINER, Case, _pair, run_case
 from studies.running.store import Store
 
 SCENE = load_scene("paper-3.1")
@@ -64,6 +64,16 @@ def test_what_is_the_rigid_value_in_any_run_is_resolved_by_the_first():
     assert outcome.resolved
     assert outcome.rtol == scene.solve.rtol / FINER
     assert outcome.numerical_error[0]["friction_loss"] > 0, "an error there is"
+
+
+def test_the_error_of_a_pair_is_its_change_to_a_quarter_of_the_tolerance():
+    """The third solver's J_F is off by the tolerance: three quarters of that are between the two runs, and a quarter
+    is left."""
+    rtol = 1e-3
+    case = Case("third_solver:softened", SCENE, against=(("friction_impulse", 0.0, 0.0),))
+    found, _ = _pair(case, rtol)
+    assert found["rtol"] == rtol / 4
+    assert found["numerical_error"][0]["friction_impulse"] == pytest.approx(0.75 * rtol, rel=1e-9)
 
 
 def losing(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:

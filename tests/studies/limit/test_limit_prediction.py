@@ -89,6 +89,17 @@ def test_a_rigid_ring_on_a_compliant_floor_comes_as_predicted(k, mass_ratio, law
         assert abs(off[name, 1e12]) < max(abs(off[name, 1e11]), 0.01)
 
 
+def test_a_term_is_of_the_foundation_and_its_powers_of_the_total_mass():
+    """A foundation is over the disk's weight, eps has the whole hoop's: of each power its own share is between them."""
+    scene = scene_of(0.1, 0.1, "brush").replace(friction={"mu_s": 0.35})
+    term, changes = predict(scene).terms["friction_impulse"], powers(passage(scene))
+    assert set(changes) == {exponent for exponent, _ in term.powers} != {1.0}
+    for foundation in (1e9, 1e12):
+        eps = epsilon(scene.replace(contact={"stiffness": foundation}))
+        expected = 1.1 * sum(change[0] * eps**exponent for exponent, change in changes.items())  # M = 1.1
+        assert term.at(foundation ** (-1 / 3)) - term.limit == pytest.approx(expected, rel=1e-9)  # round-off
+
+
 def test_below_a_foundation_the_events_are_not_separate():
     """A brush that sticks for a moment only: a decade below that foundation no power of eps tells how far it is off.
 
