@@ -1,13 +1,14 @@
 """The contact by itself, on a rigid rim: Winkler's patch, Kalker's rolling brush, exact tangents."""
 
 from math import pi, sqrt
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from kinematic import VERTEX, Floor, parameters
 
 from flexible.contact.forces import contact_forces
-from flexible.contact.laws.listing import LAWS
+from flexible.contact.laws.listing import LAWS, care
 from flexible.contact.laws.patch import SLIDE_LEFT, SLIDE_RIGHT, STICK
 from flexible.contact.points.data import UNDAMPED, Before, Bristles, Rim, no_bristles
 from flexible.contact.points.rim import element_at
@@ -160,6 +161,21 @@ def test_bristles_of_a_sliding_patch_hold_nothing_of_what_a_damper_adds():
     assert (alone.friction, pressed.friction) == pytest.approx((-0.3 * alone.elastic, -0.6 * alone.elastic))
     assert pressed.bristle_energy == pytest.approx(alone.bristle_energy, rel=1e-12)
     assert alone.bristle_energy > 0
+
+
+def test_steps_before_a_stick_breaks_have_a_tenth_of_their_tolerance():
+    """Whichever way it pulls, once it holds more than half of what it can; one that slides has nothing to break."""
+    mu_s, normal = 0.4, 2.5
+
+    def cared(law, mode, share):
+        res = SimpleNamespace(normal=normal, friction=share * mu_s * normal)
+        return care(parameters(law, 1e-3, EPS, EPS, mu_s, 0.3), SimpleNamespace(mode=mode, res=res))
+
+    near, far = (-1.0, -0.51, 0.51, 1.0), (-0.49, 0.0, 0.49)
+    assert {cared("patch", STICK, share) for share in near} == {0.1}
+    assert {cared("patch", STICK, share) for share in far} == {1.0}
+    assert {cared("patch", mode, share) for mode in (SLIDE_LEFT, SLIDE_RIGHT) for share in near} == {1.0}
+    assert {cared(law, STICK, share) for law in set(LAWS) - {"patch"} for share in near} == {1.0}
 
 
 def test_every_law_has_a_name_a_scene_may_hold():
