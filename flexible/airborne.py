@@ -30,6 +30,18 @@ def rise(motion: Motion, told: float, now: States) -> float:
     return dy / dt + dt / 2 + e * float(np.sin(now.phi) * now.omega)
 
 
+def turning(hoop: Hoop, state: State, slip: float) -> float:
+    """phidot of the rigid hoop that takes over on the floor: with it the rotation has the momentum that it had.
+
+    The disk vibrates on a soft ring with mass, so that its own phidot at an instant is not that of the hoop. With V the
+    way of the contact point, the momentum along phi is M [(1 + e c)(V' + (1 + e c) phidot) + (e^2 s^2 + K) phidot].
+    """
+    scene = hoop.scene.hoop
+    s, lever = sin(state.pos[2]), 1 + scene.e * cos(state.pos[2])
+    about = momentum(hoop, state, np.eye(len(state.vel))[2]) / (1 + scene.mass_ratio)
+    return (about - lever * slip) / (lever**2 + (scene.e * s) ** 2 + scene.K)
+
+
 def taken_over(hoop: Hoop, state: State) -> tuple[float, Aloft]:
     """Slip velocity, and where over the floor, of the rigid hoop that takes over from a flexible one.
 

@@ -151,7 +151,7 @@ class Builder:
 
     def list_pulse(self, pulse: FlexiblePulse, cut: bool) -> None:
         """A pulse, if it is one: a hoop that flies over the floor all along has none."""
-        if pulse.normal_impulse > 0:
+        if pulse.peak_normal_force > 0:  # an impulse is a difference of two totals, with their round-off
             self.pulses.append(pulse.marked_cut() if cut else pulse)
 
     def march(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import inf
+from math import inf, pi
 
 import rigid
 from rigid import Motion, Pulse, Scene
@@ -17,8 +17,8 @@ from ..time.adaptive import MarchError
 from ..time.advance import SHORTEST
 from ..time.course import Stop
 from ..time.events import Ends
-from .ahead import from_here, rest_of, slips_no_more, whirls
-from .pulses import comes_to, ends_with_turn, goes_through_turns, lead, over_bottom
+from .ahead import goes_on, rest_of, slips_no_more, whirls
+from .pulses import comes_to, goes_through_turns, lead, over_bottom
 from .told import Ending, Progress, pulse_over, run_over, swept
 
 BACK = 0.01  # of the way through a segment, by which a hoop that turned back is out where it came in
@@ -29,7 +29,7 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
     """Rigid between pulses, flexible inside."""
     motion = rigid.simulate(rigid_limit(scene))
     done, fresh = 0, True  # segments, and whether a pulse that begins at once is one of its own
-    whirled = False
+    whirls_from: float | None = None
     while True:
         try:
             lost = builder.lost_to_hand_overs(float(motion.at(0.0).energy))
@@ -39,10 +39,13 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         # what a motion that takes over begins in is the rest of the pulse that is just over
         pulse = next((p for p in motion.pulses if p.t_start > 0 or fresh), None)
         at_rest = scene.run.until == "rest" and slips_no_more(motion)  # what it rolls through is no pulse with a loss
-        goes_round = whirls(motion)
-        if goes_round and whirled:  # for a revolution at least, as the rigid hoop does
-            return motion
-        whirled = goes_round
+        if not whirls(motion):
+            whirls_from = None
+        elif whirls_from is None:
+            whirls_from = motion.scene.release.phi0
+        elif pulse is not None and abs(pulse.phi_start - whirls_from) >= 2 * pi:
+            builder.add_rigid(motion, lead(motion, pulse))
+            return motion  # once round, as the rigid hoop goes
         if pulse is None or at_rest:
             builder.add_rigid(motion, motion.t_end)
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
@@ -58,21 +61,20 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, swept((float(state.pos[2]), pulse.phi_end)))
         state, segment, stop = builder.march(hoop, state, ends, scene.solve.rtol, watch)
-        at_turn = 0 < ends.turns <= len(segment.turns())
         onward = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
-        back = not (timed or at_turn) and onward * (float(state.pos[2]) - pulse.phi_end) < 0
+        back = not timed and onward * (float(state.pos[2]) - pulse.phi_end) < 0
         if stop is None and back and ends.t - state.t < SHORTEST:
             stop = Stop(": the hoop does not get out of the pulse", state.t, float(state.pos[2]))
         if stop is not None:
             return stop
-        _list(builder, segment, motion, pulse, start, back)
-        done, fresh = done + 1, at_turn
+        _list(builder, segment, motion, pulse, start, back, timed)
+        done, fresh = done + 1, False
         if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse) and not builder.pulses[-1].cut:
             return pulse_over(back)
         rest = rest_of(scene.run, builder)
         if rest is None:
             return run_over(scene.run)
-        motion = from_here(scene, hoop, state, rest)
+        motion = goes_on(scene, hoop, state, rest)
 
 
 def _ends_of(motion: Motion, pulse: Pulse, start: float, state: State) -> tuple[Ends, bool]:
@@ -89,15 +91,18 @@ def _ends_of(motion: Motion, pulse: Pulse, start: float, state: State) -> tuple[
     phi = float(state.pos[2])
     low, high = sorted((phi - BACK * (pulse.phi_end - phi), pulse.phi_end))
     late = t_end + 3 * (pulse.t_end - start) + WAITS
-    return Ends(late, low, high, 1 if ends_with_turn(motion, pulse) else 0), False
+    return Ends(late, low, high), False
 
 
-def _list(builder: Builder, segment: Segment, motion: Motion, pulse: Pulse, start: float, back: bool) -> None:
+def _list(
+    builder: Builder, segment: Segment, motion: Motion, pulse: Pulse, start: float, back: bool, timed: bool
+) -> None:
     """List the pulse that a segment went through, from where it came to it, to where it left it."""
     first = segment.t_start if start == pulse.t_start else comes_to(segment, motion, pulse)
     if first is None and back:  # it turned back before it came to the pulse
         return
     leaves = max(segment.crossings(pulse.phi_start), default=segment.t_end) if back else segment.t_end
     measured = segment.pulse(segment.t_start if first is None else first, leaves)
-    # a pulse that begins at once is cut by the release alone, not where the one before it ended with a turn
-    builder.list_pulse(measured, pulse.cut and (pulse.t_start > 0 or len(builder.marches) == 1))
+    released = pulse.t_start == 0 and len(builder.marches) == 1
+    # what the rigid hoop ran no farther than to its end this one has left
+    builder.list_pulse(measured, pulse.cut and (timed or released))

@@ -34,14 +34,6 @@ def comes_to(segment: Segment, motion: Motion, pulse: Pulse) -> float | None:
     return segment.in_the_air(enters) if enters is not None and lands else enters
 
 
-def ends_with_turn(motion: Motion, pulse: Pulse) -> bool:
-    """Whether the hoop turns at the very end of a pulse.
-
-    It does at its bottom, where N = M g, and the angle of that end is passed again only by a later pulse.
-    """
-    return abs(float(motion.at(pulse.t_end).omega)) < AT_REST
-
-
 def goes_through_turns(motion: Motion, pulse: Pulse) -> bool:
     """Whether the hoop turns inside a pulse: then it may pass the angles of its ends more than once."""
     return any(pulse.t_start < turn.t < pulse.t_end - AT_REST for turn in motion.turns)

@@ -32,6 +32,10 @@ class Swing(NamedTuple):
     until: float  # the time at which to stop
 
 
+def _first(scene: Scene, ahead: Run) -> Scene:
+    return rigid_limit(scene.replace(run=ahead))
+
+
 def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> Ending:
     """Run a scene; each pulse is measured over the rigid hoop's interval.
 
@@ -52,7 +56,9 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
     horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
     watch = progress.watch(0.0, 1.0, lambda t, phi: t / horizon)
     while run is not None:
-        swing = from_here(scene, hoop, state, Run(until="rest" if run.until == "rest" else "pulse"))
+        ahead = Run(until="rest" if run.until == "rest" else "pulse")
+        # whether it slips at the release is said by the scene: all points of a brush may stick in the first instant
+        swing = from_here(scene, hoop, state, ahead) if builder.pieces else rigid.simulate(_first(scene, ahead))
         if run.until == "rest" and swung_through and slips_no_more(swing):
             return swing
         # a swing that begins at a turn has no rest of a pulse to list, and a pulse that goes on through one is one

@@ -85,11 +85,11 @@ from .rolling.closed_form import TIE, rolling_forces
 from .rolling.phase import roll
 from .slipping.phase import slide
 from .slipping.series import JAM, denominator
+from .slipping.step import is_upright
 
 # phi0 this close to a multiple of pi, relatively, means that multiple: no float but 0 is one itself
 LEVEL = 2.3e-16
 NOTHING_AT_ALL = 1e-140  # an angle or a velocity whose square would underflow
-UPRIGHT = 1e-13  # sin phi: a slip that starts with no more is taken to start without an acceleration
 SLOWEST_HOP = 1e-6
 MOST_STALLS = 50.0
 SLIPS, LEAST_LOSS = 100.0, 1e-4
@@ -130,8 +130,8 @@ def choose_slip(par, state, events):
         # acceleration of the contact point under the normal force of a smooth floor
         arm = par[ONE_MINUS_E] + e * h
         n = gyr * (1 - e * c * omega * omega) / (gyr + e * e * s * s)
-        if abs(s) <= min(UPRIGHT, 1e-4 * abs(omega)):
-            s = c * omega  # right above or below the contact nothing accelerates it, but a moment later
+        if is_upright(s, omega):
+            s = c * omega
         v = e * s * omega * omega - arm * e * s * n / gyr
     sign = 1.0 if v > 0 else -1.0
     if denominator(par, par[MU] * sign, a, top) > JAM * gyr:

@@ -59,7 +59,7 @@ def choose_point_mass(par, state, events):
     F = 0.
     """
     s, _, h, _low = trig(state[ANGLE], state[TOP])
-    if s == 0.0 and h > 0.0:
+    if s == 0.0 and h > 0.0 and (par[MU] > 0.0 or state[OMEGA] == 0.0):
         catch(state)  # upright, without a blow
     if state[SLIP] * s < 0.0 and abs(s) < par[MU] * h:
         state[MODE] = IMPACT
@@ -220,22 +220,22 @@ def until_slip_stops(par, state):
     With tau since the mass is (or was, or would be) highest, at h = H, v = xdot - sgn(s) tau sqrt(h/(2 - h)) and
     h = H - tau^2/2: a quadratic in tau^2.
     """
-    s, _c, h, _low = trig(state[ANGLE], state[TOP])
+    s, _c, h, low = trig(state[ANGLE], state[TOP])
     ydot, xdot = -s * state[OMEGA], state[XDOT]
-    highest = h + 0.5 * ydot * ydot
+    highest, under = h + 0.5 * ydot * ydot, low - 0.5 * ydot * ydot  # of the floor, and of the top: H and 2 - H
     half = highest - 0.5 * xdot * xdot
-    root = half * half - 2 * xdot * xdot * (2 - highest)
+    root = half * half - 2 * xdot * xdot * under
     if root < 0.0 or half <= 0.0:
         return inf
     large = half + sqrt(root)
     found = inf
-    for z in (large, 2 * xdot * xdot * (2 - highest) / large):
+    for z in (large, 2 * xdot * xdot * under / large):
         tau = sqrt(max(z, 0.0))
         time = ydot + (tau if xdot * s > 0.0 else -tau)
         if time <= (JUST_NOW if state[SLIP] == 0.0 else 0.0) or time >= found:
             continue
         then = highest - 0.5 * z
-        across = sqrt(max(then * (2 - then), 0.0))
+        across = sqrt(max(then * (under + 0.5 * z), 0.0))
         if across > 0.0 and holds(par, across, then, (time - ydot) / across):
             found = time
     return found

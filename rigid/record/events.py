@@ -41,6 +41,8 @@ def record(state, tag, events):
     events[r] = tag
     for i in range(MOVING):
         events[r + 1 + i] = state[i]
+    for i in range(1 + MOVING, WIDTH):
+        events[r + i] = 0.0  # of whatever was in the log before
     state[RECORDS] += 1
     state[RECORDED] += 1
 

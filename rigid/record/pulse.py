@@ -3,8 +3,7 @@
 Everything follows from the states at both ends: the impulses are those of the momentum of G, the friction
 loss is the lost energy. A pulse in which the run begins or ends is listed as far as the run saw it, and marked as
 cut: one that lacks its bottom too, if the disk was on its way from it (release) or to it (end) below the hoop's
-centre. What is split at the bottom, its restitution, is then unknown. It is 0 of a pulse that opens there, before
-which nothing is compressed.
+centre. What is split at the bottom, its restitution, is then unknown. It is 0 where nothing was compressed before.
 """
 
 # mypy: allow-untyped-defs
@@ -22,6 +21,7 @@ from ..kernel.layout import (  # fmt: skip
     GYR,
     IMPACT,
     LAST_KIND,
+    MU,
     MU_S,
     OMEGA,
     ONE_MINUS_E,
@@ -62,6 +62,7 @@ MOST_PHASES = float(SEQUENCE_BASE) ** 15  # of a pulse, in the digits that a flo
 AT_BOTTOM = 1e-7  # of J_N, compression of a pulse that opens at the bottom, at a turn: no more than a root of round-off
 EDGE = 1e-12  # of N over M g: round-off at the edge of a pulse
 ALIKE = 1e-10  # of an energy: what a landing takes is more, round-off less
+JUST_OPEN = 1e-6  # sqrt(R/g): a pulse that the release at a touch opens begins at it
 TOUCH = 1e-10  # of phi and of its rate squared, at a turn at the bottom: what many swings add up of round-off
 
 
@@ -118,17 +119,19 @@ def watch(par, state, normal_force, events):
                 state[P_CUT] = 1.0
         state[P_PEAK] = max(state[P_PEAK], normal_force)
         return False
-    if at_touch(state):
+    if at_touch(par, state):
         cross_bottom(state)
         return False
     return close_pulse(par, state, events)
 
 
 @kernel
-def at_touch(state):
+def at_touch(par, state):
     """Whether the hoop turns right at the bottom, as one that was set slipping there does in every swing: N comes down
     to M g there and goes up again, and by round-off below it. The disk comes to the bottom in one pulse.
     """
+    if par[MU] == 0.0 or state[SLIP] == 0.0 or state[T] - state[P_T] <= JUST_OPEN:
+        return False
     return state[TOP] == 0.0 and abs(state[ANGLE]) <= TOUCH and state[OMEGA] * state[OMEGA] <= TOUCH
 
 

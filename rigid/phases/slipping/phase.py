@@ -154,7 +154,7 @@ def slide(par, state, work, rows, events):
             state[OMEGA] = 0.0
             if at_rest:
                 state[SLIP], event = 0.0, STOPS
-            if at_touch(state):
+            if at_touch(par, state):
                 cross_bottom(state)
             state[LOSSLESS_TURNS] += 1.0
             whirled = 0

@@ -44,8 +44,9 @@ from .series import series
 NEAR_TOP = (
     0.1  # energy from the top, over M g R, of a hoop that is held to it; of others phidot has the digits it needs
 )
-TINY = 1e-6  # K of a hoop whose phidot ~ 1/k at the bottom takes them from the energy
+TINY = 1e-12  # K of a disk that whips past the top at 1/k, where the energy has no digit of its rotation
 A_TENTH = 0.1
+UPRIGHT = 1e-13  # sin phi
 
 # what a step is cut at
 NOTHING_YET, STOPS, LIFTS, TIME_IS_UP, TURNS_BACK, AT_BOTTOM, AT_WEIGHT = range(7)
@@ -114,6 +115,12 @@ def carry(par, state, mu_hat, work, x):
 
 
 @kernel
+def is_upright(s, omega):
+    """Whether the disk is right above or below the contact, where a slip of 0 gets its sign a moment later."""
+    return abs(s) <= min(UPRIGHT, 1e-4 * abs(omega))
+
+
+@kernel
 def is_steady(par, state):
     """Whether nothing acts on a slip: the disk at rest right above or below the contact, on a smooth floor."""
     return par[MU] == 0.0 and state[OMEGA] == 0.0 and state[ANGLE] == 0.0
@@ -170,7 +177,8 @@ def step(par, state, mu_hat, p_known, work):
         gyr, es = par[GYR], par[ECC] * abs(work[S_SIN][0])
         arm = par[ONE_MINUS_E] + par[ECC] * work[S_H][0]
         terms = (gyr + es + par[MU] * arm) * abs(b[0]) + es * om[0] * om[0] * work[S_D][0]
-        if abs(v[1]) <= 1e-13 * terms:
+        stands = par[MU] == 0.0 and is_upright(work[S_SIN][0], om[0])  # a sign that is known is kept
+        if stands or (par[MU] > 0.0 and abs(v[1]) <= 1e-13 * terms):
             v[1] = 0.0
     if abs(b[0]) <= 1e-14 * (1 + par[ECC] * om[0] * om[0]):
         b[0] = 0.0

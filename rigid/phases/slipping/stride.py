@@ -171,7 +171,7 @@ def there_and_back(par, state, mu_hat, panel, at, rows, events):
     code = go(par, state, way, ahead, rows, events)
     if code != GOES_ON:
         return code
-    if at_touch(state):
+    if at_touch(par, state):
         cross_bottom(state)
     if turn(par, state, events):
         return TURNS_REACHED
