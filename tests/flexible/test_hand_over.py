@@ -100,13 +100,12 @@ def test_acceleration_of_a_flexible_motion():
     assert float(before.alpha) == float(rigid.simulate(scene).at(t[0] / 2).alpha)
 
 
-@pytest.mark.parametrize("omega0", [10, 30])
-def test_what_the_last_hand_over_adds_is_told_too(omega0):
-    """A hoop that whirls past the floor jumps and rings: what a rigid one would have of its energy is 1 to 10 % more.
+def test_what_the_last_hand_over_adds_is_told_too():
+    """A hoop that whirls past the floor jumps and rings: what a rigid one would have of its energy is some % more.
 
     The run ends before another pulse, at which it was asked before.
     """
-    scene = Scene(Hoop(0.1, 1.02, 0.1), Friction(0.35, 0.3), Release(pi / 2, omega0=omega0), Run(t_end=0.5))
+    scene = Scene(Hoop(0.1, 1.02, 0.1), Friction(0.35, 0.3), Release(pi / 2, omega0=30), Run(t_end=0.5))
     motion = flexible.simulate(scene.replace(solve={"rtol": 1e-3}))
     assert not motion.completed
     assert "solve.resolve = 'all'" in motion.ended
@@ -114,19 +113,44 @@ def test_what_the_last_hand_over_adds_is_told_too(omega0):
     assert abs(motion.ledger.hand_over) < 0.01 * motion.ledger.initial
 
 
-def test_a_rigid_hoop_that_adds_energy_is_no_stand_in():
-    """A plastic hula hoop sags by a sixtieth of its radius: rigid between pulses it went over the top, and on for ever.
+def test_a_rigid_hoop_stands_in_for_a_soft_one():
+    """A plastic hula hoop sags by a sixtieth of its radius, and its disk vibrates: rigid between pulses it keeps all
+    but the energy of that, of the order of the sag, and its pulses are those of the ring by itself.
 
-    By the ring itself it rolls to and fro, as the rigid one does, and stays on the floor.
+    That one rolls to and fro, as the rigid one does, and stays on the floor.
     """
     scene = rigid.load_scene("hula-hoop").replace(solve={"rtol": 1e-3})
-    motion = flexible.simulate(scene.replace(solve={"resolve": "pulses"}))
-    assert not motion.completed
-    assert "solve.resolve = 'all'" in motion.ended
-    assert motion.t_end == motion.pulses[-1].t_end, "nothing that follows from a wrong energy is listed"
-    assert abs(motion.ledger.hand_over) < 0.01 * motion.ledger.initial
+    between = flexible.simulate(scene.replace(solve={"resolve": "pulses"}))
+    assert between.completed, between.ended
+    assert abs(between.ledger.hand_over) < between.ledger.initial / 60
     motion = flexible.simulate(scene)
     assert motion.completed, motion.ended
+    assert len(between.turns) == len(motion.turns)
+    for one, other in zip(between.pulses, motion.pulses, strict=True):
+        assert one.normal_impulse == pytest.approx(other.normal_impulse, rel=1 / 60)
+
+
+@pytest.mark.parametrize(("bending", "share"), [(20.0, 0.02), (40.0, 1e-3), (60.0, 1e-3)])
+def test_the_rigid_hoop_takes_over_what_the_rotation_has(bending, share):
+    """Not the disk's own phidot, which vibrates on a ring with mass: by that it lost 27, 4 and 2 % of the energy. Now
+    what is lost is the vibration's, and the first turn is the ring's by itself within what that amounts to.
+    """
+    scene = Scene(Hoop(0.1, 1.02, 0.05), Friction(0.35, 0.3), Release(radians(10)), Run(turns=1))
+    scene = scene.replace(
+        ring={"bending_stiffness": bending}, contact={"stiffness": 1e8}, solve={"rtol": 1e-3, "level": "chain"}
+    )
+    motion = flexible.simulate(scene)
+    assert motion.completed, motion.ended
+    assert abs(motion.ledger.hand_over) < share * motion.ledger.initial
+    by_itself = flexible.simulate(scene.replace(solve={"resolve": "all"}))
+    lacking = share * motion.ledger.initial + 0.005  # and what the ring holds of it where it turns
+    assert motion.turns[0].energy == pytest.approx(by_itself.turns[0].energy, abs=lacking)
+
+
+def test_a_soft_ring_that_stays_by_itself_on_the_floor_rolls_to_and_fro():
+    """The hula hoop again, as it comes."""
+    scene = rigid.load_scene("hula-hoop").replace(solve={"rtol": 1e-3})
+    motion = flexible.simulate(scene)
     assert [turn.phi for turn in motion.turns] == pytest.approx(
         [2 * np.pi - scene.release.phi0, scene.release.phi0], abs=0.02
     )

@@ -70,6 +70,29 @@ def test_no_pulse_in_the_air():
     assert all(pulse.normal_impulse > 0 for pulse in motion.pulses)
 
 
+@pytest.mark.parametrize("phi0_deg", [60, 170])
+def test_a_hoop_that_whirls_goes_once_round(phi0_deg):
+    """From before its pulse that one; released within one, the rest of it and the next, whole as any other."""
+    scene = Scene(Hoop(0.3, 1.02, 1.0), Friction(0.6, 0.6), Release(phi0_deg * pi / 180, 1.2))
+    exact, motion = rigid.simulate(scene), flexible.simulate(scene.replace(solve={"rtol": 1e-3}))
+    assert motion.ended.partition(";")[0] == exact.ended.partition(";")[0]
+    assert motion.t_end > 0.95 * exact.t_end
+    last = motion.pulses[-1]
+    assert [pulse.cut for pulse in motion.pulses] == [pulse.cut for pulse in exact.pulses[:-1]] + [False]
+    further = rigid.simulate(scene.replace(run={"until": "pulse"}))  # the first whole one
+    assert last.normal_impulse == pytest.approx(further.pulses[-1].normal_impulse, rel=1e-3)
+
+
+@pytest.mark.parametrize("law", ["patch", "brush"])
+def test_the_pulse_of_a_thrown_hoop_is_over_the_rigid_ones_angles(law):
+    """All points of a brush slide at the release: in its first instant it may look like one that sticks."""
+    thrown = Scene(Hoop(0.2, 1.02, 1.0), Friction(0.3, 0.3), Release(150 * pi / 180, slip0=0.6), Run(until="pulse"))
+    flexibly = thrown.replace(solve={"rtol": 1e-3, "resolve": "all"}, contact={"law": law})
+    (known,), (found,) = (motion.pulses for motion in (rigid.simulate(thrown), flexible.simulate(flexibly)))
+    assert (found.phi_start, found.phi_end) == pytest.approx((known.phi_start, known.phi_end), abs=1e-9)
+    assert found.friction_impulse == pytest.approx(known.friction_impulse, abs=1e-3 * known.normal_impulse)
+
+
 @pytest.mark.parametrize("resolve", ["pulses", "all"])
 def test_the_totals_of_a_history_go_on(resolve):
     """Through all segments: what friction takes in them is what the ledger has, or less by what the rigid hoop lost."""
