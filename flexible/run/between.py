@@ -28,7 +28,7 @@ WAITS = 10.0  # sqrt(R/g) that a hoop may take for it, beyond four pulse lengths
 def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> Ending:
     """Rigid between pulses, flexible inside."""
     motion = rigid.simulate(rigid_limit(scene))
-    done, fresh = 0, True  # segments, and whether a pulse that begins at once is one of its own
+    done = 0  # segments
     whirls_from: float | None = None
     while True:
         try:
@@ -37,7 +37,7 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         except MarchError as error:
             return error.stop
         # what a motion that takes over begins in is the rest of the pulse that is just over
-        pulse = next((p for p in motion.pulses if p.t_start > 0 or fresh), None)
+        pulse = next((p for p in motion.pulses if p.t_start > 0 or done == 0), None)
         at_rest = scene.run.until == "rest" and slips_no_more(motion)  # what it rolls through is no pulse with a loss
         if not whirls(motion):
             whirls_from = None
@@ -68,7 +68,7 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         if stop is not None:
             return stop
         _list(builder, segment, motion, pulse, start, back, timed)
-        done, fresh = done + 1, False
+        done += 1
         if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse) and not builder.pulses[-1].cut:
             return pulse_over(back)
         rest = rest_of(scene.run, builder)

@@ -11,7 +11,7 @@ from ..builder import Builder
 from ..segment import Segment
 
 LEAD = 0.5  # a flexible segment begins this many pulse lengths before the pulse, to let its start settle
-AT_REST = 1e-6  # sqrt(g/R), phidot at a turn, and sqrt(R/g) within which times of it are one
+AT_REST = 1e-6  # sqrt(R/g), and an angle, within which two turns are one
 BEHIND = 0.1  # of the time from a turn to the pulse, if that is less
 LONGEST = 4.0  # pulse lengths that a hoop may take for a pulse in which it turns
 FORWARD, BACKWARD = 1, -1

@@ -28,10 +28,8 @@ P_SEQUENCE = 51
 # A slip's start and the time since: where phidot ~ 1/k, sums in T itself would move the angle by their round-off.
 T_FROM, T_SINCE = 52, 53
 A_KIND = 54  # the phase at the event of A_EVENT
-FROM_TOP, TOP_SIZE = (
-    55,
-    56,
-)  # on a smooth floor: the energy, 0 at rest on top, and the largest term of it (0: not known)
+# On a smooth floor: the energy, 0 at rest on top, and the largest term of it (0: not known).
+FROM_TOP, TOP_SIZE = 55, 56
 STATE = 57
 SEQUENCE_BASE = 8
 
