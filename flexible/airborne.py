@@ -30,33 +30,24 @@ def rise(motion: Motion, told: float, now: States) -> float:
     return dy / dt + dt / 2 + e * float(np.sin(now.phi) * now.omega)
 
 
-def turning(hoop: Hoop, state: State, slip: float) -> float:
-    """phidot of the rigid hoop that takes over on the floor: with it the rotation has the momentum that it had.
+def taken_over(hoop: Hoop, state: State) -> tuple[float, float, Aloft]:
+    """phidot, slip velocity, and where over the floor, of the rigid hoop that takes over from a flexible one.
 
-    The disk vibrates on a soft ring with mass, so that its own phidot at an instant is not that of the hoop. With V the
-    way of the contact point, the momentum along phi is M [(1 + e c)(V' + (1 + e c) phidot) + (e^2 s^2 + K) phidot].
+    It has that one's momentum: on the floor, where that one touches it or all but does, along phi, and along the floor
+    unless it rolls; in flight along all three, its mass centre where that one's is. What energy the other has beyond
+    that, of its vibrations, is lost.
     """
-    scene = hoop.scene.hoop
-    s, lever = sin(state.pos[2]), 1 + scene.e * cos(state.pos[2])
-    about = momentum(hoop, state, np.eye(len(state.vel))[2]) / (1 + scene.mass_ratio)
-    return (about - lever * slip) / (lever**2 + (scene.e * s) ** 2 + scene.K)
-
-
-def taken_over(hoop: Hoop, state: State) -> tuple[float, Aloft]:
-    """Slip velocity, and where over the floor, of the rigid hoop that takes over from a flexible one.
-
-    In flight its mass centre is where that one's is and moves as it does. On the floor, where that one touches it or
-    all but does, it moves along the floor alone: what energy the other has beyond that is lost.
-    """
-    on_the_floor = float(hoop.law.handed_back(state)), Aloft()
-    if state.res.elastic > 0:
-        return on_the_floor
-    scene = hoop.scene.hoop
-    mass, s, c, omega = 1 + scene.mass_ratio, sin(state.pos[2]), cos(state.pos[2]), float(state.vel[2])
-    along, up = np.eye(len(state.vel))[:2]
-    rising = momentum(hoop, state, up) / mass + scene.e * s * omega
-    height = max(float(hoop.energies(state)[1]) / mass - 1 - scene.e * c, LOWEST)
-    if height + rising**2 / 2 < LEAST:
-        return on_the_floor
-    slip = momentum(hoop, state, along) / mass - omega * (1 + scene.e * c)
-    return slip, Aloft(height, rising)
+    scene, units = hoop.scene.hoop, np.eye(len(state.vel))[:3]
+    mass, s, c = 1 + scene.mass_ratio, sin(state.pos[2]), cos(state.pos[2])
+    along, up, about = (momentum(hoop, state, unit) / mass for unit in units)
+    lever, beside = 1 + scene.e * c, scene.e * s
+    if state.res.elastic == 0:
+        omega = (about - lever * along + beside * up) / scene.K
+        rising = up + beside * omega
+        height = max(float(hoop.energies(state)[1]) / mass - 1 - scene.e * c, LOWEST)
+        if height + rising**2 / 2 >= LEAST:
+            return omega, along - lever * omega, Aloft(height, rising)
+    if state.res.stuck > 0:
+        return about / (lever**2 + beside**2 + scene.K), 0.0, Aloft()
+    omega = (about - lever * along) / (beside**2 + scene.K)
+    return omega, along - lever * omega, Aloft()

@@ -19,7 +19,7 @@ from .segment import Segment
 
 Array = NDArray[np.float64]
 
-COURSE = ("step", "pace", "attempts", "turns", "stalls")  # what of where a march stands a file keeps as it is
+COURSE = ("step", "pace", "attempts", "turns", "way", "stalls")  # what of where a march stands a file keeps as it is
 
 
 @dataclass(frozen=True)

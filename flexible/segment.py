@@ -89,7 +89,7 @@ class Segment:
         """The records again."""
         rows = zip(*(column.tolist() for column in self.columns.values()), strict=True)
         records = [Record(*row) for row in rows]
-        return [each._replace(mode=int(each.mode)) for each in records]
+        return [each._replace(turns=int(each.turns), mode=int(each.mode)) for each in records]
 
     def __getitem__(self, name: str) -> Array:
         return self.columns[name]
@@ -169,11 +169,10 @@ class Segment:
         return [Phase(kind, *map(float, ends)) for kind, *ends in runs]
 
     def turns(self) -> list[Turn]:
-        """Instants at which omega changes its sign."""
-        t, w = self["t"], self["omega"]
+        """Instants by which both the disk and the momentum of the rotation have turned."""
         turns = []
-        for i in np.nonzero((w[:-1] * w[1:] < 0) | ((w[1:] == 0) & (w[:-1] != 0)))[0]:
-            moment = np.array([t[i] + (t[i + 1] - t[i]) * w[i] / (w[i] - w[i + 1])])
+        for i in np.nonzero(np.diff(self["turns"]) > 0)[0] + 1:
+            moment = self["t"][i : i + 1]
             state = self.states(moment)
             turns.append(
                 Turn(float(moment[0]), float(state.phi[0]), float(state.slip_velocity[0]), float(state.energy[0]))

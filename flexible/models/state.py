@@ -139,6 +139,39 @@ def momentum(model: Model, state: State, rates: Array) -> float:
     return (energy(state.vel + rates) - energy(state.vel - rates)) / 2
 
 
+def held(model: Any, pos: Any, vel: Any) -> Any:
+    """See ``held`` of :class:`Model`."""
+    return model.held(pos, vel)
+
+
+def rotation(model: Any, pos: Any, vel: Any, rolls: bool) -> float:
+    """phidot of the rigid hoop on the floor with a hoop's momentum along phi, and along V if it does not roll.
+
+    The disk vibrates on a soft ring, and so does the rim at the floor: their velocities at an instant are not those of
+    the hoop. These momenta are not changed by N. Kinetic energy T is a quadratic form of the rates, so that
+    [T(v + e) - T(v - e)]/2 is the momentum of rates v along e.
+    """
+    rates, momenta = vel.copy(), np.zeros(3)
+    for i in (0, 2):
+        rates[i] = vel[i] + 1.0
+        forth = held(model, pos, rates)[0]
+        rates[i] = vel[i] - 1.0
+        momenta[i] = (forth - held(model, pos, rates)[0]) / 2
+        rates[i] = vel[i]
+    for k in range(rates.shape[0]):
+        rates[k] = 0.0
+    rates[2] = 1.0
+    inertia = 2 * held(model, pos, rates)[0]
+    if rolls:
+        return float(momenta[2] / inertia)
+    rates[0] = 1.0
+    both = held(model, pos, rates)[0]
+    rates[2] = 0.0
+    mass = 2 * held(model, pos, rates)[0]
+    shared = both - (mass + inertia) / 2
+    return float((momenta[2] - shared / mass * momenta[0]) / (inertia - shared * shared / mass))
+
+
 class Record(NamedTuple):
     """One accepted instant, and what was lost and transferred up to it (cumulative)."""
 
@@ -164,6 +197,7 @@ class Record(NamedTuple):
     damping_loss: float
     numerical_loss: float
     off_floor: float
+    turns: int
     mode: int
 
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 import rigid
-from rigid import Aloft, Kind, Motion, Release, Run, Scene
+from rigid import Kind, Motion, Release, Run, Scene
 from rigid.phases.choice import LEAST_LOSS, SLIPS
 
-from ..airborne import taken_over, turning
+from ..airborne import taken_over
 from ..builder import Builder
 from ..contact.laws.listing import rigid_limit
 from ..models.select import Hoop
@@ -29,20 +29,9 @@ def rest_of(run: Run, builder: Builder) -> Run | None:
 
 
 def from_here(scene: Scene, hoop: Hoop, state: State, run: Run) -> Motion:
-    """The motion of the rigid hoop from where a flexible one stands, on the floor or in a hop, at its disk's phidot."""
-    slip, aloft = taken_over(hoop, state)
-    return _released(scene, state, (float(state.vel[2]), slip), run, aloft)
-
-
-def goes_on(scene: Scene, hoop: Hoop, state: State, run: Run) -> Motion:
-    """The motion of the rigid hoop that takes over: on the floor with the momentum that the rotation has."""
-    slip, aloft = taken_over(hoop, state)
-    omega = turning(hoop, state, slip) if aloft == Aloft() else float(state.vel[2])
-    return _released(scene, state, (omega, slip), run, aloft)
-
-
-def _released(scene: Scene, state: State, rates: tuple[float, float], run: Run, aloft: Aloft) -> Motion:
-    release = Release(float(state.pos[2]), *rates)
+    """The motion of the rigid hoop that takes over from a flexible one where that stands, on the floor or in a hop."""
+    omega, slip, aloft = taken_over(hoop, state)
+    release = Release(float(state.pos[2]), omega, slip)
     return rigid.simulate(rigid_limit(replace(scene, release=release, run=run)), aloft)
 
 

@@ -17,7 +17,7 @@ from ..time.adaptive import MarchError
 from ..time.advance import SHORTEST
 from ..time.course import Stop
 from ..time.events import Ends
-from .ahead import goes_on, rest_of, slips_no_more, whirls
+from .ahead import from_here, rest_of, slips_no_more, whirls
 from .pulses import comes_to, goes_through_turns, lead, over_bottom
 from .told import Ending, Progress, pulse_over, run_over, swept
 
@@ -74,7 +74,7 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         rest = rest_of(scene.run, builder)
         if rest is None:
             return run_over(scene.run)
-        motion = goes_on(scene, hoop, state, rest)
+        motion = from_here(scene, hoop, state, rest)
 
 
 def _ends_of(motion: Motion, pulse: Pulse, start: float, state: State) -> tuple[Ends, bool]:

@@ -177,7 +177,7 @@ def march(
         now, records = beginning(start, float(limits.first)), []
     rows = np.empty((SPAN if keep is None else 1, COLUMNS))
     if not records:
-        write(rows[0], now.state, model.energies(now.state), now.books, 0.0)
+        write(rows[0], now.state, model.energies(now.state), now.books, now.turns, 0.0)
         records += _records(rows[:1])
         if keep is not None:
             keep(now.state)
@@ -209,7 +209,7 @@ def march(
             now = now._replace(state=state, books=books)
             if why != MODE_ENDED:
                 lost, now, why = state.t + SHORT, now._replace(step=SHORT, pace=AFRESH, stalls=0), MODE_ENDED
-            write(rows[0], state, energies, books, 0.0)
+            write(rows[0], state, energies, books, now.turns, 0.0)
             records += _records(rows[:1])
             if keep is not None:
                 keep(state)
@@ -221,7 +221,7 @@ def march(
 
 
 def _records(rows: Array) -> list[Record]:
-    return [Record._make([*row[:-2], int(row[-2])]) for row in rows.tolist()]
+    return [Record._make([*row[:-3], int(row[-3]), int(row[-2])]) for row in rows.tolist()]
 
 
 def _stop(why: int, now: Standing, limits: Limits) -> Stop:

@@ -18,7 +18,7 @@ from ..contact.laws.listing import breaks, care, free, sticks
 from ..contact.points.data import EXACTLY, Parameters
 from ..contact.points.rim import turned
 from ..models import reduced
-from ..models.state import Books, Energies, Record, State
+from ..models.state import Books, Energies, Record, State, held, rotation
 from .control import AFRESH, Pace, longer, shorter
 from .course import (
     CAPPED,
@@ -44,12 +44,14 @@ from .events import (
     is_lost,
     is_open,
     next_event,
+    onward,
     passed,
+    sight,
     told,
     unsolved,
 )
 from .methods import Table
-from .stages import Taken, held, take
+from .stages import Taken, take
 
 SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
 SHORT = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
@@ -121,14 +123,14 @@ def _entered(books: Books, stored: float, taken: Any) -> Books:
 
 
 @loop
-def write(row: Any, state: State, held: Any, books: Books, rotation: float) -> None:
+def write(row: Any, state: State, held: Any, books: Books, turns: int, rotation: float) -> None:
     """A :class:`flexible.models.state.Record` and what stands beside it."""
     pos, res = state.pos, state.res
     values = (
         state.t, pos[2], state.vel[2], state.acc[2], state.x_C, 1 + pos[1], state.slip_velocity, state.vel[1],
         res.normal, res.friction, res.length, res.stuck, held[0], held[1], held[2],
         res.normal_energy + res.bristle_energy, books.normal_impulse, books.friction_impulse, books.friction_loss,
-        books.damping_loss, books.numerical_loss, books.off_floor, float(state.mode), rotation,
+        books.damping_loss, books.numerical_loss, books.off_floor, float(turns), float(state.mode), rotation,
     )  # fmt: skip
     for i in range(len(values)):
         row[i] = values[i]
@@ -177,12 +179,6 @@ def _stalled(stalls: int, length: float, slid: bool) -> int:
 
 
 @loop
-def _sight(there: Any, mode: int) -> Sight:
-    """What tells of events before a step, or behind it."""
-    return Sight(mode, there.pos[2], there.vel[2], there.res, there.slip_velocity, there.rates)
-
-
-@loop
 def _damping(aims: Aims, law: Parameters, state: State) -> tuple[float, float]:
     """The normal damper's time, and the coefficient of the sticking patch against slip."""
     return aims.relaxation, aims.relaxation * law.eps_t * state.res.length
@@ -203,7 +199,7 @@ def advance(
 
     ``rows``, (n, COLUMNS), are filled in with what is recorded, as far as there is room.
     """
-    state, h, pace, books, attempts, turns, stalls, cut = now
+    state, h, pace, books, attempts, turns, way, stalls, cut = now
     written, span, window, search, event, why = 0, attempts + SPAN, state.window, NOWHERE, NO_EVENT, 0
     asked, tries, grown, this, leap, wider, holds = h, h, h, pace, 0.0, WIDER, held(model, state.pos, state.vel)
     if _ended(state.t, state.pos[2], turns, ends):
@@ -229,13 +225,13 @@ def advance(
         if lacking or (aims.alone and not solved):
             why, window, attempts = LACKS if lacking else NO_FORCES, taken.window, attempts - 1
             break
-        before, seen = _sight(state, state.mode), _sight(taken, state.mode)
+        before, seen = sight(model, state, state.mode, way), sight(model, taken, state.mode, way)
         length = (state.t + tries) - state.t
         if search.event == NO_EVENT:
             error = max(taken.error / aims.tolerance, _of_a_break(law, aims, before, seen, asked)) if solved else inf
             wanted = care(law, before) * _daring(leap, wider)
             alike = not sticks(law, state.mode) or seen.res.friction * state.res.friction > 0
-            if leap > 0 and error <= wanted and alike and passed(MODE_ENDS, law, ends, before, seen) >= 0:
+            if leap > 0 and error <= wanted and alike and passed(MODE_ENDS, law, ends, way, before, seen) >= 0:
                 why, h, pace = MODE_ENDED if stalls < MOST_STALLS else STALLED, SHORT, AFRESH
                 stalls += 1
                 break
@@ -246,7 +242,7 @@ def advance(
             this = Pace(asked, error / care(law, seen))
             grown = min(longer(pace, this, aims.power), aims.longest)
         elif is_open(search):
-            search = told(search, passed(search.event, law, ends, before, seen)) if solved else unsolved(search)
+            search = told(search, passed(search.event, law, ends, way, before, seen)) if solved else unsolved(search)
         if search.event != NO_EVENT and not is_open(search):
             if chosen(search) != tries and chosen(search) > 0:  # not the last one that was tried
                 tries = chosen(search)
@@ -255,10 +251,10 @@ def advance(
                 h, pace, search = asked / 4, AFRESH, NOWHERE
                 continue
             event = NO_EVENT if is_lost(search) else search.event
-        if leap > 0 and passed(TURN, law, ends, before, seen) >= 0:
+        if leap > 0 and passed(TURN, law, ends, way, before, seen) >= 0:
             event = TURN  # inside a leap nothing can be found: what happens there happens at its end
         while not (is_open(search) or aims.alone or leap > 0) and search.event < HIGH_END:
-            search = next_event(search, law, ends, before, seen, length)
+            search = next_event(search, law, ends, way, before, seen, length)
             if search.past >= 0 and not is_open(search):
                 event = search.event
         if is_open(search):
@@ -268,9 +264,9 @@ def advance(
         if event != MODE_ENDS or length >= SHORTEST:
             books = _entered(books, state.res.bristle_energy, taken)
             holds, state = taken.held, _reached(state, tries, taken, state.mode if aims.alone else free(law, seen))
-        energies = energies_of(model, state, holds)
-        write(rows[written], state, energies, books, turned(model.theta, state.window, state.u))
-        attempts, turns, written = attempts + search.tries, turns + (1 if event == TURN else 0), written + 1
+        (way, turns), energies = onward(way, turns, event, before, seen), energies_of(model, state, holds)
+        write(rows[written], state, energies, books, turns, turned(model.theta, state.window, state.u))
+        attempts, written = attempts + search.tries, written + 1
         stalls, h, pace = _stalled(stalls, length, event == MODE_ENDS and not sticks(law, state.mode)), grown, this
         if aims.alone or _ended(state.t, state.pos[2], turns, ends):
             why = REACHED
@@ -279,15 +275,16 @@ def advance(
         elif event == MODE_ENDS:
             why, h, pace = MODE_ENDED, max(min(asked, grown) / 8, SHORT), AFRESH
         search, event, leap, wider = NOWHERE, NO_EVENT, 0.0, WIDER
-    return Advanced(Standing(state, h, pace, books, attempts, turns, stalls, cut), written, why, window)
+    return Advanced(Standing(state, h, pace, books, attempts, turns, way, stalls, cut), written, why, window)
 
 
 #: the same of the arrays of a reduced hoop
+sight_reduced = part(sight, module=__name__, rotation=part(rotation, module=__name__, held=reduced.held))
 take_reduced = part(
     take, module=__name__, solved=reduced.solved_in_step, held=reduced.held, floor_forces=reduced.floor_forces,
     momentum_error=reduced.momentum_error,
 )  # fmt: skip
 advance_reduced = jit(
     advance, needs=(contact_forces,), tried=take_reduced, held=reduced.held, energies_of=reduced.energies_of,
-    lacks=reduced.lacks,
+    lacks=reduced.lacks, sight=sight_reduced,
 )  # fmt: skip

@@ -10,14 +10,17 @@ from rigid.kernel.compile import jit, part
 
 from ..chain import stage, whole
 from ..contact.forces import contact_forces
+from ..models.state import rotation
 from .advance import advance
+from .events import sight
 from .stages import take
 
 take_chain = part(
     take, module=__name__, solved=stage.solved_in_step, held=whole.held_by, floor_forces=whole.floor_forces,
     momentum_error=whole.momentum_error,
 )  # fmt: skip
+sight_chain = part(sight, module=__name__, rotation=part(rotation, module=__name__, held=whole.held_by))
 advance_chain = jit(
     advance, module=__name__, needs=(contact_forces, stage.solve_stage), tried=take_chain, held=whole.held_by,
-    energies_of=whole.energies_of, lacks=whole.lacks,
+    energies_of=whole.energies_of, lacks=whole.lacks, sight=sight_chain,
 )  # fmt: skip

@@ -22,6 +22,7 @@ class Standing(NamedTuple):
     books: Books
     attempts: int  # steps tried until now
     turns: int
+    way: float  # 1 or -1 as it goes on to larger or smaller angles, 0 while that is not known
     stalls: int  # events within a shortest step of each other, by now
     cut: bool  # whether a step was made shorter by the end
 
@@ -59,7 +60,7 @@ class Course:
 
 def beginning(state: State, step: float) -> Standing:
     """Before the first step from ``state``."""
-    return Standing(state, step, AFRESH, Books(), 0, 0, 0, False)
+    return Standing(state, step, AFRESH, Books(), 0, 0, 0.0, 0, False)
 
 
 @dataclass(frozen=True, slots=True)

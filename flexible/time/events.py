@@ -1,5 +1,9 @@
 """What can end a step early: slip that starts or ends, a turn, the angle at which the march is to end.
 
+A turn is where both the disk's phidot and the momentum of the rotation have changed their sign: on a soft ring the disk
+vibrates, and its phidot alone would have a hoop turn many times that has just been let go or turns once. Off the floor
+a hoop has no turn: its momentum about G stays.
+
 An event is a function of the state that passes zero; here it is counted in what its quantity can be told apart by,
 so that one number, 1, bounds them all. Where in a step that is, is found by inverse quadratic interpolation, and by
 bisection where that has not halved the bracket three times in a row. A length that cannot be solved is replaced by
@@ -13,10 +17,11 @@ from __future__ import annotations
 from math import inf, isnan, nan
 from typing import Any, NamedTuple
 
-from rigid.kernel.compile import loop
+from rigid.kernel.compile import loop, part
 
 from ..contact.laws.listing import excess, may_end
 from ..contact.points.data import EXACTLY, Rates, Resultants
+from ..models.state import rotation
 
 NO_EVENT, MODE_ENDS, TURN, LOW_END, HIGH_END = range(-1, 4)
 
@@ -27,7 +32,7 @@ class Ends(NamedTuple):
     t: float = inf
     low: float = -inf  # angles phi
     high: float = inf
-    turns: int = 0  # instants with phidot = 0; 0 for any number
+    turns: int = 0  # 0 for any number
 
 
 # How far past its zero an event may be taken (R = m = g = 1), and how short a bracket of it in time. A step that is cut
@@ -35,7 +40,7 @@ class Ends(NamedTuple):
 # bracket alone, and so are those at which a function jumps.
 VELOCITY = 1e-9  # of sqrt(gR): the slip of a step of 1e-6, whose ends are known to 1e-15
 ANGLE = 1e-9  # of the end of a pulse, where N is about M g: 1e-9 of its impulse
-RATE = 1e-9  # of phidot at a turn, whose energy is then below 1e-18 m g R
+RATE = 1e-9  # of the rotation at a turn, whose energy is then below 1e-18 m g R
 TIME = 1e-15  # sqrt(R/g): what t itself can tell apart
 SHARE = 1e-10  # of the step: the bracket of an event may also be this part of its step
 
@@ -46,26 +51,55 @@ class Sight(NamedTuple):
     mode: int
     phi: float
     omega: float
+    rotation: float  # phidot by its momentum; on the way that the hoop goes where phidot is, or nothing touches
     res: Resultants
     slip_velocity: float
     rates: Rates
 
 
+@part
+def sight(model: Any, there: Any, mode: int, way: float) -> Sight:
+    """What tells of events before a step, or behind it, of a hoop that goes that way (see :func:`onward`)."""
+    omega, by_momentum = there.vel[2], way
+    if there.res.elastic > 0 and (way == 0 or way * omega <= 0):
+        by_momentum = rotation(model, there.pos, there.vel, there.res.stuck > 0)
+    return Sight(mode, there.pos[2], omega, by_momentum, there.res, there.slip_velocity, there.rates)
+
+
 @loop
-def passed(event: int, law: Any, ends: Ends, before: Sight, now: Sight) -> float:
+def past_turn(way: float, now: Sight) -> float:
+    """How far past a turn of a hoop that went that way."""
+    return min(-way * now.omega, -way * now.rotation) / RATE
+
+
+@loop
+def passed(event: int, law: Any, ends: Ends, way: float, before: Sight, now: Sight) -> float:
     """How far ``now``, in the step that begins at ``before``, is past an event: positive past it, within 1 at it.
 
     -inf for an event that this step does not have.
     """
     if event == MODE_ENDS and may_end(law):
         return float(excess(law, now, EXACTLY, VELOCITY))
-    if event == TURN and before.omega != 0:
-        return (-now.omega if before.omega > 0 else now.omega) / RATE
+    if event == TURN and way != 0 and past_turn(way, before) < 0:
+        return past_turn(way, now)
     if event == LOW_END and ends.low > -inf:
         return (ends.low - now.phi) / ANGLE
     if event == HIGH_END and ends.high < inf:
         return (now.phi - ends.high) / ANGLE
     return -inf
+
+
+@loop
+def onward(way: float, turns: int, event: int, before: Sight, now: Sight) -> tuple[float, int]:
+    """After a step, and the event at its end: the way that a hoop goes, 1 or -1, 0 until disk and momentum have agreed;
+    and its turns. A landing, or a slide that ends, may have turned the momentum at once.
+    """
+    if way == 0:
+        agreed = 1.0 if now.omega > 0 else -1.0
+        return agreed if now.omega * now.rotation > 0 else 0.0, turns
+    if event == TURN or past_turn(way, before) >= 0:
+        return -way, turns + 1
+    return way, turns
 
 
 class Search(NamedTuple):
@@ -191,9 +225,9 @@ def told(search: Search, value: float) -> Search:
 
 
 @loop
-def next_event(search: Search, law: Any, ends: Ends, before: Sight, now: Sight, length: float) -> Search:
+def next_event(search: Search, law: Any, ends: Ends, way: float, before: Sight, now: Sight, length: float) -> Search:
     """The search for the event after this one, of a step of that length from ``before`` to ``now``; closed where the
     step does not pass it."""
     event = search.event + 1
-    past = passed(event, law, ends, before, now)
-    return search_of(event, length, passed(event, law, ends, before, before), past, search.tries)
+    past = passed(event, law, ends, way, before, now)
+    return search_of(event, length, passed(event, law, ends, way, before, before), past, search.tries)

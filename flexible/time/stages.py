@@ -16,6 +16,7 @@ from rigid.kernel.compile import loop, part
 from ..contact.points.data import UNKNOWN, Bristles, Damper, Rates, Resultants
 from ..contact.stage import Near, Predictor
 from ..contact.vectors import largest, plus, times
+from ..models.state import held
 from .methods import Table
 from .rows import advanced, along, store, work
 
@@ -23,11 +24,6 @@ from .rows import advanced, along, store, work
 def solved(model: Any, old: Any, mode: int, damper: Damper, predictor: Predictor, near: Any, first: bool) -> Any:
     """See ``stage`` of :class:`flexible.models.state.Model`."""
     return model.stage(old, mode, damper, predictor, near, first)
-
-
-def held(model: Any, pos: Any, vel: Any) -> Any:
-    """See ``held`` of :class:`flexible.models.state.Model`."""
-    return model.held(pos, vel)
 
 
 def floor_forces(model: Any, pos: Any, vel: Any, acc: Any) -> Any:

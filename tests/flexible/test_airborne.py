@@ -37,7 +37,7 @@ def test_a_flight_goes_on_through_both_hand_overs(level, t):
     state = hand_over(hoop, motion, t)
     assert state.res.normal == 0
     heights = motion.at(t + 1e-4 * np.arange(-1, 2)).y_C
-    slip, (height, rise) = taken_over(hoop, state)
+    _, slip, (height, rise) = taken_over(hoop, state)
     assert slip == pytest.approx(motion.at(t).slip_velocity, abs=1e-5)
     assert height == pytest.approx(heights[1] - 1, abs=5e-6)
     assert rise == pytest.approx((heights[2] - heights[0]) / 2e-4, abs=1e-5)

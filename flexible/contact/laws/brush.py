@@ -85,10 +85,6 @@ class Brush(Law):
     name, code, points, points_of_soft = "brush", CODE, 12, 20
     tractions = staticmethod(tractions)
 
-    def handed_back(self, state: PatchState) -> float:
-        """What a patch creeps of which some points stick is elastic."""
-        return 0.0 if state.res.stuck > 0 else state.slip_velocity
-
     def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:
         """See :func:`flexible.contact.points.bristles.rolled_in`."""
         return rolled_in(bristles, self.parameters, res, *pose)

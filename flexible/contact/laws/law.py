@@ -83,10 +83,6 @@ class Law:
         """The mode in which the patch begins out of a rigid phase."""
         return 0
 
-    def handed_back(self, state: PatchState) -> float:
-        """The slip velocity with which a rigid motion goes on."""
-        return state.slip_velocity
-
     # what is stored
 
     def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:

@@ -162,10 +162,6 @@ class Patch(Law):
         slides = {Kind.SKID: SLIDE_LEFT, Kind.SPIN: SLIDE_RIGHT}.get(kind, STICK)
         return SLIDE_RIGHT if slides == STICK and kind != Kind.ROLL and self.parameters.mu_s == 0 else slides
 
-    def handed_back(self, state: PatchState) -> float:
-        """What a sticking patch creeps is elastic."""
-        return 0.0 if state.mode == STICK else state.slip_velocity
-
     def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:
         """See :func:`flexible.contact.points.bristles.rolled_in`."""
         return rolled_in(bristles, self.parameters, res, *pose)

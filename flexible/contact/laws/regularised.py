@@ -16,7 +16,7 @@ from rigid.kernel.compile import loop
 
 from ..points.bristles import keep_touching
 from ..points.data import Bristles, Resultants, Shared, Tractions
-from .law import Law, PatchState, Rolling
+from .law import Law, Rolling
 
 CODE = 2
 _MOST = 0.999  # of mu N that a creep is sought for: the rest is sliding
@@ -54,10 +54,6 @@ class Regularised(Law):
 
     name, code = "regularised", CODE
     tractions = staticmethod(tractions)
-
-    def handed_back(self, state: PatchState) -> float:
-        """A rigid hoop rolls where this one creeps."""
-        return 0.0 if state.res.stuck > 0 else state.slip_velocity
 
     def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:
         """The creep that carries F."""
