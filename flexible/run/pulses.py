@@ -99,7 +99,7 @@ def _thrown_back(segment: Segment, swing: Motion, pulse: Pulse) -> float | None:
 def unfinished(segment: Segment, swing: Motion, pulses: list[Pulse]) -> Pulse | None:
     """The pulse in whose angles the hoop is at the end of a segment, having come to it and not left it at its end.
 
-    Where the disk rocks on a soft wall it turns there, and goes on. One that stays for too long does not pass it.
+    A soft wall may turn it there, back and forth. One that stays for too long does not pass it.
     """
     phi = float(segment["phi"][-1])
     for pulse in pulses:

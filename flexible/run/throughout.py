@@ -39,7 +39,7 @@ def _first(scene: Scene, ahead: Run) -> Scene:
 def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> Ending:
     """Run a scene; each pulse is measured over the rigid hoop's interval.
 
-    A swing ends where phidot = 0 and no pulse goes on, or the disk passes the top. The rigid hoop that says where its
+    A swing ends at a turn where no pulse goes on, or where the disk passes the top. The rigid hoop that says where its
     pulse lies, and whether the run is at rest, is released from the flexible one's state at its beginning. A run is at
     rest behind a swing over the bottom alone, not where a soft hoop rocks beside its release.
     """
@@ -90,7 +90,7 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
 def _swung(
     scene: Scene, hoop: Hoop, builder: Builder, state: State, swing: Swing, watch: Callable[[float, float], None] | None
 ) -> tuple[State, Segment, Stop | None]:
-    """March through a swing; on through a turn where the disk rocks on a soft wall, in a pulse that is not over."""
+    """March through a swing; on where a soft wall turns the hoop in a pulse that is not over."""
     turns, inside = turns_of(swing.rigid, swing.pulses, swing.run.turns), None
     segment: Segment | None = None
     while True:

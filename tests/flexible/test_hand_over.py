@@ -101,16 +101,18 @@ def test_acceleration_of_a_flexible_motion():
 
 
 def test_what_the_last_hand_over_adds_is_told_too():
-    """A hoop that whirls past the floor jumps and rings: what a rigid one would have of its energy is some % more.
+    """A soft hoop kicked at the bottom is in the equilibrium of its fast pulse, which holds some % more than the rigid
+    hoop did: N^2 C/2 of the wall's springs, where it sinks by N C, of a wall that gives way by C under m g.
 
     The run ends before another pulse, at which it was asked before.
     """
-    scene = Scene(Hoop(0.1, 1.02, 0.1), Friction(0.35, 0.3), Release(pi / 2, omega0=30), Run(t_end=0.5))
-    motion = flexible.simulate(scene.replace(solve={"rtol": 1e-3}))
+    scene = Scene(Hoop(0.1, 1.02, 0.05), Friction(0.35, 0.3), Release(pi, omega0=1.5), Run(t_end=1.5))
+    soft = {"ring": {"bending_stiffness": 10.0}, "contact": {"stiffness": 1e8}}
+    motion = flexible.simulate(scene.replace(**soft, solve={"rtol": 3e-3}))
     assert not motion.completed
     assert "solve.resolve = 'all'" in motion.ended
-    assert motion.t_end == motion.pulses[-1].t_end
-    assert abs(motion.ledger.hand_over) < 0.01 * motion.ledger.initial
+    assert motion.t_end == motion.pulses[-1].t_end < motion.scene.run.t_end
+    assert motion.ledger.hand_over < -0.01 * motion.ledger.initial
 
 
 def test_a_rigid_hoop_stands_in_for_a_soft_one():

@@ -24,7 +24,11 @@ REACH = (1.5 / 1e8) ** (1 / 3)
 
 @pytest.mark.parametrize("turns", [1, 2])
 def test_turns_end_a_run_where_they_are(turns):
-    """phidot = 0 at the end, not a step later, and as many turns as asked for, told or not."""
+    """phidot = 0 at the end, not a step later, and as many turns as asked for, told or not.
+
+    But for what the patch creeps there, V': a ring without mass has the momentum along phi of
+    phidot + V' (1 + e c)/((1 + e c)^2 + e^2 s^2 + K).
+    """
     scene = STIFF.replace(run={"turns": turns})
     exact = rigid.simulate(scene)
     told = []
@@ -33,7 +37,10 @@ def test_turns_end_a_run_where_they_are(turns):
         assert motion.ended == exact.ended
         assert len(motion.turns) == turns
         end = motion.phases[-1].t_end
-        assert abs(float(motion.at(end).omega)) < 1e-8  # the tolerance of a turn is 1e-9 sqrt(g/R)
+        now, e = motion.at(end), scene.hoop.e
+        lever = 1 + e * np.cos(now.phi)
+        creeps = lever / (lever**2 + (e * np.sin(now.phi)) ** 2 + scene.hoop.K) * abs(now.slip_velocity)
+        assert abs(float(now.omega)) < 1e-8 + 1.01 * creeps  # the tolerance of a turn is 1e-9 sqrt(g/R)
         assert end == pytest.approx(motion.turns[-1].t, abs=1e-8)
         assert end == pytest.approx(exact.phases[-1].t_end, rel=5 * REACH)
     assert told
@@ -53,7 +60,7 @@ def test_a_run_to_rest_ends_where_the_rigid_hoop_would_slip_no_more(friction):
 
 
 def test_a_soft_hoop_that_rocks_beside_its_release_is_not_at_rest():
-    """At t = 0.24 the disk turns for an instant, 5e-3 away, and the rigid hoop would roll from there for ever.
+    """By t = 0.3 the disk turns for an instant, 5e-3 away, and the rigid hoop would roll from there for ever.
 
     The run was over then, "rolls for ever", of a hoop that hops in its pulse and has lost 8 % of its energy at 6.6.
     """
@@ -61,8 +68,10 @@ def test_a_soft_hoop_that_rocks_beside_its_release_is_not_at_rest():
         ring={"bending_stiffness": 1.0}, contact={"law": "patch"}, friction={"mu_s": 3.0, "mu": 3.0},
         run={"until": "rest"},
     )  # fmt: skip
-    motion = flexible.simulate(scene, most_steps=1000)
-    assert motion.turns[0].t < 0.3
+    motion = flexible.simulate(scene, most_steps=1000, history=True, states=False)
+    early = motion.history.omega[motion.history.t < 0.3]
+    assert early.max() > 1e-3
+    assert early.min() < -1e-3
     assert motion.t_end > 6
     assert "for ever" not in motion.ended
 
@@ -174,8 +183,9 @@ def test_a_disk_that_rocks_in_a_pulse_does_not_end_it():
     (pulse,), history = motion.pulses, motion.history
     rigid_pulse = rigid.simulate(rigid_limit(ROCKS)).pulses[0]
     assert (pulse.phi_start, pulse.phi_end) == pytest.approx((rigid_pulse.phi_start, rigid_pulse.phi_end), abs=1e-6)
-    assert [turn.t for turn in motion.turns if pulse.t_start < turn.t < pulse.t_end]
     within = history.t >= pulse.t_start
+    assert history.omega[within].min() < -1e-2 < 1e-2 < history.omega[within].max()
+    assert not motion.turns
     rates = {"normal_impulse": "normal_force", "friction_impulse": "friction_force", "friction_loss": None}
     for name, rate in rates.items():  # no slip where it begins and ends: nothing is lost to friction there
         gained = np.ptp([between(history, name, rate, t) for t in (pulse.t_start, pulse.t_end)])
@@ -217,10 +227,10 @@ def test_a_hoop_that_turns_back_in_a_pulse_leaves_it_where_it_came_in():
 
 
 def test_a_motion_goes_on_from_within_a_pulse_in_which_the_disk_rocks():
-    """To the last bit as without a stop, which was between two of the turns in the pulse."""
+    """To the last bit as without a stop, which was while the disk went back."""
     whole = flexible.simulate(ROCKS)
     part = flexible.simulate(ROCKS.replace(run={"t_end": 6.32, "until": None}))
-    assert len(part.turns) == 1
+    assert part.at(part.t_end).omega < 0
     assert flexible.simulate(ROCKS, resume=part) == whole
 
 
