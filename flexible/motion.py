@@ -8,9 +8,9 @@ from math import nan
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from rigid import Motion, Phase, Pulse, Scene
+from rigid import Motion, Phase, Pulse, Scene, Side, States
 from rigid.output.units import (
     AngularAcceleration,
     AngularVelocity,
@@ -177,6 +177,27 @@ class FlexibleMotion(Motion):
     history: History | None = dataclasses.field(default=None, compare=False)
     kept: tuple[Kept, ...] = dataclasses.field(default=(), compare=False)
     marches: tuple[March, ...] = dataclasses.field(default=(), compare=False)
+
+    def at(self, t: ArrayLike, side: Side = "right") -> States:
+        """State at times ``t`` (any shape): of the rigid hoop between flexible segments, of the steps inside them.
+
+        Between two steps the angle, ``y_C`` and the impulses are cubics, as their rates are known, and all else is
+        linear, N, F and the slip velocity among it: F is that of the friction law at the steps alone, and of the
+        ``regularised`` one no longer -mu N v/sqrt(v^2 + v_s^2) of the N and the v that are told with it.
+
+        Parameters
+        ----------
+        t : array_like
+            In the scene's unit of time.
+        side : "right" or "left"
+            At an instant of two steps, before and behind an event: which of them counts.
+
+        Raises
+        ------
+        ValueError
+            A time before release or after the end.
+        """
+        return Motion.at(self, t, side)
 
     def _lines(self) -> list[tuple[str, str]]:
         scene, books = self.scene, self.ledger

@@ -50,7 +50,7 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
             builder.add_rigid(motion, motion.t_end)
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
             return run_over(scene.run) if over else motion
-        start = lead(motion, pulse)
+        start = lead(motion, pulse, hoop.law.rolls_to)
         ends_there = builder.add_rigid(motion, start)
         try:
             state = hand_over(hoop, motion, start, one_of(ends_there, 1))

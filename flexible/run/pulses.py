@@ -5,11 +5,14 @@ from __future__ import annotations
 from itertools import pairwise
 from math import ceil, floor, inf, pi
 
+import numpy as np
+
 from rigid import Kind, Motion, Pulse
 
 from ..builder import Builder
 from ..segment import Segment
 
+INSTANTS = 200  # of a rolling that are looked at
 LEAD = 0.5  # a flexible segment begins this many pulse lengths before the pulse, to let its start settle
 AT_REST = 1e-6  # sqrt(R/g), and an angle, within which two turns are one
 BEHIND = 0.1  # of the time from a turn to the pulse, if that is less
@@ -17,11 +20,28 @@ LONGEST = 4.0  # pulse lengths that a hoop may take for a pulse in which it turn
 FORWARD, BACKWARD = 1, -1
 
 
-def lead(motion: Motion, pulse: Pulse) -> float:
-    """When to go over to the flexible hoop: a little before a pulse, and behind the turn from which the hoop comes."""
+def lead(motion: Motion, pulse: Pulse, rolls_to: float = 1.0) -> float:
+    """When to go over to the flexible hoop: a little before a pulse, and behind the turn from which the hoop comes.
+
+    Before it a hoop that creeps slips sooner than the rigid one, and is flexible from where the first rolling behind
+    that turn begins to take more than the share ``rolls_to`` of mu N.
+    """
     turned = max((turn.t for turn in motion.turns if turn.t < pulse.t_start), default=0.0)
     behind = turned + BEHIND * (pulse.t_start - turned) if turned > 0 else 0.0
-    return max(0.0, behind, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
+    start = max(0.0, behind, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
+    rolls = (
+        (phase for phase in motion.phases if phase.kind is Kind.ROLL and behind < phase.t_end) if rolls_to < 1 else ()
+    )
+    for roll in rolls:
+        if roll.t_start >= start:
+            break
+        times = np.linspace(max(roll.t_start, behind), min(roll.t_end, start), INSTANTS)
+        states = motion.at(times, "left")
+        most = motion.scene.friction.mu * states.normal_force
+        (holds,) = np.nonzero(np.abs(states.friction_force) <= rolls_to * most)
+        if len(holds) < INSTANTS:
+            return float(times[holds[-1]] if len(holds) else times[0])
+    return start
 
 
 def comes_to(segment: Segment, motion: Motion, pulse: Pulse) -> float | None:

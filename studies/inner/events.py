@@ -7,7 +7,7 @@ from math import pi
 
 from flexible import rigid_limit
 from flexible.contact.laws.listing import LAWS
-from flexible.run.pulses import lead
+from flexible.run.pulses import BEHIND, lead
 from rigid import Kind, Motion, Pulse, Run, Scene, simulate
 from rigid.output.units import without_units
 
@@ -83,8 +83,16 @@ def scaled_contact(scene: Scene, damping: float | None = None) -> ScaledContact:
     return ScaledContact(code, contact.tangential_ratio, friction.mu_s, friction.mu, theta, scale)
 
 
-def passage(scene: Scene) -> Passage:
+def passage(scene: Scene, rolls_to: float | None = None) -> Passage:
     """The first pulse of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is asked.
+    rolls_to : float, optional
+        Share of mu N up to which the rolling before the pulse is left out, that of the law's by default; 1 leaves out
+        all that is more than half a pulse before.
 
     Raises
     ------
@@ -102,7 +110,10 @@ def passage(scene: Scene) -> Passage:
             "The hoop is released inside a pulse: how the state in which it comes to the first whole one tends to that "
             "of the rigid hoop is not foreseen."
         )
-    first = lead(motion, pulse)
+    share = LAWS[scene.contact.law].rolls_to if rolls_to is None else rolls_to
+    first = lead(motion, pulse, share)
+    if motion.at(first).omega == 0:  # from rest nothing is foreseen: the creep right behind it is left out
+        first = BEHIND * lead(motion, pulse)
     if any(first < turn.t < pulse.t_end for turn in motion.turns):
         raise StudyError("The hoop turns round in its pulse: there is no limit to predict for that yet.")
     turn = pi + 2 * pi * round(((pulse.phi_start + pulse.phi_end) / 2 - pi) / (2 * pi))

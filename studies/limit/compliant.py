@@ -6,14 +6,17 @@ stiffness for the price of some hundred thousand explicit steps.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import copysign, nan, sqrt
+from typing import Any
 
 import numpy as np
+from scipy.integrate import solve_ivp
 
 from flexible.contact.laws.listing import LAWS
 from rigid import Scene
 
-from ..inner.body import rolling_forces, sliding_force
+from ..inner.body import accelerations, rolling_forces, sliding_force
 from ..inner.bristles import SIZE, bristles, set_stretch
 from ..inner.creep import creep, half_width
 from ..inner.events import Passage, passage
@@ -63,14 +66,40 @@ class Passed:
 
 def go_through(scene: Scene, fineness: float = 0.1) -> Passed:
     """The first pulse of a scene at its own foundation, from the state at which the flexible hoop is handed over."""
-    gained, switches = march_through(passage(scene), epsilon(scene), fineness)
-    gained, eps = gained * (1 + scene.hoop.mass_ratio), epsilon(scene)
+    way, eps = passage(scene, 1.0), epsilon(scene)
+    if way.contact.law == REGULARISED and way.stretches[0].pull is not None:
+        way = _slipped_before(way, passage(scene), eps)
+    gained, switches = march_through(way, eps, fineness)
+    gained = gained * (1 + scene.hoop.mass_ratio)
     return Passed(
         float(gained[NORMAL_IMPULSE] * eps * scene.impulse_unit),
         float(gained[FRICTION_IMPULSE] * eps * scene.impulse_unit),
         float(-gained[FRICTION_WORK] * eps**2 * scene.energy_unit),
         switches,
     )
+
+
+def _slipped_before(way: Passage, whole: Passage, eps: float) -> Passage:
+    """``way``, which begins in a slip, as smoothed friction brings the hoop there from the start of the ``whole``:
+    there the floor might as well be rigid, and explicit steps would be many.
+    """
+    first, body = whole.stretches[0], way.body
+    onward, v_s = copysign(1.0, first.omega), way.contact.slip_scale * eps
+
+    def rates(psi: float, y: Any) -> list[float]:
+        omega = onward * sqrt(y[0]) if y[0] > 0 else nan
+        pull = -way.contact.mu * y[1] / sqrt(y[1] ** 2 + v_s**2)
+        normal = sliding_force(body, psi, omega, pull)
+        alpha, _, slipping = accelerations(*body, psi, omega, normal, pull * normal)
+        return [2 * alpha, slipping / omega]
+
+    slip = whole.first_slip
+    if first.pull is None:
+        slip = eps * creep(whole.contact, *rolling_forces(body, first.psi_start, first.omega)[:2], first.omega).slip
+    span = (whole.start, way.start)
+    w, slip = solve_ivp(rates, span, [first.omega**2, slip], "LSODA", rtol=1e-9, atol=1e-12).y[:, -1]
+    begins = replace(way.stretches[0], omega=onward * sqrt(w))
+    return replace(way, first_slip=float(slip), stretches=(begins, *way.stretches[1:]))
 
 
 def march_through(way: Passage, eps: float, fineness: float = 0.1) -> tuple[np.ndarray, int]:

@@ -10,7 +10,7 @@ contact point, L = I phidot + B v with I = K + a^2 + B^2, is what no contact for
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import copysign, sqrt
+from math import copysign, nan, sqrt
 from typing import Any
 
 import numpy as np
@@ -72,7 +72,7 @@ def slide_along(body: Body, stretch: Stretch, shift: Shift) -> tuple[Shift, floa
 
     def rates(psi: float, y: Any) -> list[float]:
         w, dw = y[0], y[1]
-        omega = way * sqrt(w)
+        omega = way * sqrt(w) if w > 0 else nan  # a step that is too long is taken back
         a, b, ec = arms(body.e, body.one_minus_e, psi)
         lever = a - pull * b
         d = body.gyration + a * lever

@@ -98,15 +98,22 @@ class Prediction:
         return tuple(power / 3 for power in self.exponents)
 
 
-def predict(scene: Scene) -> Prediction:
+def predict(scene: Scene, rolls_to: float | None = None) -> Prediction:
     """The approach of the scene's first pulse to its limit, for every stiffness at once.
+
+    Parameters
+    ----------
+    scene : Scene
+        What is asked.
+    rolls_to : float, optional
+        See :func:`studies.inner.events.passage`.
 
     Raises
     ------
     StudyError
         See :func:`studies.inner.events.passage`.
     """
-    way = passage(scene)
+    way = passage(scene, rolls_to)
     return _with_units(scene, way, powers(way))
 
 

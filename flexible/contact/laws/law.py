@@ -59,6 +59,8 @@ class Law:
         The same on a ring whose sections turn far: the fewer bristles, the more of the friction breaks with one.
     steps_of_soft : float
         Share of a step's tolerance there, where N's peak and the instants of events hang on the ring's vibrations.
+    rolls_to : float
+        Share of mu N up to which a rolling patch is that of the rigid hoop; from there on it creeps its own way.
     tractions : compiled function
         ``tractions(forces, points, foundation, carried, mode, load, slip, parameters) -> Tractions``: fills in the
         ``forces``, zero before (:class:`~flexible.contact.points.data.PointForces`), that pull at
@@ -72,6 +74,7 @@ class Law:
     points: ClassVar[int] = 8
     points_of_soft: ClassVar[int] = 8
     steps_of_soft: ClassVar[float] = 1.0
+    rolls_to: ClassVar[float] = 1.0
     tractions: ClassVar[Callable[..., Any]]
 
     def __init__(self, parameters: Parameters) -> None:

@@ -95,7 +95,7 @@ def approaches(scene: Scene, progress: Callable[[float], None] | None = None) ->
     """
     laws = {False: _law(scene, REGULARISED), True: _law(scene, PATCH)}
     starts = {static: start_of(of) for static, of in laws.items()}
-    terms = {static: predict(of).terms["impulse_ratio"] for static, of in laws.items()}
+    terms = {static: predict(of, 1.0).terms["impulse_ratio"] for static, of in laws.items()}
     everything = tasks()
     for done, task in enumerate(everything):
         if progress is not None:

@@ -72,7 +72,7 @@ def start_of(scene: Scene) -> Start:
     StudyError
         See :func:`studies.inner.events.passage`.
     """
-    way = passage(scene)
+    way = passage(scene, 1.0)
     first, body = way.stretches[0], way.body
     if first.pull is None:
         normal = rolling_forces(body, first.psi_start, first.omega)[0]

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scenes import HOOP
+from smoothed import with_a_point
 
 import flexible
 import rigid
@@ -16,9 +17,9 @@ STIFF = HOOP.replace(
 )  # fmt: skip
 
 
-def pulse(scale):
+def pulse(scene, scale):
     """First pulse with this v_s."""
-    return flexible.simulate(STIFF.replace(contact={"slip_velocity_scale": scale})).pulses[0]
+    return flexible.simulate(scene.replace(contact={"slip_velocity_scale": scale})).pulses[0]
 
 
 def test_the_limit_is_the_rigid_hoop_without_a_static_coefficient():
@@ -26,14 +27,29 @@ def test_the_limit_is_the_rigid_hoop_without_a_static_coefficient():
 
     Where rolling ends, the share q of mu N that it needs passes 1 like 1 + a t, and far above v_s the friction is
     1 - v_s^2/(2 v^2) of mu N. So v' is proportional to a t + v_s^2/(2 v^2): v is off by the 4/5th power of v_s, over
-    times of its 2/5th. Elsewhere errors are of order v_s, which is a quarter of that at 1e-3.
+    times of its 2/5th. Elsewhere errors are of order v_s, which is a quarter of that at 1e-3. This hoop slips from
+    phi = 36 degrees on, and that alone is the power's: with a ring of 0.1 it slips again on the way out of its pulse,
+    and the two are off to either side, but for a twelfth (`test_limit_prediction.py`).
     """
+    scene = STIFF.replace(hoop={"mass_ratio": 0.0})
     scales = np.array([1e-3, 2.5e-4, 6.25e-5])
-    tended = rigid.simulate(rigid_limit(STIFF)).pulses[0].impulse_ratio
-    paper = rigid.simulate(STIFF).pulses[0].impulse_ratio
-    errors = np.array([pulse(scale).impulse_ratio - tended for scale in scales])
+    tended = rigid.simulate(rigid_limit(scene)).pulses[0].impulse_ratio
+    paper = rigid.simulate(scene).pulses[0].impulse_ratio
+    errors = np.array([pulse(scene, scale).impulse_ratio - tended for scale in scales])
     assert np.polyfit(np.log(scales), np.log(np.abs(errors)), 1)[0] == pytest.approx(0.8, abs=0.08)
     assert abs(errors[-1]) < 0.03 * abs(paper - tended)
+
+
+@pytest.mark.parametrize("mass_ratio", [0.0, 0.05, 0.1])
+@pytest.mark.parametrize("scale", [1e-2, 1e-3])
+def test_a_stiff_hoop_slips_as_the_rigid_one_with_smoothed_friction(mass_ratio, scale):
+    """From its release on, which is long before its pulse: to `rtol`. Rigid till half a pulse before, where it has long
+    slipped, J_F would be off by 0.002 to 0.02, to either side; the floor's own part is a tenth of `rtol`."""
+    scene = STIFF.replace(hoop={"mass_ratio": mass_ratio})
+    found = pulse(scene, scale)
+    friction, normal, loss = with_a_point(rigid_limit(scene), scale, (found.phi_start, found.phi_end))
+    assert found.impulse_ratio == pytest.approx(friction / normal, abs=scene.solve.rtol)
+    assert found.friction_loss == pytest.approx(loss, abs=scene.solve.rtol)
 
 
 @pytest.mark.parametrize("damping", [0.0, 1.0])
@@ -49,6 +65,19 @@ def test_it_makes_no_energy(damping):
     phases = {phase.kind for phase in motion.phases}
     assert rigid.Kind.ROLL in phases
     assert rigid.Kind.SKID in phases
+
+
+def test_friction_is_that_of_the_law_at_steps_and_linear_between():
+    scene = STIFF.replace(contact={"stiffness": 1e8}, ring={"bending_stiffness": 1e4})
+    motion = flexible.simulate(scene, history=True)
+    t, v, normal = (getattr(motion.history, name) for name in ("t", "slip_velocity", "normal_force"))
+    friction = -scene.friction.mu * normal * v / np.hypot(v, scene.contact.slip_velocity_scale)
+    marched = slice(1, None)  # the first is handed over
+    assert motion.history.friction_force[marched] == pytest.approx(friction[marched], rel=1e-6, abs=1e-6)
+    between = motion.at((t[1:-1] + t[2:]) / 2)
+    for name in ("normal_force", "friction_force", "slip_velocity"):
+        of = getattr(motion.history, name)
+        assert getattr(between, name) == pytest.approx((of[1:-1] + of[2:]) / 2, rel=1e-9, abs=1e-9), name
 
 
 def test_the_static_coefficient_has_no_part_in_it():
@@ -74,6 +103,15 @@ THICK = rigid.Scene(
 )
 
 
+def sliding(scene):
+    """The same hoop released as the rigid one comes to the first pulse, half a pulse before it: it slides already."""
+    motion = rigid.simulate(rigid_limit(scene))
+    first = motion.pulses[0]
+    now = motion.at(first.t_start - (first.t_end - first.t_start) / 2)
+    assert now.slip_velocity != 0
+    return scene.replace(release=rigid.Release(float(now.phi), float(now.omega), float(now.slip_velocity)))
+
+
 @pytest.mark.parametrize("damping", [pytest.param(0.13, marks=pytest.mark.slow), 1.0])
 def test_a_creeping_patch_is_followed_by_steps_as_long_as_any(damping):
     """Rolling along with v_s/5 on a ring without inertia, whose guessed slip is hundreds of times as large.
@@ -82,7 +120,7 @@ def test_a_creeping_patch_is_followed_by_steps_as_long_as_any(damping):
     ratio is held to that of ten times the tolerance less.
     """
     motion, fine = (
-        flexible.simulate(THICK.replace(contact={"damping": damping}, solve={"rtol": rtol}), most_steps=500)
+        flexible.simulate(sliding(THICK.replace(contact={"damping": damping}, solve={"rtol": rtol})), most_steps=500)
         for rtol in (8e-3, 8e-4)
     )
     assert motion.completed
@@ -118,7 +156,7 @@ def test_a_creep_that_ends_at_a_fold_snaps_off(damping):
 
     Its N is gone in an instant: not what a hundredth of the fall before it would take in that time.
     """
-    scene = THICK.replace(contact={"damping": damping}, solve={"rtol": 8e-4})
+    scene = sliding(THICK.replace(contact={"damping": damping}, solve={"rtol": 8e-4}))
     history = flexible.simulate(scene, history=True, most_steps=500).history
     normal, friction = history.normal_force, np.abs(history.friction_force)
     last = np.flatnonzero((normal[:-1] > 1e-3 * normal.max()) & (normal[1:] == 0))[-1]

@@ -66,7 +66,7 @@ def test_drake_regularises_as_predicted():
     pytest.importorskip("pydrake")
     task = next(t for t in approach.tasks() if t.known)
     start = start_of(ONE)
-    term = predict(ONE.replace(contact={"law": "regularised"})).terms["impulse_ratio"]
+    term = predict(ONE.replace(contact={"law": "regularised"}), 1.0).terms["impulse_ratio"]
     for setting in task.settings[:2]:
         off = impulse_ratio(start, task.run(start, setting)) - term.limit
         assert off == pytest.approx(float(term.at(setting)) - term.limit, rel=setting**0.2)
