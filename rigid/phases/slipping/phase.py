@@ -145,7 +145,9 @@ def slide(par, state, work, rows, events):
     while True:
         code = cut_short(state, events)
         if code != PHASE_OVER:
-            state[HELD], state[AT_EDGE], state[P_KNOWN] = 1.0, 1.0 if at_edge else 0.0, p_known
+            # the log ends at the same records in every run, the allowance of interpreted steps anywhere
+            state[HELD] = 1.0 if code == WORK_BOUND else 0.0
+            state[AT_EDGE], state[P_KNOWN] = 1.0 if at_edge else 0.0, p_known
             return code
         state[STEPS] -= 1.0
         keep_energy(par, state, state[FROM_TOP], state[TOP_SIZE])
