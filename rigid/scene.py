@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from .allowed import SceneError, answering, require, require_choice, require_whole, unknown
 from .elastic import Contact, Ring, Solve
-from .output.units import AngularVelocity, Measured, Number, Time, Velocity, without_units
+from .output.units import AngularVelocity, Measured, Number, Time, Velocity, scaling, without_units
 
 N = TypeVar("N", float, NDArray[np.float64])
 
@@ -134,6 +134,11 @@ class Friction:
             )
 
 
+def looks_like_degrees(phi0: Any) -> Any:
+    """Whether an angle, or each of an array, is beyond a turn and has two decimals: where a motion gets to has more."""
+    return (np.abs(phi0) > 2 * pi) & (phi0 == np.round(phi0, 2))
+
+
 @answering("release", {"phi0": "phi0_deg"})
 @dataclass(frozen=True, slots=True)
 class Release:
@@ -158,8 +163,7 @@ class Release:
         for key in ("phi0", "omega0", "slip0"):
             # of a larger angle too few digits would be left within a turn
             require(f"release.{key}", getattr(self, key), -1e9, 1e9, f"{key} lies between -1e9 and 1e9")
-        # where a motion has got to has more digits
-        if abs(self.phi0) > 2 * pi and self.phi0 == round(self.phi0, 2):
+        if not scaling.now and looks_like_degrees(self.phi0):
             said = f"{abs(self.phi0) / (2 * pi):.2g} turns in radians: did you mean phi0_deg = {self.phi0!r}?"
             warnings.warn(f"release.phi0 = {self.phi0!r} is {said}", stacklevel=4)
 

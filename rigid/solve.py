@@ -75,27 +75,37 @@ def _run(scene: Scene, aloft: tuple[float, float]) -> Log:
     if patience.left() <= 0:
         state, events, work = _workspace.state, _workspace.events, _workspace.work
         code = compiled()["entry_start"](np.array(par), (*release_of(scene), *aloft, float(STEPS)), state, work, events)
-        return _run_on(par, code, state, [_logged(events, state)])
-    code, here, logs = _run_interpreted(par, release_state(scene, aloft))
-    if code in (at.MORE, at.WORK_BOUND) and here[at.STALLS] <= MOST_STALLS:
-        return _run_on(par, at.MORE, np.array(here), logs)
+        logs = [_logged(events, state)]
+        state[at.RECORDS] = 0.0
+        return _run_on(par, code, state, logs)
+    code, here, logs, begun = _run_interpreted(par, release_state(scene, aloft))
+    if code == at.MORE:
+        _workspace.events[: len(begun)] = begun
+        return _run_on(par, code, np.array(here), logs)
     return _whole(par, code, logs, here)
 
 
-def _run_interpreted(par: list[float], state: list[float]) -> tuple[int, list[float], list[Array]]:
-    """Run to the end or to the end of the patience: why it ended, the state there, the records in parts."""
+def _run_interpreted(par: list[float], state: list[float]) -> tuple[int, list[float], list[Array], list[float]]:
+    """Run to the end or to the end of the patience: why it ended, the state there, the records in parts, and the log
+    that is begun, on which a run that is not over goes on: it is as full as that of one that is compiled throughout.
+    """
     events, work = [0.0] * (LOG_RECORDS * at.WIDTH), workspace()
     logs: list[Array] = []
-    code, left = at.MORE, float(STEPS)
-    while code == at.MORE and (allowance := float(ceil(patience.left()))) > 0:
-        state[at.RECORDS], state[at.STEPS] = 0.0, allowance
+    left = float(STEPS)
+    while (allowance := float(ceil(min(patience.left(), left)))) > 0:
+        state[at.STEPS] = allowance
         code = entry_run(par, state, work, events)
         spent = allowance - state[at.STEPS]
         left -= spent
         patience.spend(spent)
+        state[at.STEPS] = left
+        if code == at.WORK_BOUND and left > 0 and state[at.STALLS] <= MOST_STALLS:
+            continue
         logs.append(_logged(events, state))
-    state[at.STEPS] = left
-    return code, state, logs
+        if code != at.MORE or sum(map(len, logs)) >= MOST_RECORDS:
+            return at.WORK_BOUND if code == at.MORE else code, state, logs, []
+        state[at.RECORDS] = 0.0
+    return at.MORE, state, logs, events
 
 
 def _run_on(par: list[float], code: int, state: Array, logs: list[Array]) -> Log:
@@ -104,10 +114,10 @@ def _run_on(par: list[float], code: int, state: Array, logs: list[Array]) -> Log
         events, work, constants = _workspace.events, _workspace.work, np.array(par)
         count = sum(map(len, logs))
         while code == at.MORE and count < MOST_RECORDS:
-            state[at.RECORDS] = 0.0
             code = compiled()["entry_run"](constants, state, work, events)
             logs.append(_logged(events, state))
             count += len(logs[-1])
+            state[at.RECORDS] = 0.0
     return _whole(par, at.WORK_BOUND if code == at.MORE else code, logs, state.tolist())
 
 

@@ -31,7 +31,7 @@ from ..record.rows import (  # fmt: skip
 )
 from ..scene import Run
 from ..scenefile import SceneLike
-from ..solve import LOG_RECORDS
+from ..solve import LOG_RECORDS, MOST_RECORDS
 from ..solve import STEPS as WORK
 from .cores import cores
 from .result import Batch
@@ -53,7 +53,7 @@ def entry_batch(pars, release, low, high, work, state, events, rows):
             code = entry_run(pars[scene], state, work, events)
             gather(state, events, scene, rows)
             n_records += int(state[RECORDS])
-            if code == MORE and n_records > 2 * WORK:
+            if code == MORE and n_records >= MOST_RECORDS:
                 code = WORK_BOUND
             if code != MORE:
                 break

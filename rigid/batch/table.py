@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from math import inf
+from math import inf, pi
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +15,17 @@ from ..kernel import layout as at
 from ..motion import Array
 from ..output.units import without_units
 from ..sampler import UNTIL_CODES
-from ..scene import LIGHTEST, Friction, Hoop, Landing, Release, Scene, hoop_constants, is_point_mass
+from ..scene import (  # fmt: skip
+    LIGHTEST,
+    Friction,
+    Hoop,
+    Landing,
+    Release,
+    Scene,
+    hoop_constants,
+    is_point_mass,
+    looks_like_degrees,
+)
 from ..scenefile import SceneLike, as_scene
 
 QUANTITIES = ("k", "r", "mass_ratio", "mu_s", "mu", "phi0", "omega0", "slip0", "restitution")
@@ -35,6 +46,7 @@ def table_of(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
             )
         table = _broadcast([_numbers(name, scenes.get(name, DEFAULTS.get(name))) for name in QUANTITIES])
         _check(table)
+        _question(table[:, QUANTITIES.index("phi0")])
         return np.ascontiguousarray(table)
     if isinstance(scenes, (str, os.PathLike, Scene)):
         raise SceneError(f"{shown(scenes)} is one scene: a batch takes a list of them, or a dict of arrays.")
@@ -82,6 +94,16 @@ def _check(table: Array) -> None:
             Landing(row[8])
         except SceneError as error:
             raise SceneError(f"scene {index} of the batch: {error}") from None
+
+
+def _question(phi0: Array) -> None:
+    """Warn of the first angle that looks like degrees, as a release warns of its own."""
+    beyond = looks_like_degrees(phi0)
+    if beyond.any():
+        index = int(np.argmax(beyond))
+        angle = float(phi0[index])
+        said = f"is {abs(angle) / (2 * pi):.2g} turns in radians: did you mean phi0 = np.radians({angle!r})?"
+        warnings.warn(f"scene {index} of the batch: phi0 = {angle!r} {said}", stacklevel=4)
 
 
 def parameters_of(table: Array, turns: int | None, t_end: float | None, until: str | None) -> Array:

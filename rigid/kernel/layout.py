@@ -30,7 +30,9 @@ T_FROM, T_SINCE = 52, 53
 A_KIND = 54  # the phase at the event of A_EVENT
 # On a smooth floor: the energy, 0 at rest on top, and the largest term of it (0: not known).
 FROM_TOP, TOP_SIZE = 55, 56
-STATE = 57
+# Of a slip that the end of the allowance of steps has cut (HELD): what it goes on with.
+HELD, AT_EDGE, P_KNOWN, WHIRLED = range(57, 61)
+STATE = 61
 SEQUENCE_BASE = 8
 
 # What a phase works in, rows of ORDER + 1 numbers (rigid.kernel.spectral.workspace): Taylor coefficients, for names see

@@ -9,6 +9,7 @@ behind in the solver's.
 from __future__ import annotations
 
 import dataclasses
+import threading
 from collections.abc import Callable
 from enum import Enum
 from functools import cache
@@ -17,6 +18,15 @@ from operator import mul, truediv
 from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
+
+
+class _Scaling(threading.local):
+    """Whether this thread writes in other units what a user has given, and has been told about, before."""
+
+    now = False
+
+
+scaling = _Scaling()
 
 
 class Measured:
@@ -171,4 +181,8 @@ def _scaled(record: Any, scene: Measured, by: Callable[[Any, float], Any]) -> An
             changes[name] = tuple(_scaled(part, scene, by) for part in content)
         elif content is not None:
             changes[name] = _scaled(content, scene, by)
-    return dataclasses.replace(record, **changes)
+    scaling.now = True
+    try:
+        return dataclasses.replace(record, **changes)
+    finally:
+        scaling.now = False

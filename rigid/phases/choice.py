@@ -32,6 +32,7 @@ from ..kernel.layout import (  # fmt: skip
     FLIGHT,
     GAP,
     GYR,
+    HELD,
     HOPS,
     IMPACT,
     LAST_ENERGY,
@@ -62,6 +63,7 @@ from ..kernel.layout import (  # fmt: skip
     STALLS,
     STEPS,
     T_END,
+    T_FROM,
     TIME_REACHED,
     TOP,
     TURNS_DONE,
@@ -80,9 +82,10 @@ from ..record.events import ROOM, begin, turn
 from ..record.pulse import energy, released, watch
 from .flight import fly, lifts, settle, touch_down
 from .impact import strike
-from .pointmass import catch, choose_point_mass, roll_point_mass, skim
+from .pointmass import catch, choose_point_mass, roll_point_mass
 from .rolling.closed_form import TIE, rolling_forces
 from .rolling.phase import roll
+from .skimming import skim
 from .slipping.phase import slide
 from .slipping.series import JAM, denominator
 from .slipping.step import is_upright
@@ -239,14 +242,15 @@ def entry_run(par, state, room, events):
     """
     work, rows = room
     while True:
-        if state[RECORDS] * WIDTH + ROOM * WIDTH > len(events):
+        held = state[HELD] != 0.0  # by slide, which looks itself whether there is room and work left
+        if not held and state[RECORDS] * WIDTH + ROOM * WIDTH > len(events):
             return MORE
-        if state[STEPS] <= 0.0:
+        if not held and state[STEPS] <= 0.0:
             return WORK_BOUND
-        state[STEPS] -= 1.0
+        state[STEPS] -= 0.0 if held else 1.0
         mode = state[MODE]
         code = PHASE_OVER
-        before, angle, omega = state[T], state[ANGLE], state[OMEGA]
+        before, angle, omega = state[T_FROM] if held else state[T], state[ANGLE], state[OMEGA]
         if mode == CHOOSE:
             choose(par, state, events)
             continue
@@ -258,7 +262,7 @@ def entry_run(par, state, room, events):
                 if code == PHASE_OVER:
                     choose_slip(par, state, events)
         elif mode in (SKID, SPIN):
-            if settles(par, state):
+            if not held and settles(par, state):
                 # on a smooth floor too, of a hoop that hops: its landings take energy
                 return SETTLES if par[MU] > 0.0 or state[HOPS] > 0.0 else SLIDES
             code = slide(par, state, work, rows, events)

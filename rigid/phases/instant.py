@@ -40,11 +40,13 @@ from ..kernel.layout import (  # fmt: skip
 from ..kernel.polynomial import polish, value
 from ..record.pulse import energy
 from .flight import fly
-from .pointmass import drop, roll_point_mass_on, skimming_acceleration
+from .pointmass import roll_point_mass_on
 from .rolling.closed_form import rolling_acceleration, rolling_forces
 from .rolling.phase import roll_on
+from .skimming import drop, skimming_acceleration
 from .slipping.series import JAM, normal_force, slipping_acceleration
 from .slipping.step import (  # fmt: skip
+    GRAZES,
     NOTHING_YET,
     STOPS,
     carry,
@@ -85,10 +87,11 @@ def sample_slip(par, phases, owner, times, i, out, work, state):
     while i < len(times) and owner[i] == p:
         keep_energy(par, state, from_top, size)
         whole = step(par, state, mu_hat, p_known, work)
-        length, event = end_of_slip(work, whole, 1.0 if kind == SKID else -1.0)
+        length, event = end_of_slip(par, state, work, whole, 1.0 if kind == SKID else -1.0)
         tt = work[S_T]
         left = phases[(p + 1) * WIDTH + 1 + T] - start - state[T_SINCE] - value(tt, ORDER, length)
-        if event == STOPS and left > TOUCHES * (phases[(p + 1) * WIDTH + 1 + T] - start):
+        ends = left <= TOUCHES * (phases[(p + 1) * WIDTH + 1 + T] - start)
+        if event == GRAZES or (event == STOPS and not ends):
             # it comes to 0 and goes on as before, as it does on a smooth floor in every period: no end
             length, event = whole, NOTHING_YET
         duration = value(tt, ORDER, length)
@@ -145,7 +148,7 @@ def entry_sample(par, phases, owner, times, out, work, state):
             alpha = 0.0
             if kind in (SKID, SPIN):
                 carry_steadily(state, time)
-                normal = normal_force(par, 0.0, state[OMEGA], state[ANGLE], state[TOP])
+                normal = 1.0
             elif kind == ROLL and par[GYR] > 0.0:
                 behind = (p + 1) * WIDTH + 1
                 if times[i] >= phases[behind + T] * (1 - LAST_DIGITS):

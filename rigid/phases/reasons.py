@@ -18,7 +18,7 @@ _REASONS = {
     at.WHIRLS: "rolls for ever, over the top in every revolution, so there is no turn to wait for",
     at.ROLLS_ON: f"the time to run is over; it rolls for ever, of which {LISTED_PERIODS:g} periods are listed",
     at.WORK_BOUND: "the work bound is reached",
-    at.LIFTED: "the point mass rises out of the hoop's reach and takes it off the floor",
+    at.LIFTED: "the point mass is too fast for the hoop and takes it off the floor",
 }
 
 

@@ -99,6 +99,8 @@ def repeat(par, state, events):
     if count < 1.0:
         return
     r = int(state[RECORDS]) * WIDTH
+    for i in range(WIDTH):
+        events[r + i] = 0.0  # of whatever was in the log before
     events[r] = REPEAT
     events[r + R_T], events[r + R_PERIOD], events[r + R_WAY], events[r + R_WHOLE] = state[T], period, way, whole
     events[r + R_COUNT], events[r + R_TURNS], events[r + R_PULSES] = count, turns, pulses

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 
-from rigid import Friction, Hoop, Release, Scene, load_scene, simulate, simulate_batch
+from rigid import Friction, Hoop, Release, Run, Scene, load_scene, simulate, simulate_batch
 
 SCENES = {
     "without mass": load_scene("paper-3.1"),
@@ -38,3 +40,17 @@ def test_a_batch_has_what_at_least_one_of_these_scenes_has():
     batch = simulate_batch(list(SCENES.values()), turns=2)
     assert (batch.turn_count > 0).any()
     assert np.isfinite(batch.normal_impulse).any(axis=1).sum() >= 3
+
+
+def test_degrees_given_for_radians_are_questioned_once():
+    """A scene in SI units when it is made, not when it is run; of arrays the first that looks so."""
+    with pytest.warns(UserWarning, match="did you mean phi0_deg = 45"):
+        scene = Scene(Hoop(0.3, R=0.3, m=0.7, g=9.81), Friction(0.3, 0.2), Release(45.0), Run(t_end=0.1))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        simulate(scene).at(0.05)
+        simulate_batch([scene], t_end=0.1)
+        simulate_batch({"k": 0.3, "mu_s": 0.3, "mu": 0.2, "phi0": np.radians([45.0, 370.0])}, t_end=0.1)
+    with pytest.warns(UserWarning, match=r"scene 1 of the batch: .* did you mean phi0 = np.radians\(45.0\)") as told:
+        simulate_batch({"k": 0.3, "mu_s": 0.3, "mu": 0.2, "phi0": [1.0, 45.0, 60.0]}, t_end=0.1)
+    assert [one.filename for one in told] == [__file__]

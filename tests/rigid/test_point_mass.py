@@ -59,3 +59,31 @@ def test_what_catches_it_takes_the_velocity_along_the_line_to_the_contact():
     assert motion.at(1.0).energy == pytest.approx(2 * np.cos(phi0 / 2) ** 2 + slip0**2 / 2 - lost, rel=1e-12)
     assert motion.at(0.0, "right").omega == pytest.approx(slip0 / 2, rel=1e-14)
     assert after <= before
+
+
+@pytest.mark.parametrize("slip0", [1.0, -0.7])
+@pytest.mark.parametrize("omega0", [0.0, 0.3, -0.5, 1.0, 1.5, -1.5])
+@pytest.mark.parametrize("mu_s", [0.0, 0.3])
+def test_right_on_top_of_a_smooth_floor_it_moves_as_a_tiny_disk(mu_s, omega0, slip0):
+    """It slides for ever, falls, rolls where its slip has come to 0, or is thrown off: its motion ends where the tiny
+    disk's first flight begins."""
+    scene = Scene(Hoop(0.0), Friction(mu_s, 0.0), Release(0.0, omega0, slip0), Run(t_end=0.8))
+    point, tiny = simulate(scene), simulate(scene.replace(hoop={"k": 1e-8}))
+    flights = [p.t_start for p in tiny.phases if p.kind == Kind.FLIGHT]
+    assert point.t_end == pytest.approx(flights[0] if flights else 0.8, abs=1e-6)
+    if point.t_end:
+        times = np.linspace(0.01, 1, 40) * point.t_end
+        for key in ("phi", "omega", "x_C", "slip_velocity", "energy"):
+            assert getattr(point.at(times), key) == pytest.approx(getattr(tiny.at(times), key), abs=1e-5)
+    if omega0 == 0:
+        assert np.all(point.at(times).normal_force == 1)
+
+
+@pytest.mark.parametrize(("phi0", "omega0"), [(-0.6, 1.05), (-0.6, 1.5), (0.6, -1.05), (0.3, 1.2), (-1.2, 1.6)])
+def test_it_is_thrown_off_where_a_tiny_disk_is(phi0, omega0):
+    """Where cos phi phidot^2 = 1: on the way up, before it is on top, or at once."""
+    scene = Scene(Hoop(0.0), Friction(0.0, 0.0), Release(phi0, omega0), Run(t_end=5.0))
+    point, tiny = simulate(scene), simulate(scene.replace(hoop={"k": 1e-8}))
+    flight = next(p for p in tiny.phases if p.kind == Kind.FLIGHT)
+    assert point.t_end == pytest.approx(flight.t_start, abs=1e-6)
+    assert point.at(point.t_end).phi == pytest.approx(flight.phi_start, abs=1e-6)

@@ -104,3 +104,31 @@ def test_right_above_or_below_the_contact_a_hoop_slides_for_ever(phi0, slip0):
         ended = simulate(scene.replace(run=Run(**run)))
         assert ended.completed
         assert ended.ended.startswith("slides for ever")
+
+
+@pytest.mark.parametrize(
+    ("hoop", "phi0", "omega0"),
+    [
+        (Hoop(0.6892258359842568, 1.0, 0.1), -pi, 0.8291159957313206),
+        (Hoop(0.7522816663411553, 1.0, 1.0), -pi, -0.4894890035500934),
+        (Hoop(0.3139639303637802, 1.02, 1.0), 0.0, 0.8478472954053691),
+        (Hoop(0.18076201989489357, 1.3, 0.0), 0.0, -0.8709023358764897),
+        (Hoop(0.569986413771392, 1.3, 0.1), 0.0, 0.7497705631936926),
+    ],
+)
+def test_a_slip_that_touches_0_is_one_phase_in_any_units(hoop, phi0, omega0):
+    """Released without slip right above or below the contact, it is 0 there in every period, by round-off beyond or
+    not. The motion, its mirror image and the same in other units have as many phases, each longer than round-off."""
+    scene = Scene(hoop, SMOOTH, Release(phi0, omega0), Run(t_end=300.0))
+    R, g = 0.3, 9.81
+    units = {"R": R, "m": 0.7, "g": g}
+    rate = {"omega0": omega0 * sqrt(g / R)}
+    motions = [
+        simulate(scene),
+        simulate(scene.replace(release=Release(-phi0, -omega0))),
+        simulate(scene.replace(hoop=units, release=rate, run={"t_end": 300.0 * sqrt(R / g)})),
+    ]
+    lasting = [[p for p in m.phases if p.t_end - p.t_start > 1e-12 * m.scene.time_unit] for m in motions]
+    assert len({len(phases) for phases in lasting}) == 1
+    for motion, phases in zip(motions, lasting, strict=True):
+        assert min(p.t_end - p.t_start for p in phases) > 1e-3 * motion.scene.time_unit

@@ -125,7 +125,7 @@ def ends_of_rolling(par, state, way, below):
     if way.lossless:
         state[PERIOD] = 2 * way.far_end.time if below <= 0 else 4 * way.far_end.time
         if par[UNTIL] == REST or (par[TURNS] < inf and below <= 0):
-            stop = state[T] + state[PERIOD]
+            stop = state[PHASE_T] + state[PERIOD]  # from its start, wherever the log of its records may end
         if par[T_END] < inf and state[PERIOD] < inf:
             listed = state[PHASE_T] + LISTED_PERIODS * state[PERIOD]
     return stop, listed

@@ -16,11 +16,13 @@ from ...kernel.angle import trig
 from ...kernel.compile import kernel
 from ...kernel.layout import (  # fmt: skip
     ANGLE,
+    AT_EDGE,
     FIRST_PULSE,
     FLIGHT,
     FROM_TOP,
     GAP,
     GYR,
+    HELD,
     IMPACT,
     LOSSLESS_TURNS,
     MODE,
@@ -28,6 +30,7 @@ from ...kernel.layout import (  # fmt: skip
     MU,
     OMEGA,
     ORDER,
+    P_KNOWN,
     P_OPEN,
     P_PEAK,
     PHASE_OVER,
@@ -52,6 +55,7 @@ from ...kernel.layout import (  # fmt: skip
     TURNS_REACHED,
     UN,
     UNTIL,
+    WHIRLED,
     WIDTH,
     WORK_BOUND,
     XDOT,
@@ -66,6 +70,7 @@ from .series import JAM, normal_force
 from .step import (  # fmt: skip
     AT_BOTTOM,
     AT_WEIGHT,
+    GRAZES,
     LIFTS,
     STOPS,
     TIME_IS_UP,
@@ -105,26 +110,45 @@ def over_edge(par, state, events):
 
 
 @kernel
-def slide(par, state, work, rows, events):
-    """Slip until the contact point rests or lifts, or the run is over."""
-    mu_hat = par[MU] if state[MODE] == SKID else -par[MU]
-    gyr = par[GYR]
-    poles = poles_of(par, mu_hat)
+def cut_short(state, events):
+    """Whether the log or the allowance of steps ends here, and why: ``PHASE_OVER`` if it does not."""
+    if state[RECORDS] * WIDTH + ROOM * WIDTH > len(events):
+        return MORE
+    return WORK_BOUND if state[STEPS] <= 0.0 else PHASE_OVER
+
+
+@kernel
+def set_sliding(par, state, mu_hat, events):
+    """Begin a slip: why the run ends there, ``PHASE_OVER`` if it does not."""
     state[T_FROM], state[T_SINCE] = state[T], 0.0
-    at_edge = False
-    p_known = inf
-    state[LOSSLESS_TURNS], whirled = 0.0, 0
-    state[SLIP_SCALE] = 0.0
-    n = normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
+    state[AT_EDGE], state[P_KNOWN] = 0.0, inf
+    state[LOSSLESS_TURNS], state[WHIRLED], state[SLIP_SCALE] = 0.0, 0.0, 0.0
+    steady = is_steady(par, state)
+    n = 1.0 if steady else normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP])
     if watch(par, state, n, events) and par[UNTIL] == FIRST_PULSE:
         return PULSE_OVER
-    if is_steady(par, state):
-        return slide_steadily(par, state)
+    return slide_steadily(par, state) if steady else PHASE_OVER
+
+
+@kernel
+def slide(par, state, work, rows, events):
+    """Slip until the contact point rests or lifts, or the run is over; one that is held goes on where it was."""
+    mu_hat = par[MU] if state[MODE] == SKID else -par[MU]
+    gyr = par[GYR]
+    if state[HELD] == 0.0:
+        code = set_sliding(par, state, mu_hat, events)
+        if code != PHASE_OVER:
+            return code
+    poles = poles_of(par, mu_hat)
+    state[HELD] = 0.0
+    at_edge, p_known = state[AT_EDGE] != 0.0, state[P_KNOWN]
     while True:
-        if state[RECORDS] * WIDTH + ROOM * WIDTH > len(events):
-            return MORE
-        if state[STEPS] <= 0.0:
-            return WORK_BOUND
+        code = cut_short(state, events)
+        if code != PHASE_OVER:
+            # the log ends at the same records in every run, the allowance of interpreted steps anywhere
+            state[HELD] = 1.0 if code == WORK_BOUND else 0.0
+            state[AT_EDGE], state[P_KNOWN] = 1.0 if at_edge else 0.0, p_known
+            return code
         state[STEPS] -= 1.0
         keep_energy(par, state, state[FROM_TOP], state[TOP_SIZE])
         slip_now(par, state, trig(state[ANGLE], state[TOP])[2])
@@ -146,7 +170,7 @@ def slide(par, state, work, rows, events):
         p_known = value(work[S_P], ORDER, length)
         if length > 0.0:
             carry(par, state, mu_hat, work, length)
-        if event == STOPS:
+        if event in (STOPS, GRAZES):
             state[SLIP] = 0.0
         # without friction the slip stops where the hoop turns, to the last digit
         at_rest = par[MU] == 0.0 and state[XDOT] == 0.0
@@ -157,7 +181,7 @@ def slide(par, state, work, rows, events):
             if at_touch(par, state):
                 cross_bottom(state)
             state[LOSSLESS_TURNS] += 1.0
-            whirled = 0
+            state[WHIRLED] = 0.0
             if turn(par, state, events):
                 return TURNS_REACHED
             if par[MU] == 0.0 and comes_round(par, state, AT_TURN, events) and par[UNTIL] == REST:
@@ -175,7 +199,7 @@ def slide(par, state, work, rows, events):
         if event == AT_BOTTOM:
             state[ANGLE] = 0.0
             state[LOSSLESS_TURNS] += 0.5
-            whirled += 1
+            state[WHIRLED] += 1.0
             cross_bottom(state)
         elif event == AT_WEIGHT:
             at_edge = True
@@ -184,5 +208,5 @@ def slide(par, state, work, rows, events):
                 return code
         if par[MU] == 0.0 and par[UNTIL] == REST and state[LOSSLESS_TURNS] >= 3.0:
             return SLIDES
-        if par[MU] == 0.0 and whirled >= 3 and par[TURNS] < inf:
+        if par[MU] == 0.0 and state[WHIRLED] >= 3.0 and par[TURNS] < inf:
             return SLIDES  # round and round: there is no turn to wait for

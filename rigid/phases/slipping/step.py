@@ -13,6 +13,7 @@ from ...kernel.layout import (  # fmt: skip
     GYR,
     MODE,
     MU,
+    MU_S,
     OMEGA,
     ONE_MINUS_E,
     ORDER,
@@ -47,9 +48,10 @@ NEAR_TOP = (
 TINY = 1e-12  # K of a disk that whips past the top at 1/k, where the energy has no digit of its rotation
 A_TENTH = 0.1
 UPRIGHT = 1e-13  # sin phi
+GRAZE = 1e-11  # of the velocity of G: beyond 0 the slip goes by no more where it touches that, by round-off
 
 # what a step is cut at
-NOTHING_YET, STOPS, LIFTS, TIME_IS_UP, TURNS_BACK, AT_BOTTOM, AT_WEIGHT = range(7)
+NOTHING_YET, STOPS, LIFTS, TIME_IS_UP, TURNS_BACK, AT_BOTTOM, AT_WEIGHT, GRAZES = range(8)
 
 
 @kernel
@@ -186,12 +188,35 @@ def step(par, state, mu_hat, p_known, work):
 
 
 @kernel
-def end_of_slip(work, length, sign):
-    """(how far, event): where the slip stops or the contact point lifts off; ``NOTHING_YET`` if neither happens."""
+def after_touch(par, state, slip, x, sign):
+    """Where a slip that comes to 0 at ``x`` is on its old side again, if it only touches 0; -1 if it does not.
+
+    A hoop released with the disk right above or below the contact, without slip, on a smooth floor comes back to that
+    in every period: the slip is least there, 0 and of round-off of either sign. It goes on, in the same phase.
+    """
+    if par[MU_S] != 0.0:
+        return -1.0  # at rest, the contact point may be held
+    at, slope = value_and_slope(slip, ORDER, x)
+    bend = 0.0
+    for n in range(ORDER, 1, -1):
+        bend = bend * x + n * (n - 1) * slip[n]
+    at, slope, bend = -sign * at, -sign * slope, sign * bend  # beyond 0, how fast, and how that is turned back
+    if bend <= 0.0 or at + 0.5 * max(slope, 0.0) ** 2 / bend > GRAZE * abs(state[XDOT]):
+        return -1.0
+    return x + (slope + sqrt(max(slope * slope + 2 * bend * at, 0.0))) / bend
+
+
+@kernel
+def end_of_slip(par, state, work, length, sign):
+    """(how far, event): where the slip stops, or touches 0, or the contact point lifts off; ``NOTHING_YET`` if none."""
     event = NOTHING_YET
     x = first_crossing(work[S_SLIP], ORDER, length, sign)
     if x >= 0:
-        length, event = x, STOPS
+        back = after_touch(par, state, work[S_SLIP], x, sign)
+        if back < 0.0:
+            length, event = x, STOPS
+        elif back < length:
+            length, event = back, GRAZES
     x = first_crossing(work[S_B], ORDER, length, 1.0)
     if x >= 0:
         length, event = x, LIFTS
@@ -202,7 +227,7 @@ def end_of_slip(work, length, sign):
 def next_event(par, state, work, length, at_edge):
     """(how far, event): the first thing that happens within a step of the length ``length``."""
     om, n1, tt = work[S_OMEGA], work[S_N1], work[S_T]
-    length, event = end_of_slip(work, length, 1.0 if state[MODE] == SKID else -1.0)
+    length, event = end_of_slip(par, state, work, length, 1.0 if state[MODE] == SKID else -1.0)
     left = par[T_END] - state[T]
     if left < inf and left < value(tt, ORDER, length):
         tt[0] = -left
