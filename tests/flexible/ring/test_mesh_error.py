@@ -44,6 +44,7 @@ def error(found, true):
     return np.abs(found - true).max() / true[0]
 
 
+@pytest.mark.slow
 def test_the_error_of_the_mesh_is_what_elements_are_chosen_by():
     """Against 720 elements: the error that is stated for 240 of a wall of 2 %, and the order with which it falls.
 
