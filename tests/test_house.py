@@ -12,6 +12,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -36,12 +37,22 @@ def room_of(module: str) -> str:
     return module if SOURCES[module].name == "__init__.py" else module.rpartition(".")[0]
 
 
+@cache
+def tree_of(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+@cache
+def nodes_of(path: Path) -> list[ast.AST]:
+    return list(ast.walk(tree_of(path)))
+
+
 def imported(module: str) -> set[str]:
     """Modules of this project that a module imports, wherever in it."""
     path = SOURCES[module]
     package = room_of(module).split(".")
     found = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in nodes_of(path):
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
@@ -54,13 +65,16 @@ def imported(module: str) -> set[str]:
     return found
 
 
-IMPORTS = {module: imported(module) for module in SOURCES}
+@cache
+def imports() -> dict[str, set[str]]:
+    """By the first test that asks, and not whenever tests are collected."""
+    return {module: imported(module) for module in SOURCES}
 
 
 def test_imports_point_from_studies_to_rigid() -> None:
     upward = [
         (module, target)
-        for module, targets in IMPORTS.items()
+        for module, targets in imports().items()
         for target in targets
         if PACKAGES.index(target.split(".")[0]) > PACKAGES.index(module.split(".")[0])
     ]
@@ -70,7 +84,7 @@ def test_imports_point_from_studies_to_rigid() -> None:
 @pytest.mark.parametrize("package", PACKAGES)
 def test_rooms_import_one_way(package: str) -> None:
     graph: dict[str, set[str]] = {}
-    for module, targets in IMPORTS.items():
+    for module, targets in imports().items():
         if module.split(".")[0] != package or SOURCES[module].name == "__init__.py":
             continue
         rooms = graph.setdefault(room_of(module), set())
@@ -85,7 +99,7 @@ def test_rooms_import_one_way(package: str) -> None:
 
 
 def test_no_module_imports_itself_in_a_circle() -> None:
-    deep = {module: {t for t in targets if SOURCES[t].name != "__init__.py"} for module, targets in IMPORTS.items()}
+    deep = {module: {t for t in targets if SOURCES[t].name != "__init__.py"} for module, targets in imports().items()}
     try:
         TopologicalSorter(deep).prepare()
     except CycleError as error:
@@ -104,7 +118,7 @@ def imports_of_names(path: Path) -> list[tuple[str, str]]:
     """(module, name) of everything that a file imports from the packages by ``from ... import ...``."""
     return [
         (node.module, alias.name)
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for node in nodes_of(path)
         if isinstance(node, ast.ImportFrom) and not node.level and node.module in SOURCES
         for alias in node.names
         if f"{node.module}.{alias.name}" not in SOURCES
@@ -151,7 +165,7 @@ LONGEST_FILE, LONGEST_FUNCTION, MOST_ARGUMENTS = 300, 80, 8
 
 
 def functions(path: Path) -> Iterator[ast.FunctionDef | ast.AsyncFunctionDef]:
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in nodes_of(path):
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             yield node
 
@@ -202,7 +216,7 @@ def test_what_is_public_says_what_it_is() -> None:
     for module, path in SOURCES.items():
         if module.startswith("studies.examples"):
             continue
-        for owner, node in definitions(ast.parse(path.read_text(encoding="utf-8"))):
+        for owner, node in definitions(tree_of(path)):
             if isinstance(node, ast.ClassDef):
                 bases[node.name] = [ast.unparse(base).split("[")[0] for base in node.bases]
             if ast.get_docstring(node):
@@ -236,12 +250,11 @@ def test_a_friction_law_is_known_by_its_own_file_alone() -> None:
     """The rest of the program asks :class:`flexible.contact.laws.law.Law`, and gets laws from where they are listed."""
     laws = "flexible.contact.laws"
     own = {f"{laws}.{name}" for name in LAWS}
-    known = {module: targets & own for module, targets in IMPORTS.items() if module != f"{laws}.listing"}
+    known = {module: targets & own for module, targets in imports().items() if module != f"{laws}.listing"}
     assert own <= set(SOURCES)
     assert not {module: targets for module, targets in known.items() if targets}
-    words = re.compile(rf"([\"'])({'|'.join(LAWS)})\1")
     allowed = own | {"rigid.elastic"}
-    said = {module for module, path in SOURCES.items() if words.search(code_of(path))} - allowed
+    said = {module for module, path in SOURCES.items() if names_a_law(path)} - allowed
     # scenes of a benchmark and of an example, what the README says of one, and what theory does
     assert said == {
         "studies.bench.truth.reference",
@@ -251,13 +264,13 @@ def test_a_friction_law_is_known_by_its_own_file_alone() -> None:
     }
 
 
-def code_of(path: Path) -> str:
-    """Source without docstrings and comments."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
-            node.value.value = ""
-    return ast.unparse(tree)
+def names_a_law(path: Path) -> bool:
+    """Whether a text in it, its docstrings aside, is the name of a law or has one in quotes."""
+    quoted = re.compile(rf"([\"'])({'|'.join(LAWS)})\1")
+    nodes = nodes_of(path)
+    docstrings = {node.value for node in nodes if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)}
+    texts = [node.value for node in nodes if isinstance(node, ast.Constant) and node not in docstrings]
+    return any(isinstance(text, str) and (text in LAWS or quoted.search(text)) for text in texts)
 
 
 def test_tests_lie_where_the_packages_have_their_rooms() -> None:

@@ -47,7 +47,9 @@ def sampled(source: Source, count: int = 30) -> list[Shot]:
     curves, (start, stop) = source.curves, source.span
     if start == stop:
         return [source.shot(start)]
-    return [source.shot(t) for t in frame_times(start, stop, count, curves.t, curves.normal_force)]
+    instants = [source.instant(t) for t in frame_times(start, stop, count, curves.t, curves.normal_force)]
+    seen = {t: source.shot(t) for t in dict.fromkeys(instants)}  # a frame is read once, however often it is nearest
+    return [seen[t] for t in instants]
 
 
 def tidy_factor(shots: list[Shot], share: float = 0.06) -> float:

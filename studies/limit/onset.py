@@ -40,9 +40,9 @@ def brush_end() -> float:
         return float(y[0])
 
     full_slip.terminal = True  # type: ignore[attr-defined]
-    start = -40.0  # what is wrong there has died out like exp(-integral of 3 y^2)
+    start = -10.0  # what is wrong there has died out like exp(-integral of 3 y^2), by e^-83
     found = solve_ivp(
-        lambda x, y: -x - y**3, (start, 10.0), [(-start) ** (1 / 3)], "Radau", events=full_slip, rtol=1e-11, atol=1e-13
+        lambda x, y: -x - y**3, (start, 10.0), [(-start) ** (1 / 3)], "DOP853", events=full_slip, rtol=1e-12, atol=1e-13
     )
     return float(found.t[-1])
 
@@ -50,8 +50,8 @@ def brush_end() -> float:
 @cache
 def regularised_lead() -> float:
     """Limit of y - x^2/2 for x -> infinity, y' = x + 1/y^2, y -> (-x)^(-1/2) for x -> -infinity."""
-    end = 200.0
-    found = solve_ivp(lambda x, y: x + y**-2, (-80.0, end), [80.0**-0.5], "Radau", rtol=1e-12, atol=1e-14)
+    start, end = -8.0, 200.0  # what is wrong at the start has died out like exp(-integral of 2/y^3), by e^-144
+    found = solve_ivp(lambda x, y: x + y**-2, (start, end), [(-start) ** -0.5], "DOP853", rtol=1e-13, atol=1e-14)
     return float(found.y[0, -1] - end**2 / 2 + 4 / (3 * end**3))  # the last is what is left beyond the end
 
 

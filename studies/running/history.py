@@ -64,9 +64,11 @@ def whole(motion: Motion) -> Columns:
 
 def dimensionless(columns: Columns, scene: Scene) -> Columns:
     """Columns in the paper's scaling, whatever the units of the scene; angles and shares stay as they are."""
-    from flexible import History
+    units = units_of(Pulse) | units_of(States)
+    if not columns.keys() <= units.keys():  # a rigid motion needs no solver that takes a second to load
+        from flexible import History
 
-    units = units_of(States) | units_of(History)
+        units |= units_of(History)
     return {name: values / units[name].of(scene) for name, values in columns.items()}
 
 

@@ -70,5 +70,5 @@ def test_what_a_patch_creeps_is_no_slip(law):
         contact=Contact(law=law, stiffness=1e10, damping=0.2),
     )  # fmt: skip
     (expected,) = rigid.simulate(scene).pulses
-    (pulse,) = flexible.simulate(scene.replace(solve={"resolve": "all"})).pulses
+    (pulse,) = flexible.simulate(scene.replace(solve={"resolve": "all", "elements": 120})).pulses
     assert pulse.normal_impulse == pytest.approx(expected.normal_impulse, rel=1e-4)  # S^(-1/3) of the limit

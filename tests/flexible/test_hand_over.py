@@ -132,7 +132,10 @@ def test_a_rigid_hoop_stands_in_for_a_soft_one():
         assert one.normal_impulse == pytest.approx(other.normal_impulse, rel=1 / 60)
 
 
-@pytest.mark.parametrize(("bending", "share"), [(20.0, 0.02), (40.0, 1e-3), (60.0, 1e-3)])
+@pytest.mark.parametrize(
+    ("bending", "share"),
+    [pytest.param(20.0, 0.02, marks=pytest.mark.slow), (40.0, 1e-3), pytest.param(60.0, 1e-3, marks=pytest.mark.slow)],
+)
 def test_the_rigid_hoop_takes_over_what_the_rotation_has(bending, share):
     """Not the disk's own phidot, which vibrates on a ring with mass: by that it lost 27, 4 and 2 % of the energy. Now
     what is lost is the vibration's, and the first turn is the ring's by itself within what that amounts to.

@@ -37,10 +37,10 @@ def test_numerical_loss_and_residual_converge(mass, law):
 
 
 def test_friction_loss_is_the_integral_of_its_power():
-    """Trapezoids of -F v over the steps of a motion that slides throughout; they are short (rtol 1e-6)."""
+    """Trapezoids of -F v over the steps of a motion that slides throughout; they are short (rtol 1e-5)."""
     scene = HOOP.replace(
         hoop={"mass_ratio": 0.0}, friction={"mu_s": 0.02, "mu": 0.02}, release={"phi0": 2.4, "omega0": 1.5},
-        solve={"rtol": 1e-6}, contact={"damping": 1.0},
+        solve={"rtol": 1e-5}, contact={"damping": 1.0},
     )  # fmt: skip
     motion = flexible.simulate(scene, history=True)
     steps = motion.history

@@ -46,6 +46,23 @@ def series(tmp_path_factory, ring, ovals):
     return read(directory)
 
 
+@pytest.fixture(scope="module")
+def camera(series):
+    """One for all that looks at the series as it is: pictures leave nothing in it."""
+    with Camera(setting(series), SIZE) as one:
+        yield one
+
+
+@pytest.fixture(scope="module")
+def opened(series):
+    """A window that no one sees."""
+    from meshes.view.interactive import Window
+
+    one = Window(setting(series), off_screen=True, size=SIZE)
+    yield one
+    one.close()
+
+
 def rolling_motion(R=1.0, g=1.0):
     """A hoop that rolls steadily: phi = pi/2 + t, N = 1 + t, F = 0.1, slip 0.2 in the second half."""
 
@@ -98,30 +115,26 @@ def test_the_ring_is_where_it_should_be(series):
 
 
 @needs_renderer
-def test_floor_and_disk_are_where_they_should_be(series):
-    chosen = setting(series)
-    with Camera(chosen, SIZE) as camera:
-        page = camera.page(0.0).astype(int)
-        shot = chosen.source.shot(0.0)
-        middle = camera._middle(shot)
-        column, row = pixel(camera, shot.disk.points[0] + [0.05, 0, 0], middle)
-        assert page[int(row), int(column)].max() < 150
-        column, row = pixel(camera, np.array([middle + 0.3, -0.12]), middle)
-        assert (np.abs(page[int(row), int(column)] - [0xE9, 0xE6, 0xE1]) <= 1).all()
+def test_floor_and_disk_are_where_they_should_be(camera):
+    page = camera.page(0.0).astype(int)
+    shot = camera.setting.source.shot(0.0)
+    middle = camera._middle(shot)
+    column, row = pixel(camera, shot.disk.points[0] + [0.05, 0, 0], middle)
+    assert page[int(row), int(column)].max() < 150
+    column, row = pixel(camera, np.array([middle + 0.3, -0.12]), middle)
+    assert (np.abs(page[int(row), int(column)] - [0xE9, 0xE6, 0xE1]) <= 1).all()
 
 
 @needs_renderer
-def test_the_time_mark_moves_with_time(series):
+def test_the_time_mark_moves_with_time(camera):
     """The black vertical line through both panels stands at the fraction of the time axis that has passed."""
-    chosen = setting(series)
-    with Camera(chosen, SIZE) as camera:
-        for time in TIMES[[1, 4]]:
-            page = camera.page(time)
-            below = page[camera.layout.view_box[1] + camera.layout.view_box[3] :]
-            dark = (below.max(axis=2) < 110).sum(axis=0)
-            left, right = camera.layout.time_axis
-            expected = left + (right - left) * time / TIMES[-1]
-            assert abs(int(dark.argmax()) - expected) <= 2
+    for time in TIMES[[1, 4]]:
+        page = camera.page(time)
+        below = page[camera.layout.view_box[1] + camera.layout.view_box[3] :]
+        dark = (below.max(axis=2) < 110).sum(axis=0)
+        left, right = camera.layout.time_axis
+        expected = left + (right - left) * time / TIMES[-1]
+        assert abs(int(dark.argmax()) - expected) <= 2
 
 
 @needs_renderer
@@ -264,24 +277,21 @@ def test_the_window_has_what_a_picture_has(series):
 
 @needs_renderer
 @pytest.mark.parametrize(("key", "ratio"), [("bracketright", 2.0), ("bracketleft", 0.5), ("plus", 2.0), ("minus", 0.5)])
-def test_the_keys_do_what_is_documented(series, key, ratio):
-    from meshes.view.interactive import HELP, Window
+def test_the_keys_do_what_is_documented(opened, key, ratio):
+    from meshes.view.interactive import HELP
     from studies.cli.view import view as command
 
-    opened = Window(setting(series), off_screen=True, size=SIZE)
     before = opened.factor
     for action in opened.plotter.iren._key_press_event_callbacks[key]:
         action()
     assert opened.factor == ratio * before
     for text in (HELP, command.help, window.__doc__):
         assert "[ and ]" in text
-    opened.close()
 
 
 @needs_renderer
-def test_what_is_drawn_goes_by_its_name(series):
-    with Camera(setting(series), SIZE) as camera:
-        assert {"ring", "rim", "disk", "floor"} <= set(camera.renderer.plotter.actors)
+def test_what_is_drawn_goes_by_its_name(camera):
+    assert {"ring", "rim", "disk", "floor"} <= set(camera.renderer.plotter.actors)
 
 
 def test_exaggeration_keeps_the_height_over_the_floor(series):
@@ -410,14 +420,14 @@ def test_an_enlarged_view_keeps_the_contact_in_the_middle(series):
 
 
 @needs_renderer
-def test_nothing_of_an_enlarged_view_lies_under_the_colour_bar(series):
+def test_nothing_of_an_enlarged_view_lies_under_the_colour_bar(series, camera):
     """The strip of the bar is that of the page without a hoop, whatever the enlargement lays there."""
     strips = []
-    for zoom in (1, 5):
-        with Camera(setting(series, zoom=zoom), SIZE) as camera:
-            page, layout = camera.page(0.6), camera.layout
-        _, top, width, height = layout.view_box
-        strips.append(page[top : top + int(height * ABOVE_FLOOR) - 4, width - layout.covered : width])
+    with Camera(setting(series, zoom=5), SIZE) as enlarged:
+        for view in (camera, enlarged):
+            page, layout = view.page(0.6), view.layout
+            _, top, width, height = layout.view_box
+            strips.append(page[top : top + int(height * ABOVE_FLOOR) - 4, width - layout.covered : width])
     np.testing.assert_array_equal(*strips)
 
 
@@ -440,37 +450,35 @@ def test_the_lens_enlarges_the_wall_above_the_contact(series):
 
 @needs_renderer
 @pytest.mark.parametrize("distance", [0.15, 0.35, 0.6])
-def test_the_disk_is_never_over_what_is_printed_below_the_lens(series, distance):
+def test_the_disk_is_never_over_what_is_printed_below_the_lens(camera, distance):
     """Wherever the disk is: no pixel of the caption is painted by it, and where it is far away there is a lens."""
-    with Camera(setting(series), SIZE) as camera:
-        shot = camera.setting.source.shot(0.4)
-        lens, layout = camera.lens, camera.layout
-        column, _ = pixel(camera, np.array([shot.centre[0], 0.0]), camera._middle(shot))
-        fits = []
-        for phi in np.linspace(0, 2 * np.pi, 73):
-            disk = disk_block(shot.centre + distance * np.array([np.sin(phi), np.cos(phi)]), 0.2, phi)
-            moved = replace(shot, disk=disk)
-            fits.append(lens.fits(moved))
-            if fits[-1]:
-                view = np.full((*layout.view_box[3:1:-1], 3), 255, dtype=np.uint8)
-                layout.fill(view, moved, 1.0, lens.draw(view, moved, column, ABOVE_FLOOR * layout.view_box[3]))
-                box = layout._lens.get_window_extent()
-                x, row = pixel(camera, disk.points[1:], camera._middle(shot))
-                y = SIZE[1] - row
-                assert not ((x > box.x0) & (x < box.x1) & (y > box.y0) & (y < box.y1)).any()
-        assert any(fits) == (distance == 0.6)
-        assert not all(fits)
+    shot = camera.setting.source.shot(0.4)
+    lens, layout = camera.lens, camera.layout
+    column, _ = pixel(camera, np.array([shot.centre[0], 0.0]), camera._middle(shot))
+    fits = []
+    for phi in np.linspace(0, 2 * np.pi, 73):
+        disk = disk_block(shot.centre + distance * np.array([np.sin(phi), np.cos(phi)]), 0.2, phi)
+        moved = replace(shot, disk=disk)
+        fits.append(lens.fits(moved))
+        if fits[-1]:
+            view = np.full((*layout.view_box[3:1:-1], 3), 255, dtype=np.uint8)
+            layout.fill(view, moved, 1.0, lens.draw(view, moved, column, ABOVE_FLOOR * layout.view_box[3]))
+            box = layout._lens.get_window_extent()
+            x, row = pixel(camera, disk.points[1:], camera._middle(shot))
+            y = SIZE[1] - row
+            assert not ((x > box.x0) & (x < box.x1) & (y > box.y0) & (y < box.y1)).any()
+    assert any(fits) == (distance == 0.6)
+    assert not all(fits)
 
 
 @needs_renderer
-def test_no_lens_over_an_empty_floor(series):
+def test_no_lens_over_an_empty_floor(camera):
     """In flight the rim is soon above all that the lens shows; on the floor and just off it is within."""
-    with Camera(setting(series), SIZE) as camera:
-        shot = camera.setting.source.shot(0.4)
-        found = []
-        for height in (0.0, 0.05, 0.2):
-            ring = replace(shot.ring, points=shot.ring.points + np.array([0.0, height, 0.0]))
-            found.append(camera.lens.fits(replace(shot, ring=ring, centre=shot.centre + np.array([0.0, height]))))
+    shot = camera.setting.source.shot(0.4)
+    found = []
+    for height in (0.0, 0.05, 0.2):
+        ring = replace(shot.ring, points=shot.ring.points + np.array([0.0, height, 0.0]))
+        found.append(camera.lens.fits(replace(shot, ring=ring, centre=shot.centre + np.array([0.0, height]))))
     assert found == [True, True, False]
 
 

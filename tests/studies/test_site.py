@@ -15,6 +15,7 @@ from studies import site as pages
 from studies.site import PACKAGES, main
 
 pytest.importorskip("pdoc")
+slow = pytest.mark.slow  # what looks at the whole site, which takes seconds in a process of its own to build
 ROOT = Path(__file__).parents[2]
 
 
@@ -47,6 +48,7 @@ def test_an_installed_package_has_no_pages_to_make_a_site_of(tmp_path: Path, mon
     assert not list(tmp_path.iterdir())
 
 
+@slow
 @pytest.mark.parametrize("package", PACKAGES)
 def test_everything_of_a_face_is_there(site: Path, package: str) -> None:
     page = (site / f"{package}.html").read_text(encoding="utf-8")
@@ -57,6 +59,7 @@ def test_everything_of_a_face_is_there(site: Path, package: str) -> None:
         assert theory.read_text(encoding="utf-8").splitlines()[0].lstrip("# ") in page
 
 
+@slow
 def test_links_lead_somewhere(site: Path) -> None:
     for page in site.glob("*.html"):
         text = page.read_text(encoding="utf-8")
@@ -64,6 +67,7 @@ def test_links_lead_somewhere(site: Path) -> None:
             assert (site / target).exists(), (page.name, target)
 
 
+@slow
 def test_formulas_are_shown_without_a_network(site: Path) -> None:
     """As many as the theory has, as MathML; no page loads a program from elsewhere, no TeX is left, no word for one."""
     for package in ("rigid", "flexible", "studies"):

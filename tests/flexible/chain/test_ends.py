@@ -1,5 +1,6 @@
 """The ends of the chain at the weld, where a wall that is held at one side bends easier one way than the other."""
 
+from functools import cache
 from math import cos, pi, sin
 
 import numpy as np
@@ -16,6 +17,7 @@ from meshes import ring_mesh
 WELD = 0.0524
 
 
+@cache
 def shape_of(r, parts=120):
     return _Shape(Ring(ring_mesh(1 / r, 1.0, 240, 2, WELD), 0.3), parts)
 

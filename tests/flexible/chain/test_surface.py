@@ -1,5 +1,7 @@
 """The rim of a chain and the wall beside the weld: where they give way, and how they swing, as the mesh does."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from pressing import pressed
@@ -15,6 +17,7 @@ from meshes import ring_mesh
 WELD = 0.0524
 
 
+@cache
 def shape_of(r, around=240, parts=120):
     return _Shape(Ring(ring_mesh(1 / r, 1.0, around, 2, WELD), 0.3), parts)
 

@@ -284,6 +284,7 @@ def test_stresses_are_those_of_a_wall_as_wide_as_the_scene_says(motion, tmp_path
     assert [series.about["units"]["von_mises"] for series in (one, narrow)] == ["m g/R²"] * 2
 
 
+@pytest.mark.slow  # a series of its own is in tests/meshes
 def test_200_frames_in_50_megabytes(motion, tmp_path):
     write_fields(motion, tmp_path)
     size = sum(path.stat().st_size for path in tmp_path.rglob("*") if path.is_file())

@@ -35,6 +35,7 @@ assert signal.getsignal(signal.SIGPROF) is over
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timer of processor time")
 def test_a_handler_that_raises_in_the_middle_of_a_step_crashes_nothing():
     """Nine tenths of a march are compiled code, whose answer numba makes unprepared for what a handler raises."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from studies.bench.knobs import KNOBS, Pulse, Setting, budget, pulse_at, pulses
 from studies.bench.shown.figures import budget as drawn
 from studies.bench.truth.reference import errors
 
+once = cache(pulse_at)  # two tests look at the same budgets
 MASSLESS = next(pulse.scene for pulse in pulses(quick=True) if pulse.scene.hoop.mass_ratio == 0)
 
 
@@ -26,14 +29,18 @@ def test_the_setting_that_rtol_chooses_is_that_of_a_run(pulse):
     assert ours == pytest.approx(whole, rel=1e-9)
 
 
-def test_parts_are_found_one_by_one():
+def test_parts_are_found_one_by_one(monkeypatch):
     """Steps leave most of a pulse without mass; what is finer in all is off by no more than the parts together."""
+    monkeypatch.setattr(knobs, "pulse_at", once)
     found = budget(MASSLESS, 1e-3)
     assert set(found.parts) == set(KNOBS) - {"modes"}  # none without mass
     assert max(found.parts, key=lambda knob: found.parts[knob]) == "steps"
     assert 0 < found.all < 1.1 * sum(found.parts.values())  # a triangle, but for what they do to each other
     finer = budget(MASSLESS, 1e-4)
-    assert all(finer.parts[knob] < found.parts[knob] for knob in found.parts)
+    chosen, tighter = (Setting.of(MASSLESS, rtol) for rtol in (1e-3, 1e-4))
+    assert all(finer.parts[knob] < found.parts[knob] for knob in ("points", "steps"))
+    assert (tighter.around, tighter.through) == (chosen.around, chosen.through)
+    assert 0.5 < finer.parts["elements"] / found.parts["elements"] < 2  # the same ones, but for steps of the references
 
 
 def test_coarser_elements_leave_more():
@@ -52,6 +59,7 @@ def test_coarser_elements_leave_more():
 def test_a_knob_that_leaves_too_much_is_told(monkeypatch):
     """By its pulse and tolerance; what did not come to its end is a note in its row."""
     broken = MASSLESS.replace(friction={"mu_s": 0.31})
+    monkeypatch.setattr(knobs, "pulse_at", once)
     monkeypatch.setattr(knobs, "pulses", lambda quick: [Pulse("one", MASSLESS)])
     monkeypatch.setattr(knobs, "MOST", 1e-9)
     result = knobs.bench(quick=True)

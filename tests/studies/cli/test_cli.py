@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import io
 import json
 import os
 import resource
@@ -19,7 +20,9 @@ import flexible
 from flexible import Ledger, load_motion
 from meshes import read
 from rigid import load_scene, simulate
+from studies.cli import run
 from studies.cli.shared import single
+from studies.cli.shared.letters import spell_out
 from studies.running.files import to_json
 
 HEAVY = ("skfem", "meshio", "pyvista", "vtk", "matplotlib", "pandas", "dask", "distributed", "jinja2")
@@ -184,21 +187,43 @@ def test_a_file_that_outgrows_its_place_leaves_nothing_behind(tmp_path):
     assert os.listdir(tmp_path) == []
 
 
-@pytest.mark.parametrize("encoding", ["ascii", "latin-1", "cp1252", "utf-8"])
-def test_any_encoding_of_stdout_will_do(encoding):
+def in_a_process(encoding: str, *line: str) -> tuple[int, str, str]:
+    """Status, stdout and stderr of a command whose streams have that encoding."""
+    done = process(*line, env=environment(PYTHONIOENCODING=encoding), encoding=encoding, errors="replace")
+    return done.returncode, done.stdout, done.stderr
+
+
+def in_this_one(encoding: str, *line: str) -> tuple[int, str, str]:
+    """The same by streams that stand in for those of a process."""
+    with pytest.MonkeyPatch.context() as patch:
+        streams = [io.TextIOWrapper(io.BytesIO(), encoding=encoding) for _ in range(2)]
+        for name, stream in zip(("stdout", "stderr"), streams, strict=True):
+            patch.setattr(sys, name, stream)
+        spell_out()
+        status = run(line)
+        for stream in streams:
+            stream.flush()
+        out, err = (stream.buffer.getvalue().decode(encoding, "replace") for stream in streams)
+    return status, out, err
+
+
+@pytest.mark.parametrize(
+    ("encoding", "told"),
+    [("ascii", in_a_process), ("latin-1", in_this_one), ("cp1252", in_this_one), ("utf-8", in_this_one)],
+)
+def test_any_encoding_of_stdout_will_do(encoding, told):
     """What it has not is spelled out; what a file or a pipe of UTF-8 gets is as ever."""
-    own = environment(PYTHONIOENCODING=encoding)
-    table = process("rigid", "paper-3.1", env=own, encoding=encoding)
-    assert (table.returncode, table.stderr) == (0, "")
-    assert ("J_F/(μ J_N)" if encoding == "utf-8" else "J_F/(mu J_N)") in table.stdout
-    assert "?" not in table.stdout
-    framed = [line for line in table.stdout.splitlines() if line.startswith(("|", "│", "┃"))]
+    status, out, err = told(encoding, "rigid", "paper-3.1")
+    assert (status, err) == (0, "")
+    assert ("J_F/(μ J_N)" if encoding == "utf-8" else "J_F/(mu J_N)") in out
+    assert "?" not in out
+    framed = [line for line in out.splitlines() if line.startswith(("|", "│", "┃"))]
     title = next(i for i, line in enumerate(framed) if "measure" in line)
     assert len(set(map(len, framed[title:]))) == 1  # of the pulses' table all edges stand in one column
     # click takes an ASCII stream for a mistake of the environment, and its sentences are UTF-8 there
-    refused = process("rigid", "μ.toml", env=own, encoding=encoding, errors="replace")
-    assert refused.returncode == 2
-    assert is_one_sentence(refused.stderr)
+    status, _, err = told(encoding, "rigid", "μ.toml")
+    assert status == 2
+    assert is_one_sentence(err)
 
 
 @pytest.mark.parametrize("more", [(), ("--json",)])
@@ -291,7 +316,7 @@ def test_a_flexible_run_leaves_motion_ledger_and_fields(hoop, tmp_path):
     """The soft hoop of a short scene: history, figures and a series that the mesh layer reads back."""
     scene = tmp_path / "scene.toml"
     scene.write_text(SCENE.format(k=0.25) + "[contact]\nstiffness = 1e8\ndamping = 1\n[solve]\nrtol = 1e-3\n")
-    status, out, err = hoop("flexible", scene, "--json", "--out", tmp_path / "out", "--fields")
+    status, out, err = hoop("flexible", scene, "--json", "--out", tmp_path / "out", "--fields", "--frames", 11)
     assert (status, err) == (0, "")
     found = json.loads(out)
     assert {"time_off_floor", "ring_energy_peak", "contact_energy_peak"} <= set(found["pulses"][0])
@@ -303,7 +328,7 @@ def test_a_flexible_run_leaves_motion_ledger_and_fields(hoop, tmp_path):
     again = load_motion(tmp_path / "out" / "motion.npz")
     assert json.loads(to_json(again.to_dict())) == found
     assert json.loads((tmp_path / "out" / "units.json").read_text()) == again.units
-    assert len(read(tmp_path / "out")) > 10
+    assert len(read(tmp_path / "out")) == 11
 
 
 @pytest.mark.parametrize("form", [(), ("--json",)])

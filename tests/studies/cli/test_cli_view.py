@@ -8,6 +8,7 @@ from command_line import is_one_sentence, process
 
 from meshes import read
 from meshes.draw.display import renderer_problem
+from studies.cli import hoop as cli
 
 SCENE = """\
 [hoop]
@@ -34,8 +35,7 @@ def run(tmp_path_factory):
     folder = tmp_path_factory.mktemp("view")
     file = folder / "scene.toml"
     file.write_text(SCENE)
-    done = process("flexible", file, "--out", folder / "out", "--fields", "--frames", 12)
-    assert done.returncode == 0, done.stderr
+    assert cli.run(["flexible", str(file), "--out", str(folder / "out"), "--fields", "--frames", "12"]) == 0
     return folder / "out"
 
 
@@ -46,6 +46,7 @@ def test_flexible_writes_a_series(run):
     assert {"displacement", "velocity", "stress", "von_mises", "hoop_stress", "energy_density"} <= set(ring)
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_frames_at_listed_times_with_listed_fields(hoop, run, tmp_path):
     status, _, err = hoop(
         "flexible", run.parent / "scene.toml", "--json", "--out", tmp_path, "--fields",
@@ -138,6 +139,7 @@ def test_times_after_the_end_are_refused_before_a_run_to_a_time(hoop, tmp_path, 
     assert not (tmp_path / "o").exists()
 
 
+@pytest.mark.usefixtures("undrawn")
 def test_a_run_that_ends_before_the_times_is_told_all_the_same(hoop, run, tmp_path):
     status, out, err = hoop(
         "flexible", run.parent / "scene.toml", "--json", "--out", tmp_path, "--fields", "--times", 1e9

@@ -14,6 +14,8 @@ from command_line import SCENE, is_one_sentence
 from rigid.kernel import interrupts
 from studies.cli.shared import single
 
+pytestmark = pytest.mark.usefixtures("undrawn")
+
 MOTION = (
     SCENE.replace("{k}", "0.1").replace('until = "pulse"', "{run}")
     + """\

@@ -16,6 +16,8 @@ from studies.cli import hoop as cli
 from studies.cli.shared import results
 from studies.running import progress
 
+pytestmark = pytest.mark.usefixtures("undrawn")
+
 
 def names(folder: Path) -> set[str]:
     return {path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file()}

@@ -93,7 +93,7 @@ CABLES = (
 cables and points move its first hops by 0.001, 4 % and 4 %, the second of the first case by 0.0005, 13 % and 7 %."""
 
 
-@pytest.mark.parametrize("number", range(len(CASES)))
+@pytest.mark.parametrize("number", [pytest.param(0, marks=pytest.mark.slow), *range(1, len(CASES))])
 def test_hops_from_rest_are_those_of_geometrically_exact_cables(number):
     """Two codes with nothing in common but the scene; they are 0.004, 2.5 % and 2.5 % apart at most."""
     (ours,) = without_exudyn(CASES[number], 3e-4)

@@ -6,7 +6,8 @@ import pytest
 from command_line import is_one_sentence
 
 from rigid import load_scene
-from studies import limit_study
+from studies import StudyError, limit_study
+from studies.limit.prediction import predict
 from studies.limit.summary import other_sentences, term_sheet, verdict
 
 
@@ -36,9 +37,26 @@ def test_a_hoop_that_slips_throughout_has_its_ratio_at_any_stiffness():
     assert "no limit seen" not in "; ".join(other_sentences(study))
 
 
-def test_a_limit_that_could_not_be_seen_is_not_said_to_be_missing():
-    """k = 1e-5: its layers are separate from 2e23 on, far above all that is tried."""
-    tiny = limit_study("paper-3.4-tiny", foundations=())
+@pytest.fixture(scope="module")
+def tiny():
+    """k = 1e-5."""
+    return limit_study("paper-3.4-tiny", foundations=())
+
+
+def test_a_patch_that_comes_nowhere_near_its_limit_has_none_seen(tiny):
+    """At any possible foundation its patch slips throughout, and the smoothed law is too fast to follow, but for the
+    slip that starts long before the pulse and leads."""
+    told = {other.name: other for other in tiny.others}
+    assert told["patch, any damping"].tends
+    assert not told["patch, no damping"].tends
+    assert told["regularised, any damping"].prediction.terms["impulse_ratio"].exponent == 4 / 5
+    with pytest.raises(StudyError, match="smoothing of its friction"):
+        predict(load_scene("paper-3.4-tiny").replace(contact={"law": "regularised"}), 1.0)
+    assert "no damping: -0.3000 to -0.3000, no limit seen" in "".join(other_sentences(tiny))
+
+
+def test_a_limit_that_could_not_be_seen_is_not_said_to_be_missing(tiny):
+    """Layers that are separate from 2e23 on, far above all that is tried."""
     assert tiny.separate > 1e20
     (said,) = [each for each in other_sentences(tiny) if each.startswith("patch, no damping")]
     assert said.endswith("no limit seen, nor would one be: up to 1e+12, the largest foundation tried, the layers are "

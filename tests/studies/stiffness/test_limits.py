@@ -63,7 +63,9 @@ FAMILIES = {
 
 
 @pytest.mark.parametrize("family", FAMILIES)
-@pytest.mark.parametrize(("noise", "floor"), [(0.0, 0.0), (0.01, 0.0), (0.1, 0.0), (0.03, 3e-6)])
+@pytest.mark.parametrize(
+    ("noise", "floor"), [(0.0, 0.0), pytest.param(0.01, 0.0, marks=pytest.mark.slow), (0.1, 0.0), (0.03, 3e-6)]
+)
 def test_the_limit_is_inside_for_other_sequences_too(family, noise, floor):
     """Terms of random size, noise relative to the distance and of a fixed size, both known as the cases' errors."""
     random = np.random.default_rng(22)

@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 import pandas
 import pytest
+from images import pixels
 
 from rigid import load_scene, scene_from_dict, simulate
 from studies import Ladder, StudyError, limit_of, stiffness_study
@@ -56,6 +57,29 @@ def page(tmp_path_factory):
     out = tmp_path_factory.mktemp("page")
     assert cli.run([*map(str, LINE), "--damping", "0.5", "--law", "brush", "--out", str(out)]) == 0
     return (out / "report.html").read_text(encoding="utf-8"), out
+
+
+def test_the_folder_holds_table_figures_and_page(page):
+    names = {path.name for path in page[1].iterdir()}
+    assert {"study.json", "report.html", "pulse.png", "impulses.png", "distance.png", "study.sqlite"} <= names
+    assert not [name for name in names if name.startswith(".part")]
+
+
+@pytest.mark.parametrize("name", ["pulse", "impulses", "distance"])
+def test_a_figure_is_not_blank(page, name):
+    image = pixels(page[1] / f"{name}.png")
+    assert image.shape[0] > 400
+    inked = (image < 230).any(axis=2)
+    assert 0.005 < inked.mean() < 0.6
+
+
+def test_the_page_needs_nothing_but_itself(page):
+    text = page[0]
+    assert not re.findall(r"""(?:src|href)\s*=\s*["'](?!data:)""", text)
+    assert text.count("data:image/svg+xml;base64,") >= 3
+    assert "http" not in re.sub(r"data:[^\"]*", "", text)
+    for word in ("hoop study stiffness", "numpy", "[hoop]", "J_F/J_N", "numerical error"):
+        assert word in text
 
 
 def test_the_first_sentence_answers_in_words_and_says_what_its_symbols_are(page, study):

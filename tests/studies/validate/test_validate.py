@@ -13,11 +13,21 @@ from studies.validate import point_mass, table
 from studies.validate.row import Row
 from studies.validate.table import SOURCES, failed, notes, sheet, to_dict, validate
 
+#: those whose rows take half a second at most: rings against closed forms and the limit take ten each
+QUICK = tuple(name for name in SOURCES if name not in ("ring", "limit"))
+
+
+@pytest.fixture(scope="module", params=[QUICK, pytest.param(SOURCES, marks=pytest.mark.slow)], ids=["quick", "all"])
+def sources(request):
+    return request.param
+
 
 @pytest.fixture(scope="module")
-def rows():
+def rows(sources):
     seen = []
-    found = validate(seen.append)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(table, "SOURCES", sources)
+        found = validate(seen.append)
     assert seen == sorted(seen)
     assert seen[-1] == 1.0
     return found
@@ -32,22 +42,14 @@ def test_every_row_holds(rows):
     assert all(row.source.startswith("Lubarda") and row.why for row in differing)
 
 
-def test_every_row_says_whose_it_is_and_why_it_may_be_off(rows):
+def test_every_row_says_whose_it_is_and_why_it_may_be_off(rows, sources):
     assert all(row.source and row.what for row in rows)
     assert all(row.why for row in rows if not isinstance(row.value, str))
     assert len({row.what for row in rows}) == len(rows)
     text = " ".join(row.source for row in rows)
-    names = (
-        "Lubarda",
-        "Theron and Maritz",
-        "Tokieda",
-        "Butler",
-        "Pritchett",
-        "Gomez",
-        "Aglaev",
-        "Kalker",
-        "Timoshenko",
-    )
+    names = ["Lubarda", "Theron and Maritz", "Tokieda", "Butler", "Pritchett", "Gomez", "Aglaev", "Kalker"]
+    if "ring" in sources:
+        names.append("Timoshenko")
     assert all(name in text for name in names)
 
 
