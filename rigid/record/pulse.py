@@ -63,6 +63,7 @@ AT_BOTTOM = 1e-7  # of J_N, compression of a pulse that opens at the bottom, at 
 EDGE = 1e-12  # of N over M g: round-off at the edge of a pulse
 ALIKE = 1e-10  # of an energy: what a landing takes is more, round-off less
 JUST_OPEN = 1e-6  # sqrt(R/g): a pulse that the release at a touch opens begins at it
+SAME_PLACE = 1e-12  # of phi: what a way there and back leaves
 TOUCH = 1e-10  # of phi and of its rate squared, at a turn at the bottom: what many swings add up of round-off
 
 
@@ -169,6 +170,16 @@ def cross_bottom(state):
     if state[P_OPEN] != 0.0 and state[P_CROSSED] == 0.0:
         state[P_CROSSED] = 1.0
         state[P_T_BOTTOM] = state[T]
+
+
+@kernel
+def arrive_at_bottom(state):
+    """At the end of a way: the disk is at its lowest point, and goes on, where only round-off lies between; whether
+    this way or the next has the bottom in it is round-off too.
+    """
+    if state[TOP] == 0.0 and abs(state[ANGLE]) <= SAME_PLACE and state[OMEGA] != 0.0:
+        state[ANGLE] = 0.0
+        cross_bottom(state)
 
 
 @kernel

@@ -6,7 +6,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
@@ -25,6 +25,30 @@ def test_a_hoop_set_slipping_at_the_bottom_has_the_pulses_of_its_mirror_image(k,
     found = [[(p.t_start, p.t_end, p.normal_impulse, p.friction_loss) for p in m.pulses] for m in (one, other)]
     assert len(found[0]) == len(found[1])
     assert np.ravel(found[0]) == pytest.approx(np.ravel(found[1]), abs=1e-6)  # round-off, times what landings amplify
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    k=st.floats(0.04, 0.6), mass_ratio=st.sampled_from([0.0, 0.1, 1.0]), mu=st.sampled_from([0.05, 0.1, 0.2, 0.3]),
+    omega0=st.floats(0.2, 2.0), slip0=st.floats(-3.0, 3.0),
+)  # fmt: skip
+@example(k=0.32289992160383607, mass_ratio=1.0, mu=0.3, omega0=0.6496012296634079, slip0=-2.5313912836412946)
+@example(k=0.445210658981842, mass_ratio=0.1, mu=0.1, omega0=1.4863934346321335, slip0=-2.764675976760058)
+def test_the_disk_comes_to_the_bottom_within_a_pulse(k, mass_ratio, mu, omega0, slip0):
+    """Set going there and slipping, it comes back there after a turn, where a step of the solver ends: whichever side
+    of the bottom round-off lets it end on. The other way round too.
+    """
+    scene = Scene(Hoop(k, 1.1, mass_ratio), Friction(mu, mu), Release(pi, omega0, slip0), Run(t_end=8.0))
+    motions = simulate(scene), simulate(scene.replace(release=Release(-pi, -omega0, -slip0)))
+    assert len(motions[0].pulses) == len(motions[1].pulses)
+    t = np.linspace(0, 8, 4001)
+    for motion in motions:
+        side = np.sign(np.cos(motion.at(t).phi / 2))
+        (before,) = np.nonzero(side[1:-1] * side[2:] < 0)
+        for i in before + 1:
+            around = motion.at(t[[i, i + 1]])
+            if around.normal_force.min() > 1:  # neither in flight nor where a pulse ends
+                assert sum(p.t_start <= t[i] and t[i + 1] <= p.t_end for p in motion.pulses) == 1
 
 
 def test_a_turn_at_the_bottom_is_within_one_pulse():

@@ -41,7 +41,7 @@ from ...kernel.layout import (  # fmt: skip
 )
 from ...kernel.spectral import UNCLEAR, least_of, only_root
 from ...record.events import turn
-from ...record.pulse import at_touch, cross_bottom, watch
+from ...record.pulse import arrive_at_bottom, at_touch, cross_bottom, watch
 from .panel import CLEAR, offset, panel_at, run_clock, spin_up
 from .poles import clear_of, first_length, starts, turn_ahead
 from .way import LIFTS, NEVER, STOPS, TIME_IS_UP, arrive_at, force_on, look_ahead, peak_on, set_out
@@ -69,6 +69,7 @@ def go(par, state, way, ahead, rows, events):
             state[P_PEAK] = max(state[P_PEAK], n)
         here = there
         if there == end:
+            arrive_at_bottom(state)
             break
         if there == bottom:
             bottom = NEVER
