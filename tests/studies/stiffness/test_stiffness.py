@@ -215,7 +215,8 @@ def test_a_scene_without_a_pulse_is_one_sentence():
 
 def test_a_hoop_released_inside_a_pulse_is_studied_through_its_first_whole_one():
     """Which skids all through, where the rest of the first one spins, rolls and skids; nothing is foreseen of it, as
-    the state in which the hoop comes to it tends to the rigid one's as slowly as what is foreseen.
+    the state in which the hoop comes to it tends to the rigid one's as slowly as what is foreseen: like the patch's
+    half-width, (1.5/stiffness)^(1/3).
     """
     scene = load_scene("paper-3.3-massless").replace(release={"phi0_deg": 175, "omega0": 2.0}, solve={"rtol": 1e-3})
     study = stiffness_study(scene, Ladder("both", 1e7, 1e9, 4))
@@ -225,7 +226,8 @@ def test_a_hoop_released_inside_a_pulse_is_studied_through_its_first_whole_one()
     assert study.prediction is None
     for rung in study.rungs:
         assert rung.measure("impulse_ratio") == pytest.approx(-scene.friction.mu, abs=1e-12)
-        assert rung.measure("normal_impulse") == pytest.approx(whole.normal_impulse, rel=1e-3)
+        reach = (1.5 / rung.contact_stiffness) ** (1 / 3)
+        assert rung.measure("normal_impulse") == pytest.approx(whole.normal_impulse, rel=reach / 2)
 
 
 @pytest.mark.parametrize("damping", [0.0, 0.3])
