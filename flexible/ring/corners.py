@@ -11,20 +11,18 @@ strains at the quads' Gauss points. So it is taken where a ring turns far, with 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import splu
-from skfem import Basis, ElementQuad2, ElementVector
+from skfem import Basis, BilinearForm, ElementQuad2, ElementVector
 
 from meshes import RingMesh
 from meshes.corner import Corner, corner
 
 Array = NDArray[np.float64]
-Stiffness = Callable[[Basis, float], sp.csr_matrix]
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,10 +69,10 @@ class Corners:
         return np.asarray(roots @ np.linalg.pinv(strains, rcond=1e-10))
 
 
-def corners(ring: RingMesh, poisson: float, stiffness: Stiffness) -> Corners:
-    """Those of a ring whose quads are assembled by ``stiffness``, for that Poisson's ratio."""
+def corners(ring: RingMesh, stiffness: BilinearForm) -> Corners:
+    """Those of a ring whose quads are assembled by ``stiffness``."""
     found = corner(ring)
-    block = _condensed(found, stiffness(Basis(found.mesh, ElementVector(ElementQuad2()), intorder=4), poisson))
+    block = _condensed(found, stiffness)
     mirror = np.tile([1.0, -1.0], len(found.nodes))
     nodes = np.stack([found.nodes, found.mirrored])
     within = [np.isin(ring.quad9, some).all(axis=1) for some in nodes]
@@ -85,8 +83,9 @@ def corners(ring: RingMesh, poisson: float, stiffness: Stiffness) -> Corners:
     )
 
 
-def _condensed(fine: Corner, matrix: sp.csr_matrix) -> Array:
+def _condensed(fine: Corner, stiffness: BilinearForm) -> Array:
     """Stiffness of the finer elements, as nodes of the ring's mesh feel it, less that of the ring's own, (2 n, 2 n)."""
+    matrix = stiffness.assemble(Basis(fine.mesh, ElementVector(ElementQuad2()), intorder=4)).tocsr()
     shapes = sp.kron(fine.shapes, sp.eye(2), format="csr")
     own = np.zeros(len(fine.bound), dtype=bool)
     own[fine.same] = True

@@ -16,7 +16,8 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
-from skfem import Basis
+from skfem import Basis, BilinearForm
+from skfem.helpers import ddot, dot, sym_grad, trace
 
 from meshes import RingMesh
 from rigid import Scene
@@ -34,39 +35,6 @@ WITHIN, THIN = 0.05, 2.5  # share of a half-plane's give under the shortest wave
 def membrane_stiffness(scene: Scene) -> float:
     """E b of the ring, in m g/R: the section E I = E b h^3/12 with h the wall."""
     return 12 * scene.ring.bending_stiffness / scene.wall**3
-
-
-def plane_stress(basis: Basis, poisson: float) -> sp.csr_matrix:
-    """Stiffness at E = 1 of quads whose displacement has that basis, in scikit-fem's numbering, (n_dofs, n_dofs).
-
-    All entries of an element at once: a bilinear form of scikit-fem's, which goes from one to the next, takes as long
-    as all else of a ring does.
-    """
-    lame, shear = poisson / (1 - poisson**2), 1 / (2 * (1 + poisson))
-    # gradients of the shape functions, which come twice, for either component: (element, 9, 2, point)
-    slopes = np.stack([np.asarray(basis.basis[2 * i][0].grad)[0] for i in range(basis.Nbfun // 2)]).transpose(
-        2, 0, 1, 3
-    )
-    of_pairs = np.einsum("eaiq,ebjq->eaibj", slopes, slopes * basis.dx[:, None, None], optimize=True)
-    alike = np.einsum("eakbk,ij->eaibj", of_pairs, np.eye(2))
-    return _assembled(basis, lame * of_pairs + shear * (of_pairs.transpose(0, 1, 4, 3, 2) + alike))
-
-
-def _unit_mass(basis: Basis) -> sp.csr_matrix:
-    """The same for mass, of a density of one."""
-    shapes = np.stack([np.asarray(basis.basis[2 * i][0])[0] for i in range(basis.Nbfun // 2)]).transpose(1, 0, 2)
-    of_pairs = shapes @ (shapes * basis.dx[:, None]).transpose(0, 2, 1)
-    return _assembled(basis, np.einsum("eab,ij->eaibj", of_pairs, np.eye(2)))
-
-
-def _assembled(basis: Basis, blocks: Array) -> sp.csr_matrix:
-    """Of the elements' own, (element, 9, 2, 9, 2)."""
-    dofs = basis.element_dofs.T
-    size = dofs.shape[1]
-    places = np.repeat(dofs, size, axis=1).ravel(), np.tile(dofs, size).ravel()
-    whole = sp.csr_matrix((blocks.ravel(), places), shape=(basis.N, basis.N))
-    whole.eliminate_zeros()  # of a mass, either component's with the other
-    return whole
 
 
 T = TypeVar("T")
@@ -97,10 +65,23 @@ class Ring:
         self.mesh = mesh
         self.poisson = poisson
         self.basis: Basis = mesh.vector_basis(intorder=4)
-        self.corners = corners(mesh, poisson, plane_stress)
-        self.stiffness: sp.csr_matrix = plane_stress(self.basis, poisson)
+        lame = poisson / (1 - poisson**2)
+        shear = 1 / (2 * (1 + poisson))
+
+        @BilinearForm
+        def stiffness(u: Any, v: Any, w: Any) -> Any:
+            """Plane stress, E = 1."""
+            strain, test = sym_grad(u), sym_grad(v)
+            return lame * trace(strain) * trace(test) + 2 * shear * ddot(strain, test)
+
+        @BilinearForm
+        def mass(u: Any, v: Any, w: Any) -> Any:
+            return dot(u, v)
+
+        self.corners = corners(mesh, stiffness)
+        self.stiffness: sp.csr_matrix = stiffness.assemble(self.basis).tocsr()
         self.area = float(self.basis.dx.sum())
-        self.mass: sp.csr_matrix = _unit_mass(self.basis) / self.area
+        self.mass: sp.csr_matrix = mass.assemble(self.basis).tocsr() / self.area
         clamped = mesh.node_dofs[mesh.weld_nodes].ravel()
         self.free: NDArray[np.int64] = np.setdiff1d(np.arange(self.basis.N), clamped)
 
