@@ -55,7 +55,10 @@ class Phase:
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """An instant with phidot = 0 after release; of an impact that turns the hoop round, what is behind the blow."""
+    """An instant with phidot = 0 after release; of an impact that turns the hoop round, what is behind the blow.
+
+    Of a flexible hoop, whose disk vibrates, one by which its momentum has turned too.
+    """
 
     t: Time[float]
     phi: Number[float]

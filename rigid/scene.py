@@ -176,7 +176,7 @@ class Release:
 @answering("run")
 @dataclass(frozen=True, slots=True)
 class Run:
-    """How far to run: to a number of turns (instants with phidot = 0 after release), to a time, or until an event.
+    """How far to run: to a number of turns (after release, see :class:`~rigid.Turn`), to a time, or until an event.
 
     ``t_end`` is in sqrt(R/g), or in seconds where the scene has R, m, g in SI units.
     ``until`` is "pulse" (the end of the first whole pulse; one that the release cuts is none) or "rest" (nothing is

@@ -145,7 +145,8 @@ def held(model: Any, pos: Any, vel: Any) -> Any:
 
 
 def rotation(model: Any, pos: Any, vel: Any, rolls: bool) -> float:
-    """phidot of the rigid hoop on the floor with a hoop's momentum along phi, and along V if it does not roll.
+    """phidot of a hoop on the floor that moved as one body, in the shape that it has, with the momentum along phi that
+    it has, and along V if it does not roll.
 
     The disk vibrates on a soft ring, and so does the rim at the floor: their velocities at an instant are not those of
     the hoop. These momenta are not changed by N. Kinetic energy T is a quadratic form of the rates, so that

@@ -29,10 +29,9 @@ def lead(motion: Motion, pulse: Pulse, rolls_to: float = 1.0) -> float:
     turned = max((turn.t for turn in motion.turns if turn.t < pulse.t_start), default=0.0)
     behind = turned + BEHIND * (pulse.t_start - turned) if turned > 0 else 0.0
     start = max(0.0, behind, pulse.t_start - LEAD * (pulse.t_end - pulse.t_start))
-    rolls = (
-        (phase for phase in motion.phases if phase.kind is Kind.ROLL and behind < phase.t_end) if rolls_to < 1 else ()
-    )
-    for roll in rolls:
+    if rolls_to >= 1:
+        return start
+    for roll in (phase for phase in motion.phases if phase.kind is Kind.ROLL and phase.t_end > behind):
         if roll.t_start >= start:
             break
         times = np.linspace(max(roll.t_start, behind), min(roll.t_end, start), INSTANTS)

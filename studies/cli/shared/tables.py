@@ -88,7 +88,7 @@ def motion_tables(motion: Motion) -> list[Any]:
     if turns := motion.turns:
         shown.append(
             Sheet(
-                "Turns, where phidot = 0",
+                "Turns of the hoop",
                 [Column(f"t\n{time}", [number(turn.t) for turn in turns])],
                 [
                     Column("phi\n[deg]", [number(degrees(turn.phi)) for turn in turns]),
