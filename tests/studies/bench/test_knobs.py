@@ -34,13 +34,13 @@ def test_parts_are_found_one_by_one(monkeypatch):
     monkeypatch.setattr(knobs, "pulse_at", once)
     found = budget(MASSLESS, 1e-3)
     assert set(found.parts) == set(KNOBS) - {"modes"}  # none without mass
-    assert max(found.parts, key=lambda knob: found.parts[knob]) == "steps"
     assert 0 < found.all < 1.1 * sum(found.parts.values())  # a triangle, but for what they do to each other
     finer = budget(MASSLESS, 1e-4)
     chosen, tighter = (Setting.of(MASSLESS, rtol) for rtol in (1e-3, 1e-4))
     assert all(finer.parts[knob] < found.parts[knob] for knob in ("points", "steps"))
     assert (tighter.around, tighter.through) == (chosen.around, chosen.through)
-    assert 0.5 < finer.parts["elements"] / found.parts["elements"] < 2  # the same ones, but for steps of the references
+    for budgeted in (found, finer):  # shorter steps still leave more than the same elements
+        assert max(budgeted.parts, key=lambda knob: budgeted.parts[knob]) == "steps"
 
 
 def test_coarser_elements_leave_more():
