@@ -14,6 +14,7 @@ from rigid.kernel.compile import loop, part
 
 from .forces import contact_forces
 from .foreseen import Foreseen, Moved, moved_by, moved_damper
+from .laws.listing import is_smoothed
 from .points.data import Before, Bristles, Contact, Damper, Parameters, Resultants, Rim
 from .points.detection import least_gap
 from .points.rim import element_at, shape_functions, upward, vertex_angle
@@ -124,15 +125,25 @@ def guess_again(
 
 
 @loop
-def slipping_on(before: Before, damper: Damper, res: Resultants) -> float:
+def slipping_on(law: Parameters, before: Before, damper: Damper, res: Resultants) -> float:
     """How far along the floor a rim of smoothed friction is from where its patch slips as in the stages before.
 
     Where it creeps on a ring without inertia the guess slides hundreds of v_s fast, and there friction no longer
     answers to the velocity. 0 where that is not known.
     """
-    if res.reach == np.inf or before.bristles.number.shape[0] == 0 or damper.ratio <= 1:
+    if not is_smoothed(law) or before.bristles.number.shape[0] == 0 or damper.ratio <= 1:
         return 0.0
     return damper.way_0 * damper.ratio / (damper.ratio - 1) - res.way
+
+
+@loop
+def too_deep(law: Parameters, expected: float, res: Resultants) -> float:
+    """How much farther down a patch is than where it carries what is ``expected`` of N_el.
+
+    In a short step the damper makes N of the difference of two N_el: by a depth that is foreseen to a thousandth it may
+    pull, and without friction a ring that has no inertia is held along the floor by next to nothing.
+    """
+    return (res.elastic - expected) / (law.eps_n * res.length) if res.elastic > 0 else 0.0
 
 
 @loop

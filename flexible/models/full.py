@@ -183,7 +183,7 @@ class FullHoop(RimContact):
             u = pos[3:][dofs].reshape(-1, 2)
             contact = contact_forces(pos[:3], u, rim, law, mode, before, damper, True)
             res = contact.res
-            by = off_its_way(res, way) if iteration > 0 else slipping_on(before, damper, res)
+            by = off_its_way(res, way) if iteration > 0 else slipping_on(law, before, damper, res)
             if by != 0:  # as in flexible.models.stage
                 moved = np.zeros_like(u)
                 shift(moved, pos[2], by, 0.0)

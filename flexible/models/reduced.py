@@ -12,7 +12,7 @@ from rigid import Scene
 from rigid.kernel.compile import jit, loop, part
 
 from ..contact.forces import contact_forces
-from ..contact.laws.listing import may_end
+from ..contact.laws.listing import is_smoothed, may_end
 from ..contact.points.data import Damper, Parameters, at_start
 from ..contact.points.data import Rim as NearFloor
 from ..contact.points.detection import least_gap
@@ -23,7 +23,7 @@ from ..ring.frame import Frame, energies, inertia
 from ..ring.reduction import ReducedRing, Rim, is_known, reduce, residual, window_dofs
 from .equilibrium import RestingRing
 from .rim_contact import RimContact
-from .stage import FORESEEN, LET_GO, RAISED, From, Window, filtered_error, solve_stage
+from .stage import FORESEEN, HELD, LET_GO, RAISED, From, Window, filtered_error, solve_stage
 from .state import Energies, State
 
 Array = NDArray[np.float64]
@@ -120,7 +120,8 @@ def _solved(
         # a depth foreseen to a thousandth may make a short step's damper pull: under no pressure no bristle sticks. And
         # a patch that friction drives on snaps off; of laws with modes that is the end of one
         snaps = old.res.normal > 0 and predictor.beta < SNAPS and not may_end(arrays.law)
-        last = LET_GO if snaps else RAISED
+        smoothed = is_smoothed(arrays.law)
+        last = LET_GO if snaps else HELD if smoothed else RAISED
         while True:
             if begins == LET_GO:
                 bent = np.zeros(facing.shapes.shape[0])
@@ -130,7 +131,7 @@ def _solved(
             answer = solve_stage(arrays.frame, facing, arrays.law, mode, before, damper, predictor, start)
             if answer.iterations != -1 or begins == last:
                 break
-            begins += 1
+            begins += 2 if begins == RAISED and not smoothed else 1
         contact = answer.contact
         found = Stage(
             answer.iterations >= 0, answer.d, answer.acc, answer.forces, answer.matrix, window, answer.u, contact.nodal,

@@ -12,7 +12,7 @@ import numpy as np
 from rigid.kernel.compile import loop, part
 
 from ..contact.forces import contact_forces
-from ..contact.guess import GUESSES, as_deep, guess_again, on_its_way, shift, slipping_on
+from ..contact.guess import GUESSES, as_deep, guess_again, on_its_way, shift, slipping_on, too_deep
 from ..contact.newton import before_bend, breaks_loose, goes, left_by_kept, left_by_newton, move, reached, round_off
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
 from ..contact.stage import Predictor
@@ -21,8 +21,9 @@ from ..ring.frame import Frame, inertia
 
 MOST_POINTS = 5000  # to a patch, forty times as wide as under the weight or more: 1e5 weights are no solution
 
-#: ways to begin: with the patch as deep and as fast as foreseen; as deep as before, as fast as guessed; let go of
-FORESEEN, RAISED, LET_GO = 0, 1, 2
+#: ways to begin: with the patch as deep and as fast as foreseen; as deep as before, as fast as guessed; that deep, and
+#: held to the floor; let go of
+FORESEEN, RAISED, HELD, LET_GO = 0, 1, 2, 3
 
 
 class From(NamedTuple):
@@ -33,7 +34,7 @@ class From(NamedTuple):
     elastic: float  # N_el there
     expected: float  # N_el here
     tolerance: float  # on forces over 1 + N
-    begins: int  # FORESEEN, RAISED or LET_GO
+    begins: int  # FORESEEN, RAISED, HELD or LET_GO
 
 
 class Window(NamedTuple):
@@ -130,6 +131,14 @@ def _guesses(begins: int, foreseen: bool) -> int:
     return 1 if foreseen else GUESSES
 
 
+@loop
+def _along(begins: int, slipping: float, held: float) -> float:
+    """How far along the floor Newton begins from where the guess is."""
+    if begins == HELD:
+        return held
+    return slipping if begins == FORESEEN else 0.0
+
+
 @part
 def solve_stage(
     frame: Frame, window: Window, law: Parameters, mode: int, before: Before, damper: Damper, predictor: Predictor,
@@ -158,9 +167,9 @@ def solve_stage(
             guesses = guess_again(pos[:3], u, window.rim, law, before, damper, contact, guesses)
             if guesses >= 0:
                 continue
-            by = slipping_on(before, damper, res) if start.begins == FORESEEN else 0.0
+            by = _along(start.begins, slipping_on(law, before, damper, res), damper.way_0 - res.way)
             if by != 0:
-                shift(u, pos[2], by, 0.0)
+                shift(u, pos[2], by, too_deep(law, start.expected, res) if foreseen else 0.0)
                 guesses = 0
                 continue
         contact = on_its_way(pos[:3], u, (window.rim, law, mode, before, damper), contact, way, asked)

@@ -117,13 +117,15 @@ def restart(model: Model, state: State, mode: int) -> State:
     """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
     state = state._replace(mode=mode)
     found = _alone(model, state, 0.0, ESDIRK3)
+    if found is None:  # where N jumps the damper has a part in it, which is known of steps that have a length
+        found = _alone(model, state, SHORT, ESDIRK3)
     if found is None:
         raise MarchError(Stop(": the patch could not be re-solved", state.t, float(state.pos[2]), "no forces"))
     pos = state.pos.copy()
     pos[3:] = found.pos[3:]  # a ring without mass jumps; one with mass stays where it is, but for beta^2 acc
     return found._replace(
-        x_C=state.x_C, pos=pos, vel=state.vel, slip_velocity=state.slip_velocity, elastic_rate=state.elastic_rate,
-        rates=UNKNOWN, jerk=np.zeros_like(pos), elastic_bend=0.0,
+        t=state.t, x_C=state.x_C, pos=pos, vel=state.vel, slip_velocity=state.slip_velocity,
+        elastic_rate=state.elastic_rate, rates=UNKNOWN, jerk=np.zeros_like(pos), elastic_bend=0.0,
     )  # fmt: skip
 
 

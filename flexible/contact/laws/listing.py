@@ -39,6 +39,12 @@ def may_end(law: Any) -> bool:
 
 
 @loop
+def is_smoothed(law: Any) -> bool:
+    """Whether friction answers to the velocity of the patch alone."""
+    return bool(law.law == regularised.CODE)
+
+
+@loop
 def excess(law: Any, state: Any, force: float, velocity: float) -> float:
     """How far the patch is past the end of its mode: positive past it, within 1 at it, -inf where it is none.
 
@@ -90,6 +96,6 @@ def rigid_limit(scene: Scene) -> Scene:
 
 
 __all__ = [
-    "LAWS", "breaks", "care", "excess", "free", "may_end", "opposite", "rigid_limit", "sharing", "sticks", "successor",
-    "tractions",
+    "LAWS", "breaks", "care", "excess", "free", "is_smoothed", "may_end", "opposite", "rigid_limit", "sharing",
+    "sticks", "successor", "tractions",
 ]  # fmt: skip

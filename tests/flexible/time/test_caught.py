@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from scenes import HOOP, energy, flying
 
+import flexible
 from flexible.contact.laws.patch import STICK
 from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
@@ -165,3 +166,27 @@ def test_all_nodes_are_caught_alike():
         _, records = landed(model, scene, 1)
         impulses.append((records[-1].normal_impulse, records[-1].friction_impulse))
     assert impulses[0] == pytest.approx(impulses[1], rel=3e-3)
+
+
+@pytest.mark.parametrize(
+    ("k", "r", "mu", "phi0", "bending", "stiffness", "damping", "rtol"),
+    [
+        (0.0489, 1.3586, 0.7562, 0.7027, 4.6e3, 7.9e10, 1.71, 1.8e-3),
+        (0.0440, 1.2877, 0.7173, 0.9919, 2.1e3, 5.2e11, 0.22, 2.4e-3),
+        (0.0814, 1.3896, 0.6383, 1.4436, 6.6e3, 1.1e10, 0.37, 4.2e-4),
+    ],
+)
+def test_normal_force_may_jump_as_a_damped_patch_breaks_loose(k, r, mu, phi0, bending, stiffness, damping, rtol):
+    """It falls to a tenth or less, which a damping factor that stays what it is has no answer for: such runs ended."""
+    scene = THICK.replace(
+        hoop={"k": k, "r": r},
+        friction={"mu_s": mu, "mu": mu},
+        release={"phi0": phi0},
+        run={"until": "pulse"},
+        ring={"bending_stiffness": bending},
+        contact={"stiffness": stiffness, "damping": damping},
+        solve={"rtol": rtol, "level": "reduced"},
+    )
+    motion = flexible.simulate(scene)
+    assert motion.completed, motion.ended
+    assert abs(motion.ledger.numerical_loss) < rtol * motion.ledger.initial
