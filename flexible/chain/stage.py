@@ -16,7 +16,7 @@ from rigid.kernel.compile import apart, jit, part
 from ..contact.forces import contact_forces
 from ..contact.forces import example as of_contact
 from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by, moved_damper
-from ..contact.guess import GUESSES, as_before, guess_again, held_again, on_its_way
+from ..contact.guess import GUESSES, as_before, guess_again, held_again, is_let_go, on_its_way
 from ..contact.newton import before_bend, breaks_loose, goes, move, reached, round_off
 from ..contact.points.data import MOST_ITERATIONS, Before, Bristles, Parameters, Rim, at_start, pulling
 from ..contact.points.rim import vertex_angle, window_around
@@ -110,7 +110,7 @@ def example() -> tuple[tuple[Any, ...], Solved]:
     rod = Rod(row, table, table, cube, cube, row, row, row, seen, table, row, row, table, 0.0, 0.0, 0.0, seen, 0)
     chain = Chain(Body(*none), rod, EndMass(table, table, table, row, row))
     facing = Facing(rim, RimNodes(count, row, cube, np.empty((0, 2, 2, 3, 3))), table)
-    start = row, table, Foreseen(0.0, 0.0), 0.0
+    start = row, table, Foreseen(0.0, 0.0), 0.0, False
     solved = Solved(0, row, row, table, nothing_factored(), contact)
     return (chain, facing, law, mode, before, damper, Predictor(row, row, 0.0, row), start), solved
 
@@ -129,9 +129,9 @@ def solve_stage(
         See :func:`flexible.contact.forces.contact_forces`.
     predictor : flexible.contact.stage.Predictor
     start : tuple
-        Increment, displacement of the nodes, (m, 2), and :class:`Foreseen`, to begin with; tolerance on forces.
+        Increment, displacement of the nodes, (m, 2), :class:`Foreseen`, to begin with; tolerance on forces; let go of?
     """
-    d, u, foreseen, tolerance = start[0].copy(), start[1].copy(), start[2], start[3]
+    d, u, foreseen, tolerance, let_go = start[0].copy(), start[1].copy(), start[2], start[3], start[4]
     nodes, rod, m = facing.nodes, chain.rod, facing.nodes.part.shape[0]
     keeps, place = kept_by(rod.theta.shape[0], nodes.part)
     inner = FRAME + 3 * keeps.sum()
@@ -140,8 +140,8 @@ def solve_stage(
     stood, way, stuck, halved = 0.0, np.nan, 0.0, 0
     factors, stands, moved_before, stale = nothing_factored(), foreseen, False, True
     chained = factors.core
-    softest, damper, iteration, guesses = largest(facing.missing), pulling(damper, True), -1, GUESSES
-    asked = guesses > 0  # for a tangent; nowhere a plain True, for which contact_forces would be compiled once more
+    softest, damper, iteration = largest(facing.missing), pulling(damper, not let_go), -1
+    guesses, asked = 0 if let_go else GUESSES, tolerance > 0  # a plain True would compile contact_forces once more
     while iteration < MOST_ITERATIONS:
         pos, vel, acc = reached(predictor, d)
         contact = contact_forces(pos[:FRAME], u, facing.rim, law, mode, before, damper, asked)
@@ -150,7 +150,9 @@ def solve_stage(
             if guesses >= 0:
                 continue
         touching = (facing.rim, law, mode, before, damper)
-        if iteration < 0:
+        if let_go and contact.res.normal > 0:  # it is not
+            break
+        if iteration < 0 and not let_go:
             contact = held_again(pos[:FRAME], u, touching, contact, foreseen, asked)
         contact = on_its_way(pos[:FRAME], u, touching, contact, way, asked)
         iteration, res = iteration + 1, contact.res
@@ -214,7 +216,7 @@ def _followed(
 ) -> Solved:  # fmt: skip
     """The stage followed from a softer foundation, on which more of the rim lies and less of it comes and goes."""
     law, bristles = arrays.law, before.bristles
-    d, u, foreseen, tolerance = begins
+    d, u, foreseen, tolerance, let_go = begins
     softer = SOFTER
     while True:
         by = Parameters(
@@ -222,7 +224,7 @@ def _followed(
         )  # fmt: skip
         held = Bristles(bristles.number, times(softer, bristles.stretch), bristles.pull, bristles.sliding)
         since = Before(before.pose, before.u, held, before.first, before.dent)
-        start = d, u, foreseen, tolerance if softer <= 1 else ROUGHLY
+        start = d, u, foreseen, tolerance if softer <= 1 else ROUGHLY, let_go
         answer = solve_stage(arrays.chain, facing, by, mode, since, damper, predictor, start)
         if answer.iterations < 0 or softer <= 1:
             return answer
@@ -254,8 +256,12 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         before = at_start(old, u_old)
         u = follow(arrays.chain.rod, sections(expected), nodes)[0]
         move(expected, u, 1.0, nothing, beyond.ravel())
-        begins = predictor.guess, u, Foreseen(old.res.normal, old.res.friction), near.known
+        foreseen, free = Foreseen(old.res.normal, old.res.friction), is_let_go(old.res)
+        begins = predictor.guess, u, foreseen, near.known, free
         answer = solve_stage(arrays.chain, facing, arrays.law, mode, before, damper, predictor, begins)
+        if free and answer.iterations == -1:
+            begins = predictor.guess, u, foreseen, near.known, not free
+            answer = solve_stage(arrays.chain, facing, arrays.law, mode, before, damper, predictor, begins)
         if answer.iterations == -1 and old.res.elastic > 0:
             as_before(expected, u, facing.rim, before)
             answer = solve_stage(arrays.chain, facing, arrays.law, mode, before, damper, predictor, begins)
@@ -279,10 +285,8 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         gives = 2 * largest(facing.missing) * (abs(contact.res.normal) + abs(contact.res.friction))
         ahead, behind = beside(arrays, at, window, answer.u, contact.nodal, gives)
         start = at[2] - np.pi + vertex_angle(vertex, window[0]) - arrays.element / 2
-        if ahead < 0:
-            lower = min(lower, start)
-        if behind < 0:
-            higher = max(higher, start + (window[1] + 1) * arrays.element)
+        lower = min(lower, start) if ahead < 0 else lower
+        higher = max(higher, start + (window[1] + 1) * arrays.element) if behind < 0 else higher
         begin, count = window_around(vertex, at[2], lower, higher, 0.0)
         if window[0] <= begin and begin + count <= window[0] + window[1]:
             return Stage(

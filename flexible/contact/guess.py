@@ -137,6 +137,15 @@ def slipping_on(law: Parameters, before: Before, damper: Damper, res: Resultants
 
 
 @loop
+def is_let_go(res: Resultants) -> bool:
+    """Whether the damper has let go of a patch whose springs are still pressed, so that the rim is free.
+
+    It stays let go of until its springs come up. A damper that pulls would have Newton begin with thousands of N on it.
+    """
+    return bool(res.elastic > 0 and res.normal == 0)
+
+
+@loop
 def too_deep(law: Parameters, expected: float, res: Resultants) -> float:
     """How much farther down a patch is than where it carries what is ``expected`` of N_el.
 

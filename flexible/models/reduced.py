@@ -12,6 +12,7 @@ from rigid import Scene
 from rigid.kernel.compile import jit, loop, part
 
 from ..contact.forces import contact_forces
+from ..contact.guess import is_let_go
 from ..contact.laws.listing import is_smoothed, may_end
 from ..contact.points.data import Damper, Parameters, at_start
 from ..contact.points.data import Rim as NearFloor
@@ -116,22 +117,25 @@ def _solved(
         u_old = _moved(arrays, old, window)
         before = at_start(old, u_old)
         u = near.u if near.window == window else u_old
-        facing, begins = _near_floor(arrays, window), FORESEEN if near.elastic > 0 else RAISED
+        facing, guessed = _near_floor(arrays, window), FORESEEN if near.elastic > 0 else RAISED
         # a depth foreseen to a thousandth may make a short step's damper pull: under no pressure no bristle sticks. And
         # a patch that friction drives on snaps off; of laws with modes that is the end of one
         snaps = old.res.normal > 0 and predictor.beta < SNAPS and not may_end(arrays.law)
         smoothed = is_smoothed(arrays.law)
         last = LET_GO if snaps else HELD if smoothed else RAISED
+        begins = LET_GO if is_let_go(old.res) else guessed
+        free = np.zeros(facing.shapes.shape[0])
+        _bend(free, facing.shapes, expected)
         while True:
-            if begins == LET_GO:
-                bent = np.zeros(facing.shapes.shape[0])
-                _bend(bent, facing.shapes, expected)
-                u = bent.reshape(u_old.shape)
-            start = From(u, deepest, near.elastic, near.expected, near.known, begins)
+            at = free.reshape(u_old.shape) if begins == LET_GO else u
+            start = From(at, deepest, near.elastic, near.expected, near.known, begins)
             answer = solve_stage(arrays.frame, facing, arrays.law, mode, before, damper, predictor, start)
             if answer.iterations != -1 or begins == last:
                 break
-            begins += 2 if begins == RAISED and not smoothed else 1
+            if begins == LET_GO:
+                begins = guessed
+            else:
+                begins += 2 if begins == RAISED and not smoothed else 1
         contact = answer.contact
         found = Stage(
             answer.iterations >= 0, answer.d, answer.acc, answer.forces, answer.matrix, window, answer.u, contact.nodal,

@@ -58,12 +58,16 @@ class Sight(NamedTuple):
 
 
 @part
-def sight(model: Any, there: Any, mode: int, way: float) -> Sight:
-    """What tells of events before a step, or behind it, of a hoop that goes that way (see :func:`onward`)."""
+def sight(model: Any, there: Any, old: Any, way: float) -> Sight:
+    """What tells of events before a step from ``old``, or behind it, of a hoop that goes that way (:func:`onward`).
+
+    Whether it rolls is asked once in a step: where bristles that enter are short of their bound a patch that slides has
+    some that stick at one instant and none at the next, and with them its rotation by momentum would jump to and fro.
+    """
     omega, by_momentum = there.vel[2], way
     if there.res.elastic > 0 and (way == 0 or way * omega <= 0):
-        by_momentum = rotation(model, there.pos, there.vel, there.res.stuck > 0)
-    return Sight(mode, there.pos[2], omega, by_momentum, there.res, there.slip_velocity, there.rates)
+        by_momentum = rotation(model, there.pos, there.vel, old.res.stuck > 0)
+    return Sight(old.mode, there.pos[2], omega, by_momentum, there.res, there.slip_velocity, there.rates)
 
 
 @loop

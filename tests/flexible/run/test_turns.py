@@ -12,6 +12,7 @@ from flexible.handover import hand_over
 from flexible.models.chain import ChainHoop
 from flexible.models.reduced import ReducedHoop
 from flexible.models.state import momentum, rotation
+from flexible.time.events import sight
 from rigid import Friction, Hoop, Release, Run, Scene
 
 SOFT = Scene(Hoop(0.1, 1.02, 0.05), Friction(0.35, 0.3), Release(radians(10)), Run(turns=1)).replace(
@@ -70,6 +71,19 @@ def test_the_rigid_hoop_has_the_momenta_of_the_flexible_one(level, stuck):
         assert slip == 0
     else:
         assert along == pytest.approx(momentum(hoop, state, units[0]), rel=1e-9)
+
+
+def test_whether_a_hoop_rolls_is_asked_once_in_a_step():
+    """A patch that slides has bristles that stick at one instant and none at the next: its rotation does not jump so.
+
+    A turn was found at such a jump, in steps of 1e-12, for ever.
+    """
+    hoop, state, _ = on_the_floor(ReducedHoop)
+    some, none = (state._replace(res=state.res._replace(stuck=stuck)) for stuck in (0.5, 0.0))
+    rolling, sliding = (rotation(hoop, state.pos, state.vel, rolls) for rolls in (True, False))
+    assert rolling != pytest.approx(sliding, rel=1e-3)
+    assert [sight(hoop, there, some, 0.0).rotation for there in (some, none)] == [rolling, rolling]
+    assert [sight(hoop, there, none, 0.0).rotation for there in (some, none)] == [sliding, sliding]
 
 
 def test_a_disk_that_vibrates_does_not_turn():
