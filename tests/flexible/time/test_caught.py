@@ -177,7 +177,7 @@ def test_all_nodes_are_caught_alike():
     ],
 )
 def test_normal_force_may_jump_as_a_damped_patch_breaks_loose(k, r, mu, phi0, bending, stiffness, damping, rtol):
-    """It falls to a tenth or less, which a damping factor that stays what it is has no answer for: such runs ended."""
+    """By a tenth or to a hundredth, which a damping factor that stays what it is has no answer for: such runs ended."""
     scene = THICK.replace(
         hoop={"k": k, "r": r},
         friction={"mu_s": mu, "mu": mu},
