@@ -9,5 +9,6 @@
 ``whole``      frame and chain as one vector
 ``lowest``     where the rim is lowest
 ``touch``      the rim at the floor
+``misfit``     what they lack of equilibrium
 ``stage``      one implicit stage
 """

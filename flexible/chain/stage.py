@@ -17,7 +17,7 @@ from ..contact.forces import contact_forces
 from ..contact.forces import example as of_contact
 from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by, moved_damper
 from ..contact.guess import GUESSES, as_before, guess_again, held_again, is_let_go, on_its_way
-from ..contact.newton import before_bend, breaks_loose, goes, move, reached, round_off
+from ..contact.newton import before_bend, breaks_loose, goes, move, reached
 from ..contact.points.data import MOST_ITERATIONS, Before, Bristles, Parameters, Rim, at_start, pulling
 from ..contact.points.rim import vertex_angle, window_around
 from ..contact.stage import Predictor, Stage
@@ -25,9 +25,10 @@ from ..contact.vectors import eliminate, largest, plus, times
 from .bordered import FRAME, Factors, as_one, factor, nothing_factored, solve
 from .mass.ends import EndMass
 from .mass.inertia import Body, Chain
+from .misfit import close, misfit, rounding
 from .rim import RimNodes, follow
 from .rod.corotated import Rod
-from .touch import Facing, add_bending, add_forces, add_rim, astray_of, kept_by, push, touch_of
+from .touch import Facing, kept_by, touch_of
 from .whole import balance, beside, lacking, moved, near_floor, reach, sections, tangent
 
 GROWS = 2.0  # a step of Newton after which the forces are off by this many times as much is taken back to a half
@@ -51,6 +52,16 @@ class Arrays(NamedTuple):
     looked: Any  # (2,) angles between which the first stage of a step has looked for the floor
 
 
+class Begin(NamedTuple):
+    """Where Newton begins."""
+
+    d: Any  # increment
+    u: Any  # (m, 2) displacement of the nodes
+    foreseen: Foreseen
+    tolerance: float  # on forces over 1 + N
+    let_go: bool  # of a patch that is (:func:`flexible.contact.guess.is_let_go`)
+
+
 class Solved(NamedTuple):
     """A stage as compiled code leaves it."""
 
@@ -62,46 +73,6 @@ class Solved(NamedTuple):
     contact: Any
 
 
-@part
-def _round_off(chain: Any, contact: Any, pos: Any, acc: Any, u: Any, scale: float, damper: Any) -> float:
-    """Size of the rounding errors: of the contact's, of strain and inertia."""
-    local = chain.rod.local
-    floor = round_off(contact, pos[1], u, scale, damper)
-    floor += 4e-16 * largest(local[local.shape[0] // 2]) * largest(pos[FRAME:])
-    return floor + 4e-16 * chain.body.ring_mass * largest(acc[FRAME:])
-
-
-class Misfit(NamedTuple):
-    """What frame, sections and the window's nodes lack of equilibrium."""
-
-    frame: Any
-    sections: Any
-    rest: Any  # of the nodes, flat
-    forces: float  # the largest on frame and sections
-    nodes: float  # and of the nodes
-
-
-@part
-def _misfit(touch: Any, contact: Any, place: Any, own: Any, scale: float) -> Misfit:
-    """``own``: forces of inertia, gravity and strain on frame and sections."""
-    frame, force = own[0].copy(), own[1].copy()
-    push(touch, contact, place, frame, force)
-    rest = astray_of(touch, contact.nodal, scale)
-    return Misfit(frame, force, rest, max(largest(frame), largest(force[1:-1])), largest(rest))
-
-
-@part
-def _close(core: Any, chained: Any, touch: Any, contact: Any, chain: Any, scale: float) -> None:
-    """The core of Newton's matrix: what the elimination of the ``chained`` sections left, and the floor."""
-    rod, q, nodes, place = chain
-    for i in range(chained.shape[0]):
-        for k in range(chained.shape[0]):
-            core[i, k] = chained[i, k]
-    add_forces(core, touch, contact.nodal, contact.tangent, scale)
-    add_bending(core, rod, q, nodes, place, contact.nodal)
-    add_rim(core, touch, contact.nodal, scale)
-
-
 def example() -> tuple[tuple[Any, ...], Solved]:
     """Arguments and a result, of the types that compiled code has."""
     (row, table, rim, law, mode, before, damper, _), contact = of_contact()
@@ -110,14 +81,14 @@ def example() -> tuple[tuple[Any, ...], Solved]:
     rod = Rod(row, table, table, cube, cube, row, row, row, seen, table, row, row, table, 0.0, 0.0, 0.0, seen, 0)
     chain = Chain(Body(*none), rod, EndMass(table, table, table, row, row))
     facing = Facing(rim, RimNodes(count, row, cube, np.empty((0, 2, 2, 3, 3))), table)
-    start = row, table, Foreseen(0.0, 0.0), 0.0, False
+    start = Begin(row, table, Foreseen(0.0, 0.0), 0.0, False)
     solved = Solved(0, row, row, table, nothing_factored(), contact)
     return (chain, facing, law, mode, before, damper, Predictor(row, row, 0.0, row), start), solved
 
 
 @apart(example)
 def solve_stage(
-    chain: Any, facing: Facing, law: Any, mode: int, before: Any, damper: Any, predictor: Any, start: Any
+    chain: Any, facing: Facing, law: Any, mode: int, before: Any, damper: Any, predictor: Any, start: Begin
 ) -> Solved:
     """Solve one stage.
 
@@ -128,10 +99,9 @@ def solve_stage(
     law, mode, before, damper :
         See :func:`flexible.contact.forces.contact_forces`.
     predictor : flexible.contact.stage.Predictor
-    start : tuple
-        Increment, displacement of the nodes, (m, 2), :class:`Foreseen`, to begin with; tolerance on forces; let go of?
+    start : Begin
     """
-    d, u, foreseen, tolerance, let_go = start[0].copy(), start[1].copy(), start[2], start[3], start[4]
+    d, u, foreseen, tolerance, let_go = start.d.copy(), start.u.copy(), start.foreseen, start.tolerance, start.let_go
     nodes, rod, m = facing.nodes, chain.rod, facing.nodes.part.shape[0]
     keeps, place = kept_by(rod.theta.shape[0], nodes.part)
     inner = FRAME + 3 * keeps.sum()
@@ -170,8 +140,8 @@ def solve_stage(
         q, frame, force = balance(chain, pos, vel, acc)
         touch = touch_of(rod, q, facing, place, inner, u)
         scale = 1.0 + (law.eps_n + law.eps_t) * res.length  # turns an error of u into one of the forces
-        lacks = _misfit(touch, contact, place, (frame, force), scale)
-        small = tolerance * (1 + abs(res.normal)) + _round_off(chain, contact, pos, acc, u, scale, damper)
+        lacks = misfit(touch, contact, place, (frame, force), scale)
+        small = tolerance * (1 + abs(res.normal)) + rounding(chain, contact, pos, acc, u, scale, damper)
         if not np.isfinite(lacks.forces + lacks.nodes + small):
             break
         if lacks.forces <= small and lacks.nodes <= small * (1 + scale * softest) and iteration > 0:
@@ -182,8 +152,8 @@ def solve_stage(
             break
         worst = lacks.forces
         if moves:
-            worst = _misfit(touch, carries, place, (frame, force), scale).forces
-            lacks = _misfit(touch, moved_back(carries, damper, moved), place, (frame, force), scale)
+            worst = misfit(touch, carries, place, (frame, force), scale).forces
+            lacks = misfit(touch, moved_back(carries, damper, moved), place, (frame, force), scale)
         elif moved_before or (stands.normal == 0 and res.elastic > 0):
             last = np.inf  # of another damper; and what lands too deep comes up
         if worst > (GROWS if iteration < LATE else 1.0) * last and damping > 1e-9:  # beyond a bend, as a damper's onset
@@ -194,7 +164,7 @@ def solve_stage(
         if stale or (iteration > 1 and worst > STALE * last):
             factors = factor(tangent(chain, pos, vel, acc, predictor.beta), keeps, 2 * m)
             chained, stale = factors.core.copy(), False
-        _close(factors.core, chained, touch, carries, (rod, q, nodes, place), scale)
+        close(factors.core, chained, touch, carries, (rod, q, nodes, place), scale)
         eliminate(factors.core, factors.pivots)
         update, update_u = solve(factors, lacks.frame, lacks.sections, lacks.rest)
         if not np.isfinite(largest(update) + largest(update_u)):
@@ -212,7 +182,7 @@ def solve_stage(
 
 @part
 def _followed(
-    arrays: Any, facing: Facing, mode: int, before: Before, damper: Any, predictor: Any, begins: Any
+    arrays: Any, facing: Facing, mode: int, before: Before, damper: Any, predictor: Any, begins: Begin
 ) -> Solved:  # fmt: skip
     """The stage followed from a softer foundation, on which more of the rim lies and less of it comes and goes."""
     law, bristles = arrays.law, before.bristles
@@ -224,7 +194,7 @@ def _followed(
         )  # fmt: skip
         held = Bristles(bristles.number, times(softer, bristles.stretch), bristles.pull, bristles.sliding)
         since = Before(before.pose, before.u, held, before.first, before.dent)
-        start = d, u, foreseen, tolerance if softer <= 1 else ROUGHLY, let_go
+        start = Begin(d, u, foreseen, tolerance if softer <= 1 else ROUGHLY, let_go)
         answer = solve_stage(arrays.chain, facing, by, mode, since, damper, predictor, start)
         if answer.iterations < 0 or softer <= 1:
             return answer
@@ -257,10 +227,10 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         u = follow(arrays.chain.rod, sections(expected), nodes)[0]
         move(expected, u, 1.0, nothing, beyond.ravel())
         foreseen, free = Foreseen(old.res.normal, old.res.friction), is_let_go(old.res)
-        begins = predictor.guess, u, foreseen, near.known, free
+        begins = Begin(predictor.guess, u, foreseen, near.known, free)
         answer = solve_stage(arrays.chain, facing, arrays.law, mode, before, damper, predictor, begins)
         if free and answer.iterations == -1:
-            begins = predictor.guess, u, foreseen, near.known, not free
+            begins = Begin(predictor.guess, u, foreseen, near.known, False)
             answer = solve_stage(arrays.chain, facing, arrays.law, mode, before, damper, predictor, begins)
         if answer.iterations == -1 and old.res.elastic > 0:
             as_before(expected, u, facing.rim, before)
