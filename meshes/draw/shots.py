@@ -150,7 +150,8 @@ class SeriesSource:
         ring = frame.blocks.get("ring")
         if ring is None:
             raise SeriesError(f"{self.series.pvd} has no ring at t = {frame.time}.")
-        low, high = ring.points.min(axis=0), ring.points.max(axis=0)
+        points: Array = np.asarray(ring.points, dtype=np.float64)
+        low, high = points.min(axis=0), points.max(axis=0)
         curves = self.curves
         force: dict[str, float] = {}
         if len(curves.t):
@@ -164,7 +165,7 @@ class SeriesSource:
             ring=ring,
             disk=frame.blocks.get("disk"),
             rim=frame.blocks.get("rim"),
-            centre=np.asarray((low + high) / 2, dtype=float)[:2],
+            centre=(low + high)[:2] / 2,
             radius=float((high - low).max() / 2),
             **force,
         )

@@ -95,7 +95,7 @@ def repeat(par, state, events):
     if par[TURNS] < inf and turns > 0.0:
         count = floor((par[TURNS] - state[TURNS_DONE] - 1) / turns)
     elif par[T_END] < inf and period > 0.0:
-        count = min(floor((par[T_END] - state[T]) / period) - 1, MOST_REPEATS)
+        count = floor(min((par[T_END] - state[T]) / period, MOST_REPEATS + 1)) - 1
     if count < 1.0:
         return
     r = int(state[RECORDS]) * WIDTH

@@ -73,7 +73,7 @@ def figure_3() -> Iterator[Verdict]:
     between = left.y[(left.t > first.t_end + gap / 4) & (left.t < second.t_start - gap / 4)]
     small = float(between.max())
     yield _said(
-        paper.FIGURE_3, "N is almost 0 between pulses", f"N <= {small:.3f} half way", small < 1e-3 * left.y.max()
+        paper.FIGURE_3, "N is almost 0 between pulses", f"N <= {small:.3f} half way", small < 1e-3 * float(left.y.max())
     )
     slips = _changes(left)[0][2]
     jump = f"{left.y[slips - 1]:.3f} to {left.y[slips]:.3f}"

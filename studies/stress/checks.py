@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from bisect import bisect_right
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator
 from itertools import pairwise
 from math import inf, isfinite, isnan
@@ -71,8 +71,8 @@ def numbers(motion: Motion) -> Iterator[float]:
     impacts = [phase.t_start for phase in motion.phases if phase.kind == Kind.IMPACT]
     for pulse in motion.pulses:
         values = pulse.to_dict()
-        if bisect_right(impacts, pulse.t_start) < bisect_right(impacts, pulse.t_end):
-            del values["peak_normal_force"]  # a jam knows none
+        if bisect_left(impacts, pulse.t_start) < bisect_right(impacts, pulse.t_end):
+            del values["peak_normal_force"]  # a jam knows none, at the start of a pulse too
         if pulse.cut:  # what is split at the bottom is unknown
             values = {name: value for name, value in values.items() if "restitution" not in name}
         yield from (value for value in values.values() if isinstance(value, float))
@@ -148,9 +148,9 @@ def apart(a: np.ndarray, b: np.ndarray) -> float:
     return float(np.abs(a - b).max(initial=0.0) / max(1.0, np.abs(a).max(initial=0.0)))
 
 
-def _results(motion: Motion) -> np.ndarray:
-    """Turns and impulses in one row."""
-    return np.concatenate([_turns(motion).ravel(), impulses(motion).ravel()])
+def _changed(motion: Motion, other: Motion) -> float:
+    """How far turns and impulses are apart, each over the largest of their own."""
+    return max(apart(_turns(motion), _turns(other)), apart(impulses(motion), impulses(other)))
 
 
 def sensitivity(motion: Motion) -> float:
@@ -166,7 +166,7 @@ def sensitivity(motion: Motion) -> float:
         phi0, *moving = dataclasses.astuple(scene.release)
         moved = (value + rate if value else 0.0 for value, rate in zip(moving, rates, strict=True))
         release = Release(phi0 + angle, *moved)
-        change = apart(_results(motion), _results(simulate(scene.replace(release=release))))
+        change = _changed(motion, simulate(scene.replace(release=release)))
         worst = max(worst, inf if change > MOST_GROWTH * nudge else change / nudge)
     return worst
 

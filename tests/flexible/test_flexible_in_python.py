@@ -59,14 +59,16 @@ def test_tables_and_curves_of_a_hoop_that_bounces(kept):
     motion = simulate(SCENE.replace(**soft), history=kept)
     steps = np.unique(np.concatenate([piece.segment["t"] for piece in motion.sample.pieces if piece.segment]))
     between, table = (steps[1:] + steps[:-1]) / 2, motion.to_dataframe()
+    # two that are 1e-13 apart, where the patch jumps, and a time between them is told to 1e-15
+    straight = 1e-6 + 2 * np.spacing(between) / np.diff(steps)
     assert len(table) < 1.2 * motion.steps + 500
     pulse, names = motion.pulses[0], ("normal_force", "friction_force", "slip_velocity", "omega")
     inside = (between > pulse.t_start) & (between < pulse.t_end)
     drawn = pulse.plot(*names)
     for name, axes in zip(names, drawn, strict=True):
-        for t, (x, y) in ((between, (table["t"], table[name])), (between[inside], axes.lines[-1].get_xydata().T)):
-            off = np.interp(t, x, y) - getattr(motion.at(t), name)
-            assert np.abs(off).max() < 1e-6 * np.ptp(y)
+        for these, (x, y) in ((slice(None), (table["t"], table[name])), (inside, axes.lines[-1].get_xydata().T)):
+            off = np.interp(between[these], x, y) - getattr(motion.at(between[these]), name)
+            assert (np.abs(off) < straight[these] * np.ptp(y)).all()
     jump = motion.sample.pieces[1].t_start  # where the flexible hoop takes over
     for name in ("normal_force", "y_C"):
         for side, when in (("left", jump - 1e-11), ("right", jump)):

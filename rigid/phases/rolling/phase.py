@@ -68,6 +68,7 @@ from .passes import (  # fmt: skip
 )
 
 LISTED_PERIODS = 2000.0  # of a motion that repeats itself for ever; its turns and pulses after that are not listed
+MOST_PASSES = 2.0**53  # of the bottom that are counted one by one: what time can tell apart
 JUST_INSIDE = 1.0 + 1e-15  # N over M g at the edge of a pulse, on its side
 
 
@@ -104,7 +105,7 @@ def roll_on(par, state, time):
     since = rolling_time(zeta, g, h, low, 0.5 * omega * omega * (zeta + 2 * h))
     reach = (since if side_of(a, top, d) * d > 0 else -since) + time
     if t_turn < inf:
-        passes = floor((reach + t_turn) / (2 * t_turn))
+        passes = floor(min((0.5 * reach + 0.5 * t_turn) / t_turn, MOST_PASSES))
         reach -= 2 * t_turn * passes
         if below <= 0:
             bottom += d * passes

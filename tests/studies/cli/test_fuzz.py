@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import re
 import string
 
 import pytest
@@ -36,6 +37,7 @@ WORDS = [
     HUGE,
     "-1",
     "1e300",
+    "1.7976931348623157e308",
     "-1e300",
     '"a"',
     "[1, 2]",
@@ -54,18 +56,23 @@ values = st.one_of(
 )
 
 
+#: what a pulse in which the run ends has none of, and a jam no largest
+WITHOUT = {"newton_restitution", "poisson_restitution", "energetic_restitution", "peak_normal_force"}
+
+
 def _run(*arguments: str) -> tuple[int, str]:
-    """Exit status and stderr of a command line, within this process; no number on stdout may be missing."""
+    """Exit status and stderr of a command line, within this process; no other number on stdout may be missing."""
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stderr(err), contextlib.redirect_stdout(out):
         status = cli.run(list(arguments))
-    assert "null" not in out.getvalue()
+    assert set(re.findall(r'"(\w+)": null', out.getvalue())) <= WITHOUT
     return status, err.getvalue()
 
 
 def _is_fine_or_one_sentence(status: int, err: str) -> None:
-    assert status in (0, 2)
-    if status == 2:
+    """1 where a motion was begun and stops early: a disk of k < 1e-13 is through the bottom in no time at all."""
+    assert status in (0, 1, 2)
+    if status:
         assert is_one_sentence(err), err
 
 
