@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
-import re
+import json
 import string
 
 import pytest
@@ -56,8 +56,20 @@ values = st.one_of(
 )
 
 
-#: what a pulse in which the run ends has none of, and a jam no largest
-WITHOUT = {"newton_restitution", "poisson_restitution", "energetic_restitution", "peak_normal_force"}
+def _known(text: str) -> str:
+    """What was printed, without the numbers that do not exist: a pulse in which the run begins or ends has no
+    restitution, one that jams no largest force."""
+    if not text.startswith("{"):
+        return text
+    said = json.loads(text)
+    jams = [phase["t_start"] for phase in said["phases"] if phase["kind"] == "impact"]
+    for pulse in said["pulses"]:
+        if pulse["cut"]:
+            for name in ("newton_restitution", "poisson_restitution", "energetic_restitution"):
+                del pulse[name]
+        if any(pulse["t_start"] <= t <= pulse["t_end"] for t in jams):
+            del pulse["peak_normal_force"]
+    return json.dumps(said)
 
 
 def _run(*arguments: str) -> tuple[int, str]:
@@ -65,13 +77,13 @@ def _run(*arguments: str) -> tuple[int, str]:
     out, err = io.StringIO(), io.StringIO()
     with contextlib.redirect_stderr(err), contextlib.redirect_stdout(out):
         status = cli.run(list(arguments))
-    assert set(re.findall(r'"(\w+)": null', out.getvalue())) <= WITHOUT
+    assert "null" not in _known(out.getvalue())
     return status, err.getvalue()
 
 
 def _is_fine_or_one_sentence(status: int, err: str) -> None:
-    """1 where a motion was begun and stops early: a disk of k < 1e-13 is through the bottom in no time at all."""
-    assert status in (0, 1, 2)
+    """1 where a motion needs too much work: a disk of k < 1e-13 is through the bottom in no time at all."""
+    assert status in (0, 2) or (status == 1 and "the work bound is reached" in err)
     if status:
         assert is_one_sentence(err), err
 
