@@ -50,9 +50,10 @@ class Placement:
 
     def stress(self, stress: Array) -> Array:
         """World components (xx, yy, xy) of a stress given by its components (11, 22, 12), (n, 3)."""
-        full = np.stack([stress[:, [0, 2]], stress[:, [2, 1]]], axis=1)
-        world = np.einsum("ai,nab,bj->nij", self.axes, full, self.axes)
-        return np.column_stack([world[:, 0, 0], world[:, 1, 1], world[:, 0, 1]])
+        (x1, y1), (x2, y2) = self.axes
+        of_11, of_22 = (x1 * x1, y1 * y1, x1 * y1), (x2 * x2, y2 * y2, x2 * y2)
+        of_12 = (2 * x1 * x2, 2 * y1 * y2, x1 * y2 + x2 * y1)
+        return stress @ np.array([of_11, of_22, of_12])
 
 
 def von_mises(stress: Array) -> Array:

@@ -20,11 +20,11 @@ import zlib
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
+from html import escape
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 from xml.etree import ElementTree
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -110,7 +110,7 @@ class SeriesWriter:
                 last = self._last[name] = (block, file)
             entries.append(
                 f'<DataSet timestep="{float(frame.time)!r}" group="" part="{part}" '
-                f"name={quoteattr(name)} file={quoteattr(f'{_FOLDER}/{last[1]}')}/>"
+                f'name="{escape(name)}" file="{escape(f"{_FOLDER}/{last[1]}")}"/>'
             )
         self._entries.append("\n".join(entries))
         self._time = frame.time

@@ -11,10 +11,10 @@ from __future__ import annotations
 import zlib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from html import escape
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 
@@ -40,12 +40,13 @@ _TAIL = b"\n</AppendedData>\n</VTKFile>\n"
 
 @dataclass
 class Encoder:
-    """Blocks to bytes; remembers the code of connectivities, which hardly ever change."""
+    """Blocks to bytes; remembers the code of words, and of connectivities, which hardly ever change."""
 
     #: of zlib: only runs of one byte are looked for. In doubles there is little else; to look for that too takes twice
     #: the time and makes a file 5 % smaller, and higher levels save nothing on their low bits
     strategy: int = zlib.Z_RLE
     _kept: dict[int, tuple[AnyArray, list[tuple[str, bytes]]]] = field(default_factory=dict)
+    _words: dict[str, tuple[str, bytes]] = field(default_factory=dict)
 
     def encode(self, block: Block, time: float, name: str = "", units: Mapping[str, str] | None = None) -> bytes:
         """The bytes of the VTU file of ``block``, with its time as VTK's field ``TimeValue``.
@@ -71,14 +72,14 @@ class Encoder:
             f"{BLOCK}{name}" if name else "",
             *(f"{UNIT}{field}: {unit}" if unit else "" for field, unit in known.items()),
         ]
-        labels = {word: np.ones(1) for word in words if word}
-        values = {"TimeValue": np.array([time]), **labels, **block.field_data}
+        values = {"TimeValue": np.array([time]), **block.field_data}
         header = "\n".join(
             [
                 ' header_type="UInt32" compressor="vtkZLibDataCompressor">',
                 "<UnstructuredGrid>",
                 "<FieldData>",
-                add(self._array(name, v, f'NumberOfTuples="{len(v)}"') for name, v in values.items()),
+                add(self._array(name, v, _tuples(v)) for name, v in values.items()),
+                add(self._word(word) for word in words if word),
                 "</FieldData>",
                 f'<Piece NumberOfPoints="{len(block.points)}" NumberOfCells="{len(block.cells)}">',
                 "<PointData>",
@@ -107,11 +108,17 @@ class Encoder:
         columns = value.shape[1] if value.ndim == 2 else 1
         for i, component in enumerate(_COMPONENTS.get(name, ())):
             more += f' ComponentName{i}="{component}"'
-        attributes = f'type="{_NAMES[dtype]}" Name={quoteattr(name)} NumberOfComponents="{columns}" {more}'
+        attributes = f'type="{_NAMES[dtype]}" Name="{escape(name)}" NumberOfComponents="{columns}" {more}'
         raw = np.ascontiguousarray(value, dtype=dtype).tobytes()
         packer = zlib.compressobj(1, strategy=self.strategy)
         code = packer.compress(raw) + packer.flush()
         return attributes, np.array([1, len(raw), len(raw), len(code)], dtype="<u4").tobytes() + code
+
+    def _word(self, word: str) -> tuple[str, bytes]:
+        if word not in self._words:
+            one = np.ones(1)
+            self._words[word] = self._array(word, one, _tuples(one))
+        return self._words[word]
 
     def _cells(self, block: Block) -> list[tuple[str, bytes]]:
         kept = self._kept.get(id(block.cells))
@@ -126,6 +133,10 @@ class Encoder:
                 self._kept.clear()
             kept = self._kept[id(block.cells)] = (block.cells, code)
         return kept[1]
+
+
+def _tuples(value: AnyArray) -> str:
+    return f'NumberOfTuples="{len(value)}"'
 
 
 def read_vtu(path: Path) -> Block:

@@ -42,6 +42,7 @@ def write_whole(path: Path, write: Callable[[Path], object], synced: bool = Fals
     if not path.name:  # "", "." and "/"
         raise OSError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
     part = path.with_name(f"{PART}{host()}-{os.getpid()}-{os.urandom(6).hex()}{path.suffix}")
+    named = False
     try:
         part.touch(exist_ok=False)
         write(part)
@@ -49,9 +50,11 @@ def write_whole(path: Path, write: Callable[[Path], object], synced: bool = Fals
             with part.open("rb+") as whole:
                 os.fsync(whole.fileno())
         os.replace(part, path)
+        named = True
     except OSError as error:
         if error.errno is None:  # a sentence of some library's, which may name what it was given
             raise OSError(str(error).replace(str(part), str(path))) from None
         raise OSError(error.errno, error.strerror, str(path)) from None
     finally:
-        part.unlink(missing_ok=True)
+        if not named:
+            part.unlink(missing_ok=True)

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .style import RIGID, panels_on
-
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
@@ -42,6 +40,8 @@ class Distance(NamedTuple):
 
 def draw(distances: Mapping[str, Distance], axes: Any = None) -> NDArray[np.object_]:
     """A panel for each, beside one another; on ``axes`` or in a new figure."""
+    from .style import panels_on
+
     panels = panels_on(axes, len(distances), (4.8, 5.0))
     for axis, (name, distance), colour in zip(panels, distances.items(), COLOURS, strict=False):
         panel(axis, distance, WORDS.get(name, name), colour)
@@ -54,6 +54,8 @@ def panel(axes: Axes, distance: Distance, words: str, colour: str) -> None:
 
     A sequence that is its limit throughout has none of these.
     """
+    from .style import RIGID
+
     s, off, error = distance.stiffness, distance.off, distance.error
     if not np.any(abs(off) > ROUND_OFF):
         axes.text(0.5, 0.5, "the rigid value, to round-off", transform=axes.transAxes, ha="center", color="0.4")

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import matplotlib
-import numpy as np
 from matplotlib.figure import Figure
 
 from rigid import Motion, Pulse, simulate
@@ -15,12 +14,13 @@ from ..plots.pulse import Curve, energy, impulses, pulse
 from ..plots.style import RIGID, STYLE, blank, colours, power_of_ten
 from ..running.history import dimensionless
 from .found import Rung, StiffnessStudy
+from .ladder import spread
 
 
 def forces(study: StiffnessStudy) -> Figure:
     """The first pulse over time at some of the stiffnesses, and what is left between each and the rigid hoop."""
     passage = passage_of(*_rigid_pulse(study))
-    own = [rung.outcome.histories[0] for rung in chosen(study.rungs)]
+    own = [rung.outcome.histories[0] for rung in _drawn(study)]
     left = [dimensionless(at_the_same_angle(columns, passage), study.scene) for columns in own]
     return pulse(_curves(study), "Through the first pulse", left, study.ladder.raised)
 
@@ -30,14 +30,14 @@ def impulse_space(study: StiffnessStudy) -> Figure | None:
     if study.scene.friction.mu_s == 0:
         return None
     along = impulses_along(*_rigid_pulse(study))
-    own = [rung.outcome.histories[0] for rung in chosen(study.rungs)]
+    own = [rung.outcome.histories[0] for rung in _drawn(study)]
     left = [at_the_same_normal_impulse(columns, along) / study.scene.impulse_unit for columns in own]
     return impulses(_curves(study), study.scene.friction.mu, left, study.ladder.raised)
 
 
 def energies(study: StiffnessStudy) -> Figure | None:
     """Where the energy is at a stiffness in the middle."""
-    rungs = chosen(study.rungs)
+    rungs = _drawn(study)
     if not rungs:
         return None
     middle = rungs[len(rungs) // 2]
@@ -51,7 +51,7 @@ def _rigid_pulse(study: StiffnessStudy) -> tuple[Motion, Pulse]:
 
 
 def _curves(study: StiffnessStudy) -> list[Curve]:
-    rungs = chosen(study.rungs)
+    rungs = _drawn(study)
     through = [dimensionless(rung.outcome.histories[0], study.scene) for rung in rungs]
     curves: list[Curve] = [
         (power_of_ten(rung.stiffness), columns, colour)
@@ -60,12 +60,8 @@ def _curves(study: StiffnessStudy) -> list[Curve]:
     return [*curves, ("rigid", dimensionless(study.reference.histories[0], study.scene), RIGID)]
 
 
-def chosen(rungs: Sequence[Rung], most: int = 5) -> list[Rung]:
-    """At most so many rungs, evenly over those that came through with histories."""
-    through = [rung for rung in rungs if rung.outcome.histories]
-    if len(through) <= most:
-        return through
-    return [through[round(i)] for i in np.linspace(0, len(through) - 1, most)]
+def _drawn(study: StiffnessStudy) -> list[Rung]:
+    return spread([rung for rung in study.rungs if rung.outcome.histories])
 
 
 def distances(study: StiffnessStudy) -> Figure:

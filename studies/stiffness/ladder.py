@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
+from typing import TypeVar
 
 import numpy as np
 
 from rigid import Scene, SceneError, SceneLike, as_scene
 from rigid.allowed import require, require_choice, require_whole
+
+T = TypeVar("T")
 
 ALONG = ("both", "contact", "bending")
 
@@ -100,3 +104,10 @@ class Ladder:
                 )
             )
         return rungs
+
+
+def spread(rungs: Sequence[T], most: int = 5) -> list[T]:
+    """At most so many of the rungs, which are drawn: evenly from the first to the last."""
+    if len(rungs) <= most:
+        return list(rungs)
+    return [rungs[round(i)] for i in np.linspace(0, len(rungs) - 1, most)]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..plots.page import write_page
 from .found import LIMITS
+from .ladder import spread
 from .summary import (
     LIMIT_HEADING,
     case_cells,
@@ -57,11 +58,9 @@ they hold."""
 
 def captions(study: StiffnessStudy) -> dict[str, str]:
     """What stands under each figure of a study: of lines and cases those that are drawn."""
-    from .figures import chosen
-
     told = dict(CAPTIONS)
     through = [rung for rung in study.rungs if rung.outcome.histories]
-    drawn = chosen(through)
+    drawn = spread(through)
     if len(drawn) < len(through):
         some = f" Of the {len(through)} cases {len(drawn)} are drawn, those that the legend names."
         told |= {name: told[name] + some for name in ("pulse", "impulses")}
