@@ -18,7 +18,7 @@ FORCES = ("normal_force", "friction_force", "slip_velocity")
 
 _FINER = 32  # its square is by how much finer
 _NEWTON = 4  # from a guess that is good to a sampling interval each step squares what is left
-_ROUND_OFF = 1e-15  # of an angle
+_LAST = 1e-9  # radians; what is left behind a step of so much is round-off
 
 
 class Passage(NamedTuple):
@@ -64,10 +64,10 @@ def at_the_same_angle(columns: Columns, passage: Passage) -> Columns:
     states = motion.at(when)
     for _ in range(_NEWTON):
         away = np.where(outside, 0.0, states.phi - asked)
-        if np.max(np.abs(away)) <= _ROUND_OFF * np.max(np.abs(phi)):
-            break
         when = np.clip(when - away / np.where(states.omega == 0, np.inf, states.omega), t[0], t[-1])
         states = motion.at(when)
+        if np.max(np.abs(away)) <= _LAST:
+            break
     return {name: np.where(outside, np.nan, columns[name] - getattr(states, name)) for name in FORCES}
 
 
