@@ -22,11 +22,13 @@ from concurrent.futures import Future
 from contextlib import contextmanager
 from multiprocessing.connection import Connection
 from multiprocessing.connection import wait as wait_for_any
-from multiprocessing.context import ForkServerContext, SpawnContext
 from multiprocessing.process import BaseProcess
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from . import BLAS_THREADS, search_garbage_seldom
+
+if TYPE_CHECKING:
+    from multiprocessing.context import ForkServerContext, SpawnContext
 
 _ONE_THREAD = dict.fromkeys((*BLAS_THREADS, "NUMBA_NUM_THREADS"), "1")
 
@@ -54,6 +56,7 @@ class Processes:
 
     def __init__(self, count: int, ahead: Sequence[str] = ()) -> None:
         self._ahead = list(ahead)
+        self._forks = bool(ahead) and sys.platform == "linux"  # macOS has libraries that do not outlive a fork
         self._tasks: queue.SimpleQueue[tuple[Task, Future[Any]] | None] = queue.SimpleQueue()
         self._closing = threading.Event()
         self._workers: dict[int, BaseProcess] = {}
@@ -107,23 +110,27 @@ class Processes:
 
     def _start(self, slot: int) -> Connection:
         """A new worker for a slot."""
-        # either way nothing of this process, its threads least of all, is inherited but the environment
-        context: SpawnContext | ForkServerContext = multiprocessing.get_context("spawn")
-        if self._ahead and sys.platform == "linux":  # macOS has libraries that do not outlive a fork
-            context = multiprocessing.get_context("forkserver")
-            context.set_forkserver_preload(self._ahead)
-        ours, theirs = context.Pipe()
         with _STARTING, _one_thread():
             if self._closing.is_set():
                 raise WorkerDied("the pool is closed")
-            worker = context.Process(target=_work, args=(theirs, _LOGGER.level, dict(os.environ)), daemon=True)
+            if self._forks:
+                context = multiprocessing.get_context("forkserver")
+                context.set_forkserver_preload(self._ahead)
+                try:
+                    return self._begin(slot, context)
+                except (OSError, EOFError):  # as where the folder for temporary files has no room for a socket's name
+                    self._forks = False
             try:
-                worker.start()
-            except EOFError:  # the process that it was to be forked from is gone
-                raise WorkerDied(_DIED) from None
+                return self._begin(slot, multiprocessing.get_context("spawn"))
             except OSError as error:  # no more processes, memory or files are allowed, or the current folder is gone
                 raise WorkerDied(f"its worker process could not be started: {error.strerror or error}") from None
-            self._workers[slot] = worker
+
+    def _begin(self, slot: int, context: SpawnContext | ForkServerContext) -> Connection:
+        # either way nothing of this process, its threads least of all, is inherited but the environment
+        ours, theirs = context.Pipe()
+        worker = context.Process(target=_work, args=(theirs, _LOGGER.level, dict(os.environ)), daemon=True)
+        worker.start()
+        self._workers[slot] = worker
         theirs.close()
         return ours
 

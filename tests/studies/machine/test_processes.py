@@ -11,6 +11,8 @@ from studies.machine.processes import Processes
 
 AHEAD = "this"  # nothing but a test imports it
 
+on_linux = pytest.mark.skipif(sys.platform != "linux", reason="workers are forked there alone")
+
 
 @pytest.fixture
 def workers():
@@ -29,11 +31,23 @@ def loaded(name: str) -> bool:
     return name in sys.modules
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="workers are forked on Linux alone")
+@on_linux
 def test_what_tasks_take_is_there_before_the_first_of_them(workers):
     assert AHEAD not in sys.modules
     assert workers(1, (AHEAD,)).submit(loaded, AHEAD).result()
     assert not workers(1).submit(loaded, AHEAD).result()
+
+
+@on_linux
+@pytest.mark.parametrize("trouble", [OSError("AF_UNIX path too long"), EOFError("unexpected EOF")])
+def test_where_none_can_be_forked_each_is_by_itself(workers, monkeypatch, trouble):
+    def refused(worker):
+        raise trouble
+
+    monkeypatch.setattr("multiprocessing.context.ForkServerProcess.start", refused)
+    processes = workers(2, (AHEAD,))
+    for _ in range(2):
+        assert not processes.submit(loaded, AHEAD).result()
 
 
 @pytest.mark.parametrize("ahead", [(), (AHEAD,)], ids=["each by itself", "forked"])
