@@ -19,7 +19,7 @@ from rigid.output.units import without_units
 
 from .airborne import rise
 from .contact.laws.law import Rolling
-from .contact.laws.listing import sticks
+from .contact.laws.listing import is_smoothed
 from .contact.points.data import NOTHING, no_bristles
 from .contact.points.rim import lift, sideways, upward
 from .models.equilibrium import Patch
@@ -227,22 +227,23 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, there: States | None = None)
     vel[1] += rise(motion, t, now)
     law, res, bristles, creep = hoop.law, state.res, state.bristles, 0.0
     if len(bristles.number) and pose.kind == Kind.ROLL:
-        bristles, creep = law.rolled_in(bristles, res, Rolling(pose.phi, pose.omega))
+        bristles, creep = law.rolled_in(bristles, res, Rolling(pose.phi, pose.omega, hoop.relaxation))
     elif len(bristles.number):
         bristles = law.slid_in(bristles, res)
     vel[0] = pose.slip_velocity + creep - u_rate - pose.omega * _lift(hoop, state)
     state = state._replace(
         vel=vel, acc=np.zeros_like(vel), bristles=bristles, slip_velocity=pose.slip_velocity + creep
     )  # fmt: skip
-    held = sticks(law.parameters, state.mode) and len(bristles.number) > 0
-    return _balanced(hoop, state, pose) if held else restart(hoop, state, state.mode)
+    held = pose.kind == Kind.ROLL and len(bristles.number) > 0 and not is_smoothed(law.parameters)
+    return _balanced(hoop, state, pose, creep) if held else restart(hoop, state, state.mode)
 
 
-def _balanced(hoop: Hoop, state: State, pose: Pose) -> State:
+def _balanced(hoop: Hoop, state: State, pose: Pose, creep: float) -> State:
     """``state`` under its own law of friction, with the height and the stretch at which it carries N and F of the pose.
 
-    The ring gives way to a friction that is not shared like the pressure, so both come out a little different at first;
-    a hoop of small inertia would start with the acceleration that the difference makes. Broyden's method.
+    The ring gives way to a friction that is not shared like the pressure, and bristles of a brush have let go at its
+    rear, so both come out different at first; a hoop of small inertia would start with the acceleration that the
+    difference makes. The ``creep`` of the state goes with the stretch that it keeps up. Broyden's method.
     """
     wanted = np.array([pose.normal_force, pose.friction_force])
     best, least = restart(hoop, state, state.mode), np.inf
@@ -251,11 +252,15 @@ def _balanced(hoop: Hoop, state: State, pose: Pose) -> State:
     inverse = np.diag([-1 / (hoop.law.parameters.eps_n * best.res.length + 1e-300), by_stretch])  # of their derivatives
     change, step, off = np.zeros(2), np.zeros(2), np.zeros(2)  # of height and share of the stretch
     for _ in range(25):
-        raised = state.pos.copy()
-        raised[1] += change[0]
-        bristles = state.bristles._replace(stretch=state.bristles.stretch * (1 + change[1]))
+        pos, vel = state.pos.copy(), state.vel.copy()
+        pos[1] += change[0]
+        vel[0] += change[1] * creep
+        other = state._replace(
+            pos=pos, vel=vel, slip_velocity=state.slip_velocity + change[1] * creep,
+            bristles=state.bristles._replace(stretch=state.bristles.stretch * (1 + change[1])),
+        )  # fmt: skip
         try:
-            found = restart(hoop, state._replace(pos=raised, bristles=bristles), state.mode)
+            found = restart(hoop, other, state.mode)
         except MarchError:
             break
         before, off = off, np.array([found.res.normal, found.res.friction]) - wanted

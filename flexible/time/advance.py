@@ -15,6 +15,7 @@ from rigid.kernel.compile import jit, loop, part
 
 from ..contact.forces import contact_forces
 from ..contact.laws.listing import breaks, care, free, sticks
+from ..contact.points.bristles import drag_of
 from ..contact.points.data import EXACTLY, Parameters
 from ..contact.points.rim import turned
 from ..models import reduced
@@ -181,7 +182,7 @@ def _stalled(stalls: int, length: float, slid: bool) -> int:
 @loop
 def _damping(aims: Aims, law: Parameters, state: State) -> tuple[float, float]:
     """The normal damper's time, and the coefficient of the sticking patch against slip."""
-    return aims.relaxation, aims.relaxation * law.eps_t * state.res.length
+    return aims.relaxation, drag_of(law, state.res.length, aims.relaxation)
 
 
 @loop

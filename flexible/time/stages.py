@@ -207,10 +207,12 @@ def _posed(old: Any, h: float, table: Table, known: _Known, i: int, damping: Any
 
 
 @part
-def _at_once(old: Any, known: _Known) -> tuple[Predictor, Damper]:
-    """The same of a step of no length: rates stay what they are."""
+def _at_once(old: Any, known: _Known, drag: float) -> tuple[Predictor, Damper]:
+    """The same of a step of no length: rates stay what they are, and so does what a damper of coefficient ``drag``
+    holds the patch with."""
     eta = old.res.eta if old.res.elastic > 0 else 1.0
-    damper = Damper(0.0, 0.0, eta, 0.0, 0.0, 1.0, 0.0, old.slip_velocity, 0.0, False, 0.0)
+    held = -drag * old.slip_velocity
+    damper = Damper(0.0, 0.0, eta, 0.0, 0.0, 1.0, 0.0, old.slip_velocity, 0.0, False, held)
     return Predictor(known.pos[0].copy(), known.vel[0].copy(), INSTANT, times(INSTANT**2, known.acc[0])), damper
 
 
@@ -240,7 +242,7 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any, known_to: f
     ok, error = True, 0.0
     pose, carried = old.pos, old.res.elastic
     for i in range(1, end + 1):
-        predictor, damper = _posed(old, h, table, known, i, damping) if h > 0 else _at_once(old, known)
+        predictor, damper = _posed(old, h, table, known, i, damping) if h > 0 else _at_once(old, known, damping[1])
         pos, vel = predictor.pos, predictor.vel
         begins = largest(pos) + largest(vel) + largest(predictor.guess) + damper.elastic_0 + damper.way_0
         # without numbers to begin with there is nothing to solve: no angle, no rim

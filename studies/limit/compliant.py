@@ -137,8 +137,7 @@ def _start(way: Passage, eps: float) -> tuple[np.ndarray, int, object]:
     kept = bristles(2 * half / _POINTS)
     mode = STICK
     if first.pull is None:
-        undamped = way.contact if way.contact.law == REGULARISED else way.contact._replace(law=PATCH, theta=0.0)
-        slip = creep(undamped, normal, friction, first.omega).slip
+        slip = creep(way.contact, normal, friction, first.omega).slip
         curve = np.array([slip * half / abs(first.omega), slip / first.omega, 0.0])
     else:
         slip = way.first_slip / eps

@@ -22,7 +22,7 @@ from ..inner.body import arms, rolling_forces, rolling_inertia
 from ..inner.creep import creep
 from ..inner.events import REVERSAL, START, Event, Passage, Stretch, passage
 from ..inner.layers import slip_behind
-from ..inner.march import BRUSH, PATCH, REGULARISED
+from ..inner.march import BRUSH, REGULARISED
 from ..inner.scales import epsilon
 from ..running.measures import OF_THE_MEASURE, units_of_measures
 from . import onset
@@ -168,13 +168,12 @@ def _reaches(stretch: Stretch, psi: float) -> bool:
 
 
 def _handed_over(way: Passage) -> Shift:
-    """The flexible hoop takes phidot over, and creeps as an undamped patch would, or as the regularised law does."""
+    """The flexible hoop takes phidot over, and creeps as its patch does in steady rolling."""
     first = way.stretches[0]
     if first.pull is not None:
         return NOTHING
     normal, friction, _ = rolling_forces(way.body, first.psi_start, first.omega)
-    undamped = way.contact if way.contact.law == REGULARISED else way.contact._replace(law=PATCH, theta=0.0)
-    return Shift(0.0, creep(undamped, normal, friction, first.omega).slip, 0.0)
+    return Shift(0.0, creep(way.contact, normal, friction, first.omega).slip, 0.0)
 
 
 def _along(way: Passage, stretch: Stretch, shift: Shift, creeps: bool) -> tuple[Shift, float]:

@@ -3,9 +3,6 @@
 The standard library's pool does not say which task a dead worker had, is broken as a whole by it, and offers no way
 to end a worker that hangs. Here a death is the failure of one task, and :meth:`Processes.stop` ends everything at
 once.
-
-Where Linux lets them, workers are forked from a process that has imported what each of them takes: once for all, and in
-memory that they share (the standard library's "forkserver"). Elsewhere each is spawned and imports it itself.
 """
 
 from __future__ import annotations
@@ -15,20 +12,16 @@ import multiprocessing
 import os
 import queue
 import signal
-import sys
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from contextlib import contextmanager
 from multiprocessing.connection import Connection
 from multiprocessing.connection import wait as wait_for_any
-from multiprocessing.process import BaseProcess
-from typing import TYPE_CHECKING, Any
+from multiprocessing.context import SpawnProcess
+from typing import Any
 
 from . import BLAS_THREADS, search_garbage_seldom
-
-if TYPE_CHECKING:
-    from multiprocessing.context import ForkServerContext, SpawnContext
 
 _ONE_THREAD = dict.fromkeys((*BLAS_THREADS, "NUMBA_NUM_THREADS"), "1")
 
@@ -45,21 +38,12 @@ class WorkerDied(RuntimeError):
 
 
 class Processes:
-    """``count`` worker processes; tasks go to whichever is free, in their order.
+    """``count`` worker processes; tasks go to whichever is free, in their order."""
 
-    Parameters
-    ----------
-    count : int
-    ahead : sequence of str
-        Modules that the tasks take, which workers have from the beginning where that saves time.
-    """
-
-    def __init__(self, count: int, ahead: Sequence[str] = ()) -> None:
-        self._ahead = list(ahead)
-        self._forks = bool(ahead) and sys.platform == "linux"  # macOS has libraries that do not outlive a fork
+    def __init__(self, count: int) -> None:
         self._tasks: queue.SimpleQueue[tuple[Task, Future[Any]] | None] = queue.SimpleQueue()
         self._closing = threading.Event()
-        self._workers: dict[int, BaseProcess] = {}
+        self._workers: dict[int, SpawnProcess] = {}
         self._threads = [threading.Thread(target=self._hold, args=(slot,), daemon=True) for slot in range(count)]
         for thread in self._threads:
             thread.start()
@@ -77,8 +61,7 @@ class Processes:
             self._tasks.put(None)
         with _STARTING:  # whoever is being started is started, and sees that it is too late
             for worker in self._workers.values():
-                if worker.is_alive():
-                    worker.kill()
+                worker.kill()
         for thread in self._threads:
             thread.join()
 
@@ -110,32 +93,23 @@ class Processes:
 
     def _start(self, slot: int) -> Connection:
         """A new worker for a slot."""
+        # spawn: nothing of this process, its threads least of all, is inherited but the environment
+        context = multiprocessing.get_context("spawn")
+        ours, theirs = context.Pipe()
+        worker = context.Process(target=_work, args=(theirs, _LOGGER.level), daemon=True)
         with _STARTING, _one_thread():
             if self._closing.is_set():
                 raise WorkerDied("the pool is closed")
-            if self._forks:
-                context = multiprocessing.get_context("forkserver")
-                context.set_forkserver_preload(self._ahead)
-                try:
-                    return self._begin(slot, context)
-                except (OSError, EOFError):  # as where the folder for temporary files has no room for a socket's name
-                    self._forks = False
             try:
-                return self._begin(slot, multiprocessing.get_context("spawn"))
+                worker.start()
             except OSError as error:  # no more processes, memory or files are allowed, or the current folder is gone
                 raise WorkerDied(f"its worker process could not be started: {error.strerror or error}") from None
-
-    def _begin(self, slot: int, context: SpawnContext | ForkServerContext) -> Connection:
-        # either way nothing of this process, its threads least of all, is inherited but the environment
-        ours, theirs = context.Pipe()
-        worker = context.Process(target=_work, args=(theirs, _LOGGER.level, dict(os.environ)), daemon=True)
-        worker.start()
-        self._workers[slot] = worker
+            self._workers[slot] = worker
         theirs.close()
         return ours
 
     @staticmethod
-    def _answer(pipe: Connection, worker: BaseProcess) -> tuple[Any, BaseException | None]:
+    def _answer(pipe: Connection, worker: SpawnProcess) -> tuple[Any, BaseException | None]:
         wait_for_any([pipe, worker.sentinel])
         try:
             if pipe.poll():  # also where it died just after it had answered
@@ -147,15 +121,12 @@ class Processes:
         raise WorkerDied(_DIED)
 
 
-def _work(pipe: Connection, level: int, environment: dict[str, str]) -> None:
+def _work(pipe: Connection, level: int) -> None:
     """What a worker does: leave interrupts to the parent, end with it even if it is killed, and answer.
 
-    It is as quiet about compiling as its parent, whose logger has that ``level``, and has its environment of now, which
-    the process that it was forked from may not have.
+    It is as quiet about compiling as its parent, whose logger has that ``level``.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    os.environ.clear()
-    os.environ.update(environment)
     search_garbage_seldom()
     _LOGGER.setLevel(level)
     parent = multiprocessing.parent_process()

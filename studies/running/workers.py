@@ -24,9 +24,6 @@ T = TypeVar("T")
 _EARLY = 4
 """So many processes begin at once, before there is anything for them to do; the others with their first case."""
 
-_AHEAD = ("flexible", "studies.running.case")
-"""What all cases take of modules."""
-
 _DEATHS = 3
 """A case whose worker has died this often is not tried again."""
 
@@ -79,7 +76,7 @@ class Machine(Pool):
 
     def __init__(self, workers: int) -> None:
         self._count = workers
-        self._processes = Processes(workers, _AHEAD)
+        self._processes = Processes(workers)
         self._ready: set[str] = set()
         for _ in range(min(workers, _EARLY)):
             self._processes.submit(_awake)

@@ -276,7 +276,7 @@ def run_stress(
         for low in range(0, count, step):
             nodes = kind == FLEXIBLE and not quick
             tasks.append(Task(kind, seed, count, low, min(low + step, count), steps, seconds, nodes))
-    processes = Processes(cores(), ("flexible", __name__))
+    processes = Processes(cores())
     try:
         futures = [processes.submit(run_chunk, task) for task in tasks]
         for number, (future, task) in enumerate(zip(futures, tasks, strict=True)):

@@ -11,6 +11,8 @@ import rigid
 from flexible.handover import equilibrium, hand_over, pose_at
 from flexible.models.chain import ChainHoop
 from flexible.models.reduced import ReducedHoop
+from flexible.time.adaptive import march
+from flexible.time.course import Ends
 from rigid import Friction, Hoop, Kind, Release, Run, Scene
 
 
@@ -54,6 +56,42 @@ def test_rate_of_the_patch(k, place):
     n = motion.at(t + h * np.arange(3)).normal_force
     rate = (-3 * n[0] + 4 * n[1] - n[2]) / (2 * h)
     assert state.vel[1] == pytest.approx(2 / 3 * state.pos[1] * rate / n[0], rel=1e-2)
+
+
+@pytest.mark.parametrize(("k", "mass"), [(0.7, 0.0), (0.322, 0.632)])
+@pytest.mark.parametrize(
+    ("law", "damping", "share"), [("patch", 0.0, 0.01), ("patch", 1.0, 0.01), ("brush", 1.0, 0.05)]
+)
+def test_a_rolling_patch_goes_on_as_it_was_handed_over(law, damping, share, k, mass):
+    """It creeps, and damper and bristles share F as they do in steady rolling: F stays that of the rigid hoop.
+
+    For as long as a point takes through the patch, which all bristles that were handed over leave meanwhile. A brush,
+    whose rear slides, carries 5/6 of what it can; a bristle of its 12 or so that breaks is 2 to 3 % of that.
+    """
+    scene = Scene(Hoop(k, 1.05, mass), Friction(0.4, 0.2), Release(1.35, 0.6), Run(until="pulse"))
+    scene = scene.replace(contact={"stiffness": 2.4e7, "law": law, "damping": damping})
+    scene = scene.replace(ring={"bending_stiffness": 1141.0})
+    motion = rigid.simulate(scene)
+    hoop = ReducedHoop(scene)
+    start = hand_over(hoop, motion, 0.0)
+    assert motion.phases[0].kind == Kind.ROLL
+    assert abs(start.res.friction) > 0.2 * start.res.normal
+    through = start.res.length / abs(start.vel[2])
+    _, records, _, _, _ = march(hoop, start, Ends(t=through), 1e-5)
+    expected = motion.at(np.array([r.t for r in records])).friction_force
+    assert np.array([r.friction_force for r in records]) == pytest.approx(expected, rel=share)
+
+
+@pytest.mark.parametrize("stiffer", [1.0, 40.0])
+def test_a_hoop_that_rolls_is_not_made_to_slip_by_its_hand_over(stiffer):
+    """The rigid hoop never needs more than 0.76 mu_s N; one that once slips, with a mu of 0.1, slips for long."""
+    scene = Scene(Hoop(0.322, 1.05, 0.632), Friction(0.276, 0.1), Release(radians(20)), Run(until="pulse"))
+    scene = scene.replace(ring={"bending_stiffness": 1141.0 * stiffer}, contact={"stiffness": 2.4e7 * stiffer})
+    motion = rigid.simulate(scene)
+    states = motion.at(np.linspace(0, motion.t_end, 1000))
+    assert np.abs(states.friction_force / states.normal_force).max() < 0.76 * 0.276
+    assert [phase.kind for phase in motion.phases] == [Kind.ROLL]
+    assert [phase.kind for phase in flexible.simulate(scene).phases] == [Kind.ROLL]
 
 
 @pytest.mark.slow

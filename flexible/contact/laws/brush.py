@@ -87,7 +87,7 @@ class Brush(Law):
 
     def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:
         """See :func:`flexible.contact.points.bristles.rolled_in`."""
-        return rolled_in(bristles, self.parameters, res, *pose)
+        return rolled_in(bristles, self.parameters, res, pose.phi, pose.omega)
 
     def slid_in(self, bristles: Bristles, res: Resultants) -> Bristles:
         """All points slide."""

@@ -40,6 +40,7 @@ class Rolling(NamedTuple):
 
     phi: float
     omega: float
+    relaxation: float  # the damper's time
 
 
 class Law:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from rigid import Friction, Kind
 from rigid.kernel.compile import loop
 
-from ..points.bristles import add_pull, cling, keep_touching, rolled_in, weigh
+from ..points.bristles import add_pull, cling, drag_of, keep_touching, rolled_in, weigh
 from ..points.data import Bristles, Parameters, Resultants, Shared, Tractions
 from ..points.normal import force_by_gaps
 from .law import Law, PatchState, Rolling
@@ -46,7 +46,7 @@ def _stick(forces: Any, points: Any, carried: Any, load: Any, slip: Any, law: An
             before = i > 0 and not points.last[i - 1] and points.gap[i - 1] < 0
             behind = i + 1 < total and not points.last[i] and points.gap[i + 1] < 0
             forces.keeps[i] = before or behind
-    dragging = load.elastic > 0 and slip.drag > 0
+    dragging = load.elastic > 0 and (slip.drag > 0 or slip.held != 0)
     drag = slip.held - slip.drag * (slip.way - slip.way_0) if dragging else 0.0
     shared = Shared(dragging, drag, -slip.drag if dragging else 0.0, 0.0, drag, np.inf)
     return Tractions(shared, energy, stuck, 0.0)
@@ -164,7 +164,8 @@ class Patch(Law):
 
     def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:
         """See :func:`flexible.contact.points.bristles.rolled_in`."""
-        return rolled_in(bristles, self.parameters, res, *pose)
+        drag = drag_of(self.parameters, res.length, pose.relaxation)
+        return rolled_in(bristles, self.parameters, res, pose.phi, pose.omega, drag)
 
     def pulls(self, state: PatchState, stretch: Array, pressure: Array) -> Array:
         """Bristles and the damper's drag, or mu times the pressure."""

@@ -261,12 +261,19 @@ def add_pull(forces: Any, i: int, traction: float) -> None:
         forces.by_gap[i, q] += traction * forces.weight_by[i, q]
 
 
+@loop
+def drag_of(parameters: Parameters, length: float, relaxation: float) -> float:
+    """Force of the damper of a sticking patch over its slip velocity: it slows bristles as it slows the pressure."""
+    return relaxation * parameters.eps_t * length
+
+
 def rolled_in(
-    bristles: Bristles, parameters: Parameters, res: Resultants, phi: float, omega: float
+    bristles: Bristles, parameters: Parameters, res: Resultants, phi: float, omega: float, drag: float = 0.0
 ) -> tuple[Bristles, float]:
     """Bristles of a patch that has long been rolling under its friction, and the creep velocity that keeps them so.
 
     They are stretched in proportion to the way from the leading edge, to just past the trailing one; alike at rest.
+    What a damper drags with, ``drag`` times the creep, they need not pull.
     """
     length = res.high - res.low + parameters.spacing
     eps_t = parameters.eps_t
@@ -278,6 +285,6 @@ def rolled_in(
     pull = np.insert(bristles.pull, at, 0.0)
     psi = phi - pi + number * parameters.spacing
     way = psi - res.low if omega > 0 else res.high - psi
-    stretch = -res.friction * way / (eps_t * length**2 / 2)
-    creep = -res.friction * abs(omega) / (eps_t * length**2 / 2)
+    creep = -res.friction / (eps_t * length**2 / 2 / abs(omega) + drag)
+    stretch = creep * way / abs(omega)
     return Bristles(number, stretch, pull, np.zeros(len(number), np.int8)), creep

@@ -87,7 +87,7 @@ class Damper(NamedTuple):
     velocity_0: float
     turning_0: float = 0.0  # end rate of phi, over the stage's length, if the hoop had not turned
     pulls: bool = False
-    held: float = 0.0  # nothing but on the way of Newton, see :mod:`flexible.contact.foreseen`
+    held: float = 0.0  # by a step of no length, and on the way of Newton, see :mod:`flexible.contact.foreseen`
 
 
 UNDAMPED = Damper(0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0)

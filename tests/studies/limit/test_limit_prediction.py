@@ -265,14 +265,14 @@ def test_the_damper_lessens_the_creep():
     ("k", "mass_ratio", "mu_s", "phi0"), [(0.0924, 1.0, 0.366, 0.3536), (0.4575, 0.0, 0.503, 0.1556)]
 )
 def test_a_roll_throughout_gains_by_the_creep_in_which_it_is_handed_over(k, mass_ratio, mu_s, phi0):
-    """It begins with the rigid hoop's phidot and slips already: without that J_N would come a tenth as fast.
+    """It begins with the rigid hoop's phidot and slips already: without that J_N would come a quarter as fast, or less.
 
-    What is behind the leading power falls by 100^(1/3) from 1e9 to 1e11.
+    What is behind the leading power falls by 100^(1/3) from 1e10 to 1e12.
     """
     scene = Scene(Hoop(k, 1.02, mass_ratio), Friction(mu_s, 0.9 * mu_s), Release(phi0), run=Run(until="pulse"))
     term = predict(scene).terms["normal_impulse"]
     off = []
-    for foundation in (1e9, 1e11):
+    for foundation in (1e10, 1e12):
         seen = go_through(at_foundation(scene, foundation), fineness=0.05).normal_impulse
         off.append((seen - term.limit) * foundation ** (1 / 3) / term.coefficient - 1)
     assert abs(off[0]) < 0.06

@@ -30,7 +30,7 @@ def asked(monkeypatch, cold):
     tasks = []
 
     class Processes:
-        def __init__(self, count, ahead=()):
+        def __init__(self, count):
             pass
 
         def submit(self, function, *arguments):
@@ -85,7 +85,7 @@ def test_what_a_process_dies_compiling_is_left_to_whoever_calls_it(cold, monkeyp
     """Of want of memory beside the others, say: the case runs all the same."""
 
     class Processes:
-        def __init__(self, count, ahead=()):
+        def __init__(self, count):
             pass
 
         def submit(self, function, *arguments):
