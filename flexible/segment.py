@@ -26,6 +26,9 @@ RATES = {
     "phi": "omega", "y_C": "vertical_velocity", "normal_impulse": "normal_force", "friction_impulse": "friction_force",
 }  # fmt: skip
 
+NO_TIME = 1e-13
+"""Time off the floor, in sqrt(R/g), that is the round-off of a sum and no flight."""
+
 T = TypeVar("T", float, Array)
 
 
@@ -139,14 +142,14 @@ class Segment:
     def kinds(self) -> list[Kind]:
         """What the patch does from each record to the next."""
         kinds = []
-        columns = (self["normal_force"], self["friction_force"], self["stick_fraction"])
-        for normal, friction, stuck in zip(*columns, strict=True):
+        columns = (self["normal_force"], self["friction_force"], self["stick_fraction"], self["slip_velocity"])
+        for normal, friction, stuck, slip in zip(*columns, strict=True):
             if normal == 0:
                 kinds.append(Kind.FLIGHT)
             elif stuck > 0:
                 kinds.append(Kind.ROLL)
-            else:
-                kinds.append(Kind.SPIN if friction > 0 else Kind.SKID)
+            else:  # a smooth floor says nothing of the direction
+                kinds.append(Kind.SPIN if friction > 0 or (friction == 0 and slip < 0) else Kind.SKID)
         return kinds
 
     def phases(self, first: float = -np.inf, last: float = np.inf) -> list[Phase]:
@@ -233,7 +236,7 @@ class Segment:
         returned = gained[-1] - absorbed
         phi = self.value("phi", ends)
         strain, spring = (float(np.interp(grid, t, self[name]).max()) for name in ("ring_strain", "contact_spring"))
-        total = float(impulse[-1])
+        total, off_floor = float(impulse[-1]), gain("off_floor")
         return FlexiblePulse(
             t_start=first,
             t_end=last,
@@ -246,7 +249,7 @@ class Segment:
             newton_restitution=float(-velocity[-1] / velocity[0]) if velocity[0] else 0.0,
             poisson_restitution=float((total - compression) / compression) if compression > 0 else 0.0,
             energetic_restitution=sqrt(max(0.0, -returned / absorbed)) if absorbed < 0 else 0.0,
-            time_off_floor=max(gain("off_floor"), 0.0),  # of a pulse without any it is round-off
+            time_off_floor=off_floor if off_floor > NO_TIME else 0.0,
             ring_energy_peak=strain,
             contact_energy_peak=spring,
             damping_loss=gain("damping_loss"),

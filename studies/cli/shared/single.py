@@ -62,6 +62,11 @@ def one_flexible(
             if resume is None:
                 raise
             raise StudyError(f"--continue {earlier} is not possible: {error}") from None
+    if resume is not None and target == earlier and motion.t_end < resume.t_end:
+        raise StudyError(
+            f"--continue {earlier} is not possible: the run there ends at t = {resume.t_end:g}, behind"
+            f" {motion.t_end:g} where {name} ends; --out DIR writes the shorter one elsewhere."
+        )
     if resume is not None and motion == resume and target == earlier and wishes is None:
         return _told(motion, None, as_json, None)  # nothing was left to do: what is there stays
     had = resume is not None and target is not None and (target / "fields.pvd").exists()

@@ -105,6 +105,20 @@ def test_a_run_can_go_further(hoop, tmp_path):
     assert further == hoop("flexible", scene, "--json", "--out", tmp_path / "at-once")[1]
 
 
+def test_a_longer_run_is_not_cut_short(hoop, tmp_path):
+    """What it has beyond the end that is asked for would be lost; elsewhere there is room for the shorter one."""
+    scene, out = tmp_path / "scene.toml", tmp_path / "out"
+    scene.write_text(MOTION.format(run="turns = 1"), encoding="utf-8")
+    assert hoop("flexible", scene, "--out", out)[0] == 0
+    before = {path: path.read_bytes() for path in out.iterdir()}
+    scene.write_text(MOTION.format(run="t_end = 1.0"), encoding="utf-8")
+    status, printed, err = hoop("flexible", scene, "--continue", out)
+    assert (status, printed) == (2, "")
+    assert is_one_sentence(err)
+    assert before == {path: path.read_bytes() for path in out.iterdir()}
+    assert hoop("flexible", scene, "--continue", out, "--out", tmp_path / "shorter")[0] == 0
+
+
 @pytest.mark.parametrize("wrong", ["empty", "rigid", "other"])
 def test_what_cannot_be_gone_on_from_is_one_sentence(hoop, tmp_path, wrong):
     scene, out = tmp_path / "scene.toml", tmp_path / "out"
