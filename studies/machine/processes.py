@@ -10,12 +10,14 @@ from __future__ import annotations
 import logging
 import multiprocessing
 import os
+import pickle
 import queue
 import signal
 import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from contextlib import contextmanager
+from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
 from multiprocessing.connection import wait as wait_for_any
 from multiprocessing.context import SpawnProcess
@@ -38,9 +40,19 @@ class WorkerDied(RuntimeError):
 
 
 class Processes:
-    """``count`` worker processes; tasks go to whichever is free, in their order."""
+    """``count`` worker processes; tasks go to whichever is free, in their order.
+
+    Raises
+    ------
+    RuntimeError
+        A worker imports the script that has it, and that would begin anew there.
+    """
 
     def __init__(self, count: int) -> None:
+        if getattr(multiprocessing.current_process(), "_inheriting", False):
+            raise RuntimeError(
+                "Workers import this script: what is to run once belongs below if __name__ == '__main__'."
+            )
         self._tasks: queue.SimpleQueue[tuple[Task, Future[Any]] | None] = queue.SimpleQueue()
         self._closing = threading.Event()
         self._workers: dict[int, SpawnProcess] = {}
@@ -49,7 +61,15 @@ class Processes:
             thread.start()
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        """Have a worker call an importable function; a death of the worker is :class:`WorkerDied` in the future."""
+        """Have a worker call an importable function; a death of the worker is :class:`WorkerDied` in the future.
+
+        Raises
+        ------
+        RuntimeError
+            The workers have been ended.
+        """
+        if self._closing.is_set():
+            raise RuntimeError("These workers have been ended.")
         future: Future[Any] = Future()
         self._tasks.put(((function, arguments), future))
         return future
@@ -67,7 +87,6 @@ class Processes:
 
     def _hold(self, slot: int) -> None:
         """One thread's work: hand tasks to one process and its answers to their futures, and replace it if it dies."""
-        _deaf_to_interrupts()
         pipe: Connection | None = None
         while (taken := self._tasks.get()) is not None:
             task, future = taken
@@ -97,6 +116,7 @@ class Processes:
         context = multiprocessing.get_context("spawn")
         ours, theirs = context.Pipe()
         worker = context.Process(target=_work, args=(theirs, _LOGGER.level), daemon=True)
+        _deaf_to_interrupts()
         with _STARTING, _one_thread():
             if self._closing.is_set():
                 raise WorkerDied("the pool is closed")
@@ -112,13 +132,17 @@ class Processes:
     def _answer(pipe: Connection, worker: SpawnProcess) -> tuple[Any, BaseException | None]:
         wait_for_any([pipe, worker.sentinel])
         try:
-            if pipe.poll():  # also where it died just after it had answered
-                answer: tuple[Any, BaseException | None] = pipe.recv()
-                return answer
+            came = pipe.recv_bytes() if pipe.poll() else None  # also where it died just after it had answered
         except (EOFError, OSError):
-            pass
-        worker.join()
-        raise WorkerDied(_DIED)
+            came = None
+        if came is None:
+            worker.join()
+            raise WorkerDied(_DIED)
+        try:
+            answer: tuple[Any, BaseException | None] = pickle.loads(came)
+        except Exception as unreadable:  # an answer whose parts are not to be had here
+            return None, unreadable
+        return answer
 
 
 def _work(pipe: Connection, level: int) -> None:
@@ -134,9 +158,11 @@ def _work(pipe: Connection, level: int) -> None:
         threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()
     while True:
         try:
-            function, arguments = pipe.recv()
+            task = pipe.recv_bytes()
         except (EOFError, OSError):
             return
+        try:
+            function, arguments = pickle.loads(task)
         except Exception as error:  # the task cannot be unpickled here
             pipe.send((None, error))
             continue
@@ -174,6 +200,8 @@ def _one_thread() -> Iterator[None]:
 
 def _deaf_to_interrupts() -> None:
     """Processes that this thread starts are deaf to Ctrl-C from their first instruction, before they could say so
-    themselves."""
+    themselves. What it takes for the first of them, the standard library starts with interrupts let through.
+    """
     if hasattr(signal, "pthread_sigmask"):
+        resource_tracker.ensure_running()
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})

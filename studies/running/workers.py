@@ -151,6 +151,8 @@ class Cluster(Pool):
 def pool(workers: int | None = None, scheduler: str | None = None) -> Iterator[Pool]:
     """Where cases run: the cluster at ``scheduler``, else ``workers`` processes, else (one worker) here.
 
+    Processes import the script that has them: what it does belongs below ``if __name__ == "__main__":``.
+
     Raises
     ------
     SceneError
