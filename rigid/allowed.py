@@ -53,6 +53,9 @@ def in_radians(key: str, value: Any) -> float:
 def plain(key: str, value: Any) -> Any:
     """A number or a word as Python has it, a scalar of numpy's included."""
     value = _item(value)
+    if isinstance(value, (list, tuple)):
+        told = "hoop study sweep runs the values of a list"
+        raise SceneError(f"{key} = {shown(value)} is not possible: {told}.")
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         raise SceneError(f"{key} = {shown(value)} is not possible: it must be a number or a word.")
     return value

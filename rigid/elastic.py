@@ -71,9 +71,10 @@ class Ring:
             )
         if self.section_width is not None:
             require("ring.section_width", self.section_width, 1e-12, 1e12, "section_width is the width over R, above 0")
+        weld = require("ring.weld_half_angle", self.weld_half_angle, -1e9, 1e9, "it is an angle, in radians")
         require(
             "ring.weld_half_angle_deg",
-            self.weld_half_angle * 180 / pi,
+            weld * 180 / pi,
             1e-9,
             90,
             "the weld's half angle lies between 0 and 90, not below 1e-9",

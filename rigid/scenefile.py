@@ -9,6 +9,7 @@ a bending stiffness: see :func:`rigid.elastic.ring_of_section`.
 from __future__ import annotations
 
 import dataclasses
+import sys
 import tomllib
 import warnings
 from collections.abc import Mapping
@@ -19,7 +20,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from .allowed import SceneError, in_radians, plain, unknown
+from .allowed import SceneError, in_radians, plain, shown, unknown
 from .elastic import SECTION, UNITS, require_section, ring_of_section
 from .scene import PARTS, Scene
 
@@ -108,9 +109,11 @@ def _ensure_all_units(hoop: Mapping[str, Any]) -> None:
 
 def _ensure_known(data: Mapping[str, Any]) -> None:
     """Whether all keys are a scene's, before what one that is written wrong leaves out is missed."""
+    if not isinstance(data, Mapping):
+        raise SceneError(f"{shown(data)} is not a scene: that is a table of {', '.join(PARTS)}.")
     for part, table in data.items():
         if part not in PARTS:
-            raise unknown("part of a scene", part, list(PARTS))
+            raise unknown("part of a scene", str(part), list(PARTS))
         if not isinstance(table, Mapping):
             raise SceneError(f"{part} = {table!r} is not possible: {part} is a table, [{part}].")
         known = [*_file_keys(part), *(SECTION if part == "ring" else ())]
@@ -140,9 +143,10 @@ def _to_the_last_bit(part: str, table: Mapping[str, Any], values: Mapping[str, f
     for name, key in _IN_DEGREES.items():
         if name in table and key in table:
             angle = table[name]
-            if not isinstance(angle, (int, float)) or not isclose(angle, values[name], rel_tol=1e-14):
+            number = isinstance(angle, (int, float)) and abs(angle) <= sys.float_info.max
+            if not number or not isclose(angle, values[name], rel_tol=1e-14):
                 told = f"give {key}; beside that it must be {key} in radians."
-                raise SceneError(f"{part}.{name} = {angle!r} is not possible: {told}")
+                raise SceneError(f"{part}.{name} = {shown(angle)} is not possible: {told}")
             exact[name] = float(angle)
     return exact
 
@@ -236,8 +240,10 @@ def scene_tables(source: str | PathLike[str]) -> dict[str, Any]:
     path = Path(source)
     try:
         text = path.read_text(encoding="utf-8-sig") if path.is_file() else None  # an editor may begin it with a mark
-    except (OSError, UnicodeDecodeError) as error:
-        raise SceneError(f"{path} cannot be read: {getattr(error, 'strerror', error)}.") from None
+    except UnicodeDecodeError:
+        raise SceneError(f"{path} is not a scene: it is not text.") from None
+    except OSError as error:
+        raise SceneError(f"{path} cannot be read: {error.strerror}.") from None
     if text is None and str(source) in scene_names():
         text = (files("rigid.scenes") / f"{source}.toml").read_text(encoding="utf-8")
     if text is None:

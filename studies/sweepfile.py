@@ -106,6 +106,8 @@ def load_sweep(path: str | PathLike[str], solvers: str | Sequence[str] = (), max
 
 def sweep_from_dict(data: Mapping[str, Any], solvers: str | Sequence[str] = (), max_cases: int = MAX_CASES) -> Sweep:
     """The sweep that a parsed TOML file describes; see :func:`load_sweep`. ``scene`` may be a Scene too."""
+    if not isinstance(data, Mapping):
+        raise SceneError(f"{shown(data)} is not a sweep: that is a table of the parts of scenes, and sweep.")
     settings = data.get("sweep", {})
     if not isinstance(settings, Mapping):
         raise SceneError(f"sweep = {settings!r} is not possible: it is a table, [sweep].")

@@ -37,7 +37,7 @@ def table_of(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
     if hasattr(scenes, "columns"):  # a table of pandas: no Mapping, but like one
         scenes = {name: scenes[name] for name in scenes.columns}
     if isinstance(scenes, Mapping):
-        unknown = set(scenes) - set(QUANTITIES)
+        unknown = set(map(str, scenes)) - set(QUANTITIES)
         missing = set(QUANTITIES) - set(scenes) - set(DEFAULTS)
         if unknown or missing:
             what = "is not a quantity of" if unknown else "is missing in"
@@ -53,7 +53,11 @@ def table_of(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
     if not isinstance(scenes, Iterable):
         raise SceneError(f"{shown(scenes)} is no batch: that is a list of scenes, or a dict of arrays.")
     rows = []
-    for scene in map(as_scene, scenes):
+    for index, one in enumerate(scenes):
+        try:
+            scene = as_scene(one)
+        except SceneError as error:
+            raise SceneError(f"scene {index} of the batch: {error}") from None
         hoop, friction, release = scene.hoop, scene.friction, without_units(scene.release, scene)
         hoop_and_friction = (hoop.k, hoop.r, hoop.mass_ratio, friction.mu_s, friction.mu)
         rows.append((*hoop_and_friction, release.phi0, release.omega0, release.slip0, scene.landing.restitution))

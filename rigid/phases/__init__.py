@@ -5,6 +5,7 @@
 ``slipping``                              quadrature over phi, (10) to (16), and series where phi is no measure; the
                                           phase run to its end, cut at events
 ``flight``, ``impact``, ``pointmass``     off the floor; landings and jams; k = 0 without a hoop's mass
+``skimming``                              k = 0 under a hoop without a force on it
 ``choice``                                the phase machine: which phase comes next
 ``instant``                               any instant of a phase, from its start
 ``reasons``                               why a motion ends, in words

@@ -21,7 +21,7 @@ from .plane import Array, Plane, Region, plane, words
 from .refine import FIRST, Map, refined
 
 OVER = (("hoop.k", 0.02, 0.9), ("friction.mu", 0.02, 1.0))
-"""Sections 3.1, 3.2 and 3.4 of the paper in one plane."""
+"""Sections 3.1 and 3.2 of the paper in one plane."""
 SIDE = 1024
 SHADE = 1 / 256
 """How far a value may be off where it lies between hoops that were run: a shade of a picture, of its range."""

@@ -38,9 +38,7 @@ def run_cases(
     store = Store(out) if out is not None else None
     found: dict[str, Outcome] = {}
     if store is not None:
-        found, damaged = store.find((key for key, _ in keyed), histories=not forget)
-        if forget:
-            found = {key: _light(outcome) for key, outcome in found.items()}
+        found, damaged = store.find((key for key, _ in keyed), not forget, _light if forget else None)
         if damaged:
             say(f"{len(damaged)} damaged {'result' if len(damaged) == 1 else 'results'} in {out}: run again.")
     missing = {key: case for key, case in keyed if key not in found}  # the same scene twice runs once

@@ -16,7 +16,7 @@ import hashlib
 import io
 import json
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -108,10 +108,13 @@ class Store:
         with self._connection() as connection:
             connection.execute("INSERT OR REPLACE INTO cases VALUES (?, ?, ?, ?, ?, ?, ?, ?)", row)
 
-    def find(self, keys: Iterable[str], histories: bool = True) -> tuple[dict[str, Outcome], set[str]]:
+    def find(
+        self, keys: Iterable[str], histories: bool = True, made: Callable[[Outcome], Outcome] | None = None
+    ) -> tuple[dict[str, Outcome], set[str]]:
         """The results kept under any of ``keys``, and which of the keys have a damaged one.
 
-        A case that failed has no result. Without ``histories`` the arrays are verified and left on the disk.
+        A case that failed has no result. Without ``histories`` the arrays are verified and left on the disk. What is
+        ``made`` of each, as it is read, comes back in its place.
         """
         found, damaged = {}, set()
         for key, row in self._rows(set(keys)):
@@ -121,7 +124,7 @@ class Store:
                 damaged.add(key)
             else:
                 if not outcome.failure:
-                    found[key] = outcome
+                    found[key] = outcome if made is None else made(outcome)
         return found, damaged
 
     def _rows(self, keys: set[str]) -> Iterator[tuple[str, tuple[Any, ...]]]:
