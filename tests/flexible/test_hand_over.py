@@ -95,6 +95,21 @@ def test_a_hoop_that_rolls_is_not_made_to_slip_by_its_hand_over(stiffer):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("seed", range(16))
+def test_no_roll_is_broken_by_its_hand_over(seed):
+    """Hoops of the model's range that keep 0.85 of mu_s N or less when rigid, on any floor, with a mu that is half."""
+    draw = np.random.default_rng(seed).uniform
+    hoop, release = Hoop(draw(0.1, 0.5), draw(1.01, 1.1), draw(0.0, 1.0)), Release(radians(draw(5, 50)))
+    smooth = rigid.simulate(Scene(hoop, Friction(5.0, 5.0), release, Run(until="pulse")))
+    states = smooth.at(np.linspace(0, smooth.t_end, 2000))
+    mu_s = float(np.abs(states.friction_force / states.normal_force).max()) / 0.85
+    scene = Scene(hoop, Friction(mu_s, mu_s / 2), release, Run(until="pulse"))
+    scene = scene.replace(ring={"bending_stiffness": 10 ** draw(3, 5)}, contact={"stiffness": 10 ** draw(7, 9)})
+    assert {phase.kind for phase in rigid.simulate(scene).phases} == {Kind.ROLL}
+    assert {phase.kind for phase in flexible.simulate(scene).phases} == {Kind.ROLL}
+
+
+@pytest.mark.slow
 def test_a_soft_ring_rests_on_a_foundation_however_stiff():
     """The ring, a massless one at E I = 1.13, bends to that of a rigid floor as the foundation's compliance goes to 0.
 
