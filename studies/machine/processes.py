@@ -200,7 +200,10 @@ def _one_thread() -> Iterator[None]:
 
 def _deaf_to_interrupts() -> None:
     """Processes that this thread starts are deaf to Ctrl-C from their first instruction, before they could say so
-    themselves. What it takes for the first of them, the standard library starts with interrupts let through.
+    themselves.
+
+    The standard library starts its resource tracker with the first of them, and lets interrupts through to this thread
+    then: so that is started first.
     """
     if hasattr(signal, "pthread_sigmask"):
         resource_tracker.ensure_running()
