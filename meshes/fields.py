@@ -69,6 +69,8 @@ class Block:
             raise SeriesError(f"points of shape {points.shape} are no points: it takes (n, 2) or (n, 3).")
         if cells.ndim != 2 or not len(cells) or cells.shape[1] != NODES.get(self.cell_type):
             raise SeriesError(f"cells of shape {cells.shape} do not fit VTK's cell type {self.cell_type}.")
+        if cells.dtype.kind not in "iu" or cells.min() < 0 or cells.max() >= len(points):
+            raise SeriesError(f"cells are whole numbers of points, 0 to {len(points) - 1} here; these are not.")
         set_ = object.__setattr__
         set_(self, "points", points)
         set_(self, "cells", cells)
@@ -83,10 +85,20 @@ class Block:
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """An instant: its time in the run's unit of time, and the blocks by name in a lasting order."""
+    """An instant: its time in the run's unit of time, and the blocks by name in a lasting order.
+
+    Raises
+    ------
+    SeriesError
+        No block at all.
+    """
 
     time: float
     blocks: Mapping[str, Block]
+
+    def __post_init__(self) -> None:
+        if not self.blocks:
+            raise SeriesError(f"a frame without a block, at t = {self.time!r}, shows nothing.")
 
 
 def ring_block(ring: RingMesh, points: Array, **fields: AnyArray) -> Block:

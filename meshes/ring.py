@@ -170,7 +170,7 @@ def ring_mesh(
     """
     if not (isfinite(outer) and 0 < inner < outer):
         raise MeshError(f"a ring with radii {inner!r} and {outer!r} cannot be: 0 < inner < outer is needed.")
-    if around < 8 or through < 1:
+    if not (around >= 8 and through >= 1 and around % 1 == through % 1 == 0):
         raise MeshError(f"{around!r} x {through!r} elements make no ring: it takes 8 around and 1 through.")
     if not 0 <= halved <= MOST_HALVED:
         raise MeshError(f"halved = {halved!r} is not possible: it lies between 0 and {MOST_HALVED}.")

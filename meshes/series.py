@@ -37,6 +37,7 @@ from .vtu import Encoder, read_vtu
 Array = NDArray[np.float64]
 _PVD = "fields.pvd"
 _FOLDER = "fields"
+_TAKEN = ("file", "allow_pickle")  # by numpy.savez_compressed
 
 
 class SeriesWriter:
@@ -130,10 +131,12 @@ class SeriesWriter:
         Raises
         ------
         SeriesError
-            Other arrays, or a disk that is full.
+            Other arrays, the names ``file`` and ``allow_pickle``, or a disk that is full.
         """
         kept = {name: np.asarray(value) for name, value in arrays.items()}
         for name, value in kept.items():
+            if name in _TAKEN:
+                raise SeriesError(f"history {name} cannot be kept: numpy's own writer takes that name.")
             if value.dtype.kind not in "biufU":
                 raise SeriesError(f"history {name} holds {value.dtype}: numbers or strings are needed.")
         _write(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import inf
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -29,9 +31,9 @@ def frame_times(
     Raises
     ------
     ValueError
-        Fewer than 2 frames, no stretch of time, or a share outside [0, 1).
+        Fewer than 2 frames, no stretch of time or one without end, or a share outside [0, 1).
     """
-    if count < 2 or not start < stop or not 0 <= share < 1:
+    if not (count >= 2 and -inf < start < stop < inf and 0 <= share < 1):
         raise ValueError(f"{count} frames from {start} to {stop} with a share of {share} cannot be chosen.")
     even = np.linspace(start, stop, count)
     if t is None or normal_force is None or not np.size(t):

@@ -98,7 +98,7 @@ def test_frames_are_even_without_a_force_and_dense_where_it_changes():
     assert np.diff(times).max() <= 2 / 200 * (1 + 1e-12)  # half the frames are evenly spaced
     assert ((times > 0.68) & (times < 0.72)).sum() >= 100  # the other half is here
     np.testing.assert_array_equal(frame_times(0, 1, 5, t, 0 * t), np.linspace(0, 1, 5))
-    for bad in ((0, 1, 1), (1, 1, 5)):
+    for bad in ((0, 1, 1), (1, 1, 5), (0, np.inf, 5), (0, 1, np.nan)):
         with pytest.raises(ValueError, match="cannot be chosen"):
             frame_times(*bad)
 

@@ -154,6 +154,8 @@ def test_a_users_own_density():
         {"inner": 0.0, "outer": 1.0},
         {"inner": 0.9, "outer": float("nan")},
         {"inner": 0.9, "outer": 1.0, "around": 4},
+        {"inner": 0.9, "outer": 1.0, "around": float("nan")},
+        {"inner": 0.9, "outer": 1.0, "around": 24.5},
         {"inner": 0.9, "outer": 1.0, "through": 0},
         {"inner": 0.9, "outer": 1.0, "weld_half_angle": 0.0},
         {"inner": 0.9, "outer": 1.0, "grading": -1.0},

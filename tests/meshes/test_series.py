@@ -281,6 +281,17 @@ def test_arrays_that_do_not_fit():
         Block(*square, 28)
     with pytest.raises(SeriesError, match="no points"):
         Block(np.zeros(4), square[1], 9)
+    for number in (4, -1, 1.5):
+        with pytest.raises(SeriesError, match="whole numbers of points, 0 to 3"):
+            Block(square[0], [[0, 1, 2, number]], 9)
+    with pytest.raises(SeriesError, match="without a block"):
+        Frame(0.0, {})
+
+
+def test_a_curve_whose_name_the_writer_needs(tmp_path):
+    with SeriesWriter(tmp_path) as writer, pytest.raises(SeriesError, match="history file cannot"):
+        writer.history(t=[0.0, 1.0], file=[1.0, 2.0])
+    assert not (tmp_path / "fields" / "history.npz").exists()
 
 
 def test_other_programs_are_told_which_component_of_the_stress_is_which(tmp_path):
