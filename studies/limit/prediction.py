@@ -37,7 +37,7 @@ BRUSH_DELAY, BRUSH_LAG, REGULARISED_GAIN = 2 / 3, 6 / 5, 4 / 5
 :mod:`studies.limit.onset`."""
 
 ROUND_OFF = 1e-12
-"""Of losses over M g R and of ratios of impulses: what is smaller is none."""
+"""Of losses over M g R and of ratios of impulses, and of their coefficients: what is smaller is none."""
 
 MEASURES = ("normal_impulse", "friction_impulse", "impulse_ratio", "friction_loss", "damping_loss")
 NOTHING = Shift(0.0, 0.0, 0.0)
@@ -227,13 +227,14 @@ def _with_units(scene: Scene, way: Passage, found: dict[float, NDArray[np.float6
     if abs(limits["friction_loss"]) < ROUND_OFF * mass * scene.energy_unit:
         limits["friction_loss"] = 0.0
     powers: list[list[tuple[float, float]]] = [[] for _ in MEASURES]
+    none = [ROUND_OFF * mass * each for each in (*[scene.impulse_unit] * 2, 1 / mass, *[scene.energy_unit] * 2)]
     for exponent in sorted(found):
         friction, normal, energy, damped = found[exponent] * mass * unit**exponent
         friction, normal = friction * scene.impulse_unit, normal * scene.impulse_unit
         ratio = (friction - pulse.impulse_ratio * normal) / pulse.normal_impulse
         losses = (-energy - damped) * scene.energy_unit, damped * scene.energy_unit
-        for kept, value in zip(powers, (normal, friction, ratio, *losses), strict=True):
-            kept.append((exponent, float(value) + 0.0))  # and no -0
+        for kept, value, least in zip(powers, (normal, friction, ratio, *losses), none, strict=True):
+            kept.append((exponent, float(value) if abs(value) >= least else 0.0))
     terms = {name: Term(float(limits[name]), tuple(kept)) for name, kept in zip(MEASURES, powers, strict=True)}
     # CREEP follows where an onset leads; where it leads itself, the onset's lag or the next order
     behind = NEXT_OF_A_RING_WITH_MASS if scene.hoop.mass_ratio > 0 else NEXT

@@ -131,7 +131,7 @@ def ascending(s: ArrayLike, y: ArrayLike, error: ArrayLike | None) -> tuple[Arra
     Raises
     ------
     ValueError
-        Not as many of each, or a stiffness that is none.
+        Not as many of each, a stiffness that is none, or one twice.
     """
     x, v, e = np.asarray(s, float), np.asarray(y, float), None if error is None else np.asarray(error, float)
     lengths = [each.shape for each in (x, v, e) if each is not None]
@@ -140,7 +140,11 @@ def ascending(s: ArrayLike, y: ArrayLike, error: ArrayLike | None) -> tuple[Arra
         raise ValueError(f"s, y and error of shapes {told} are not possible: there is one of each for every case.")
     if not np.all(np.isfinite(x) & (x > 0)):
         raise ValueError(f"s = {x[~(np.isfinite(x) & (x > 0))][0]:g} is not possible: a stiffness is above 0.")
-    order = np.argsort(x, kind="stable")
+    order = np.argsort(x)
+    if np.any(np.diff(x[order]) == 0):
+        raise ValueError(
+            f"s = {x[order][:-1][np.diff(x[order]) == 0][0]:g} comes twice: a ladder has each stiffness once."
+        )
     return x[order], v[order], None if e is None else e[order]
 
 

@@ -37,6 +37,19 @@ def test_a_hoop_that_slips_throughout_has_its_ratio_at_any_stiffness():
     assert "no limit seen" not in "; ".join(other_sentences(study))
 
 
+@pytest.mark.parametrize("mass_ratio", [0.0, 0.1])
+def test_a_hoop_that_spins_throughout_has_a_ratio_that_nothing_changes(mass_ratio):
+    """J_N changes, and J_F by mu times that: what rounding leaves of their difference is no coefficient."""
+    scene = load_scene("paper-3.3-massless").replace(
+        hoop={"k": 0.5, "mass_ratio": mass_ratio}, friction={"mu": 0.1, "mu_s": 0.1}, contact={"law": "regularised"}
+    )
+    terms = predict(scene).terms
+    assert terms["impulse_ratio"].limit == pytest.approx(0.1, rel=1e-14)
+    assert terms["normal_impulse"].coefficient > 1e-2
+    assert terms["friction_impulse"].coefficient == pytest.approx(0.1 * terms["normal_impulse"].coefficient, rel=1e-9)
+    assert terms["impulse_ratio"].coefficient == 0
+
+
 @pytest.fixture(scope="module")
 def tiny():
     """k = 1e-5."""
