@@ -15,6 +15,7 @@
 
 from typing import TYPE_CHECKING
 
+from .exchange import save_mesh
 from .fields import Block, Frame, SeriesError, disk_block, floor_block, rim_block, ring_block
 from .gradient import gauss_gradient, nodal_gradient
 from .placing import Placement, bending_stress, hoop_stress, von_mises
@@ -60,5 +61,6 @@ __all__ = [
     "rim_block",
     "ring_block",
     "ring_mesh",
+    "save_mesh",
     "von_mises",
 ]

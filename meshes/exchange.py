@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from pathlib import Path
 
 import numpy as np
@@ -28,13 +29,15 @@ def save_mesh(ring: RingMesh, path: str | Path, length: float = 1.0) -> None:
     Raises
     ------
     MeshError
-        A suffix that is no format for nine-node quads, or needs a package that is not installed.
+        A suffix that is no format for nine-node quads, or needs a package that is not installed; a length not above 0.
     OSError
         The file cannot be written.
     """
     import meshio
 
     path = Path(path)
+    if not 0 < length < inf:
+        raise MeshError(f"length = {length!r} is not possible: it must be above 0.")
     suffix = path.suffix or "no suffix"
     if path.suffix not in HOLD:
         known = ", ".join(HOLD)

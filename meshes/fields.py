@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from math import pi
+from math import inf, pi
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -115,7 +115,15 @@ def rim_block(ring: RingMesh, points: Array, **fields: AnyArray) -> Block:
 
 
 def disk_block(centre: ArrayLike, radius: float, angle: float, sectors: int = 120) -> Block:
-    """A disk as a fan of triangles, turned clockwise by ``angle``, which the cell field ``half`` shows."""
+    """A disk as a fan of triangles, turned clockwise by ``angle``, which the cell field ``half`` shows.
+
+    Raises
+    ------
+    SeriesError
+        A radius that is not above 0, or fewer than 3 sectors.
+    """
+    if not (0 < radius < inf and sectors >= 3):
+        raise SeriesError(f"a disk of radius {radius!r} in {sectors!r} sectors is not possible.")
     turn = np.arange(sectors) * (2 * pi / sectors) - angle
     rim = np.column_stack([np.cos(turn), np.sin(turn)]) * radius
     points = np.vstack([[0.0, 0.0], rim]) + np.asarray(centre, dtype=float)
@@ -124,7 +132,15 @@ def disk_block(centre: ArrayLike, radius: float, angle: float, sectors: int = 12
 
 
 def floor_block(left: float, right: float, depth: float) -> Block:
-    """The floor from x = ``left`` to ``right``, a slab whose top is y = 0."""
+    """The floor from x = ``left`` to ``right``, a slab whose top is y = 0.
+
+    Raises
+    ------
+    SeriesError
+        Ends that are not from left to right, or a depth that is not above 0.
+    """
+    if not (-inf < left < right < inf and 0 < depth < inf):
+        raise SeriesError(f"a floor from {left!r} to {right!r}, {depth!r} deep, is not possible.")
     points = np.array([[left, -depth], [right, -depth], [right, 0.0], [left, 0.0]])
     return Block(points, np.array([[0, 1, 2, 3]]), QUAD)
 
@@ -133,13 +149,19 @@ def floor_block(left: float, right: float, depth: float) -> Block:
 @lru_cache(maxsize=8)
 def _circle(around: int) -> AnyArray:
     start = np.arange(0, 2 * around, 2)
-    return np.column_stack([start, np.roll(start, -1), start + 1])
+    return _fixed(np.column_stack([start, np.roll(start, -1), start + 1]))
 
 
 @lru_cache(maxsize=8)
 def _fan(sectors: int) -> AnyArray:
     first = np.arange(sectors)
-    return np.column_stack([np.zeros(sectors, dtype=int), first + 1, (first + 1) % sectors + 1])
+    return _fixed(np.column_stack([np.zeros(sectors, dtype=int), first + 1, (first + 1) % sectors + 1]))
+
+
+def _fixed(cells: AnyArray) -> AnyArray:
+    """Shared by many blocks: nobody may write to it."""
+    cells.flags.writeable = False
+    return cells
 
 
 def _three(value: ArrayLike) -> AnyArray:

@@ -76,6 +76,6 @@ def bending_stress(ring: RingMesh, hoop: Array) -> Array:
     for share, first in ((1.0, 0), (4.0, 1), (1.0, 2)):
         weights[first : len(radii) - 2 + first : 2] += share * np.diff(radii[::2])
     through = hoop[ring.grid]
-    bending = np.empty_like(hoop)
+    bending = np.empty(np.shape(hoop))
     bending[ring.grid] = through - weights @ through / weights.sum()
     return bending

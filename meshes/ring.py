@@ -196,6 +196,8 @@ def ring_mesh(
     radius, angle = np.empty((2, node.size))
     radius[grid] = radii[:, None]
     angle[grid] = theta
+    quad9 = np.ascontiguousarray(mesh.dofs.element_dofs.T, dtype=np.int64)
+    quad9.flags.writeable = False  # every frame's block has it
     return RingMesh(
         mesh=mesh.with_boundaries(boundaries),
         inner=float(inner),
@@ -205,7 +207,7 @@ def ring_mesh(
         radius=radius,
         theta=angle,
         grid=grid,
-        quad9=np.ascontiguousarray(mesh.dofs.element_dofs.T, dtype=np.int64),
+        quad9=quad9,
         node_dofs=2 * np.arange(node.size)[:, None] + np.array([0, 1]),
         rim_nodes=grid[-1].copy(),
         rim_theta=theta,

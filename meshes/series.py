@@ -14,7 +14,9 @@ from __future__ import annotations
 
 import json
 import math
+import operator
 import os
+import re
 import zipfile
 import zlib
 from collections.abc import Callable, Iterator, Mapping
@@ -98,10 +100,14 @@ class SeriesWriter:
         Raises
         ------
         SeriesError
-            A time that is not after the last one, a field that a VTU file cannot hold, or a disk that is full.
+            A time that is not after the last one, a field that a VTU file cannot hold, a block whose name is none for
+            a file, or a disk that is full.
         """
         if not self._time < frame.time < math.inf:
             raise SeriesError(f"a frame at t = {frame.time!r} cannot follow one at t = {self._time!r}.")
+        for name in frame.blocks:
+            if not re.fullmatch(r"[\w. -]+", name):
+                raise SeriesError(f"a block named {name!r} is not possible: the name is a part of its file's.")
         entries = []
         for part, (name, block) in enumerate(frame.blocks.items()):
             last = self._last.get(name)
@@ -190,6 +196,7 @@ class Series:
 
     def __getitem__(self, index: int) -> Frame:
         """The frame of that number, negative ones from the end."""
+        index = operator.index(index)
         blocks = {name: read_vtu(path) for name, path in self._files[index].items()}
         return Frame(float(self.times[index]), blocks)
 
@@ -197,12 +204,20 @@ class Series:
         return (self[i] for i in range(len(self)))
 
     def nearest(self, time: float) -> Frame:
-        """The frame whose time is nearest to ``time``."""
+        """The frame whose time is nearest to ``time``; the first or last one of a time before or behind all.
+
+        Raises
+        ------
+        SeriesError
+            A time that is none.
+        """
         return self[self.nearest_index(time)]
 
     def nearest_index(self, time: float) -> int:
         """The number of that frame."""
-        return int(np.abs(self.times - time).argmin())
+        if time != time:
+            raise SeriesError(f"no frame is near t = {time!r}.")
+        return int(np.abs(self.times - np.clip(time, self.times[0], self.times[-1])).argmin())
 
     @cached_property
     def history(self) -> dict[str, Any]:

@@ -23,7 +23,7 @@ def frame_times(
     Parameters
     ----------
     t, normal_force : array_like, optional
-        The force over the run; without it the times are evenly spaced.
+        The force over the run, t ascending; without it the times are evenly spaced.
     share : float
         Share of the frames that follows the force, 0 (evenly spaced) to below 1; the rest is evenly spaced,
         so that no stretch of time goes without.
@@ -31,7 +31,7 @@ def frame_times(
     Raises
     ------
     ValueError
-        Fewer than 2 frames, no stretch of time or one without end, or a share outside [0, 1).
+        Fewer than 2 frames, no stretch of time or one without end, a share outside [0, 1), or a force that is no curve.
     """
     if not (count >= 2 and -inf < start < stop < inf and 0 <= share < 1):
         raise ValueError(f"{count} frames from {start} to {stop} with a share of {share} cannot be chosen.")
@@ -39,6 +39,8 @@ def frame_times(
     if t is None or normal_force is None or not np.size(t):
         return even
     at, force = np.asarray(t, dtype=float), np.asarray(normal_force, dtype=float)
+    if at.shape != force.shape or at.ndim != 1 or np.any(np.diff(at) < 0) or not np.all(np.isfinite([at, force])):
+        raise ValueError("frames cannot be chosen: t must ascend, with a finite normal_force for each.")
     inside = (at > start) & (at < stop)
     times = np.concatenate([[start], np.unique(at[inside]), [stop]])
     change = np.abs(np.diff(np.interp(times, at, force)))

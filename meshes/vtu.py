@@ -40,7 +40,7 @@ _TAIL = b"\n</AppendedData>\n</VTKFile>\n"
 
 @dataclass
 class Encoder:
-    """Blocks to bytes; remembers the code of words, and of connectivities, which hardly ever change."""
+    """Blocks to bytes; remembers the code of words, and of connectivities that nobody can write to."""
 
     #: of zlib: only runs of one byte are looked for. In doubles there is little else; to look for that too takes twice
     #: the time and makes a file 5 % smaller, and higher levels save nothing on their low bits
@@ -129,6 +129,8 @@ class Encoder:
                 self._array("offsets", np.arange(1, count + 1, dtype="<i8") * width),
                 self._array("types", np.full(count, block.cell_type, dtype="u1")),
             ]
+            if block.cells.flags.writeable:
+                return code
             if len(self._kept) > 16:
                 self._kept.clear()
             kept = self._kept[id(block.cells)] = (block.cells, code)

@@ -71,7 +71,7 @@ def write_fields(
     directory: str | Path,
     frames: int = 200,
     times: ArrayLike | None = None,
-    fields: Sequence[str] = FIELDS,
+    fields: str | Sequence[str] = FIELDS,
     pulse: int | None = 0,
     progress: Callable[[float], None] | None = None,
 ) -> None:
@@ -90,7 +90,7 @@ def write_fields(
         The instants themselves, in the scene's unit of time, in place of that. A frame between two steps is of a
         shorter step from the first, which rings with what the longer damps: N of it can be some percent off its curve.
     fields : sequence of str
-        Out of ``FIELDS``; what is not asked for is not computed.
+        One, or several, out of ``FIELDS``; what is not asked for is not computed.
     pulse : int or None
         Number of the pulse, from 0; None, or no pulse at all, spreads the frames over the whole motion.
     progress : callable, optional
@@ -99,12 +99,14 @@ def write_fields(
     Raises
     ------
     SeriesError
-        No states in the motion, no such pulse, field or time, or a folder that cannot be written to.
+        No flexible motion, no states in it, no such pulse, field or time, or a folder that cannot be written to.
     """
-    asked = tuple(dict.fromkeys(fields))
-    unknown = [name for name in asked if name not in FIELDS]
+    asked = tuple(dict.fromkeys([fields] if isinstance(fields, str) else fields or ()))
+    unknown = [str(name) for name in asked if name not in FIELDS]
     if unknown or not asked:
         raise SeriesError(f"fields = {', '.join(unknown) or 'none'} is not possible: they are {', '.join(FIELDS)}.")
+    if not isinstance(motion, FlexibleMotion):
+        raise SeriesError("fields are of a flexible motion: flexible.simulate(scene, history=True) makes one.")
     if not motion.kept and (motion.history is None or motion.marches):
         raise SeriesError("the motion kept no states of the ring: simulate(scene, history=True) does.")
     when = times_of(motion, frames, times, pulse)

@@ -45,11 +45,11 @@ def times_of(motion: FlexibleMotion, frames: int, times: ArrayLike | None, pulse
         if not listed.size or not (listed[0] >= 0 and listed[-1] <= end * (1 + 1e-12)):
             raise SeriesError(f"times are not possible: they must lie between 0 and {end:g}, the end of the motion.")
         return listed
-    if frames < 2:
-        raise SeriesError(f"frames = {frames!r} is not possible: it takes at least 2.")
+    if not (isinstance(frames, int | np.integer) and frames >= 2):
+        raise SeriesError(f"frames = {frames!r} is not possible: it is a whole number, at least 2.")
     start = 0.0
     if pulse is not None and motion.pulses:
-        if not 0 <= pulse < len(motion.pulses):
+        if not (isinstance(pulse, int | np.integer) and 0 <= pulse < len(motion.pulses)):
             raise SeriesError(f"pulse = {pulse!r} is not possible: the motion has {len(motion.pulses)}.")
         start, end = _around(motion, motion.pulses[pulse])
     if not start < end:
@@ -58,7 +58,7 @@ def times_of(motion: FlexibleMotion, frames: int, times: ArrayLike | None, pulse
     if history is None or not len(history.t):
         return frame_times(start, end, frames)
     chosen = frame_times(start, end, frames, history.t, history.normal_force)
-    return _at_steps(chosen, np.concatenate([clock * motion.scene.time_unit for clock in _clocks(motion)]))
+    return _at_steps(chosen, [clock * motion.scene.time_unit for clock in _clocks(motion)])
 
 
 def _clocks(motion: FlexibleMotion) -> list[Array]:
@@ -66,17 +66,20 @@ def _clocks(motion: FlexibleMotion) -> list[Array]:
     return [np.array([state.t for state in kept.states]) for kept in motion.kept]
 
 
-def _at_steps(chosen: Array, steps: Array) -> Array:
+def _at_steps(chosen: Array, clocks: list[Array]) -> Array:
     """Times (n,), each at the step nearest to it if that is nearer than the next one; distinct and ascending as before.
 
     Between two steps there is only a shorter step from the first of them, which rings with what the longer one damps.
+    Outside the clocks' spans the motion is in closed form, and a time stays as it is.
     """
-    steps = np.unique(steps[(steps >= chosen[0]) & (steps <= chosen[-1])])
+    steps = np.unique(np.concatenate(clocks))
+    steps = steps[(steps >= chosen[0]) & (steps <= chosen[-1])]
     if not steps.size:
         return chosen
+    marched = np.any([(clock[0] <= chosen) & (chosen <= clock[-1]) for clock in clocks], axis=0)
     nearest = np.searchsorted((steps[1:] + steps[:-1]) / 2, chosen)
     away, gaps = np.abs(steps[nearest] - chosen), np.diff(chosen)
-    near = away < np.maximum(np.append(gaps, gaps[-1]), np.insert(gaps, 0, gaps[0]))
+    near = marched & (away < np.maximum(np.append(gaps, gaps[-1]), np.insert(gaps, 0, gaps[0])))
     # a step that is the nearest of several frames' is taken by the one that is nearest to it
     order = np.lexsort((away, nearest))
     first = np.zeros(chosen.size, dtype=bool)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -13,7 +14,7 @@ from rigid import Motion
 
 from ..fields import AnyArray, Block, Frame, SeriesError, disk_block
 from ..ring import ring_mesh
-from ..series import Series
+from ..series import Series, read
 from .style import SI_UNITS, UNITS
 
 Array = NDArray[np.float64]
@@ -159,7 +160,8 @@ class SeriesSource:
                 force[name] = float(np.interp(frame.time, curves.t, getattr(curves, name)))
         slip = self.series.history.get("slip_velocity")
         if slip is not None and len(slip) == len(curves.t):
-            force["slip_velocity"] = float(np.interp(frame.time, curves.t, slip))
+            sticks = curves.phase(frame.time) == "roll"  # what a stuck patch creeps by is no slip
+            force["slip_velocity"] = 0.0 if sticks else float(np.interp(frame.time, curves.t, slip))
         return Shot(
             time=frame.time,
             ring=ring,
@@ -242,6 +244,7 @@ class MotionSource:
     def shot(self, time: float) -> Shot:
         """The state at ``time``."""
         state = self.motion.at(time)
+        sticks = self.curves.phase(float(time)) == "roll"
         quad9, points, disk, distance = self._parts
         sin, cos = np.sin(float(state.phi)), np.cos(float(state.phi))
         axes = np.array([[sin, cos], [cos, -sin]])
@@ -254,10 +257,22 @@ class MotionSource:
             radius=self.motion.scene.hoop.R,
             normal_force=float(state.normal_force),
             friction_force=float(state.friction_force),
-            slip_velocity=float(state.slip_velocity),
+            slip_velocity=0.0 if sticks else float(state.slip_velocity),
         )
 
 
-def source_of(thing: Series | Motion) -> Source:
-    """What a series or a motion gives to draw."""
-    return SeriesSource(thing) if isinstance(thing, Series) else MotionSource(thing)
+def source_of(thing: Series | Motion | str | Path) -> Source:
+    """What a series, the folder of one, or a motion gives to draw.
+
+    Raises
+    ------
+    SeriesError
+        No series there, or something else.
+    """
+    if isinstance(thing, (str, Path)):
+        thing = read(thing)
+    if isinstance(thing, Series):
+        return SeriesSource(thing)
+    if not isinstance(thing, Motion):
+        raise SeriesError(f"a {type(thing).__name__} cannot be drawn: it takes a series, its folder, or a motion.")
+    return MotionSource(thing)

@@ -2,10 +2,9 @@
 
 ::
 
-    from meshes import read
     from meshes.view import animate, picture
 
-    picture(read("out"), "pulse.png", time=1.8, field="hoop_stress")
+    picture("out", "pulse.png", time=1.8, field="hoop_stress")
     animate(motion, "rolling.gif")
 
 pyvista and matplotlib are loaded when something is drawn and not before.
@@ -13,6 +12,7 @@ pyvista and matplotlib are loaded when something is drawn and not before.
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -35,6 +35,8 @@ from .setting import Setting, setting
 
 Image = NDArray[np.uint8]
 Progress = Callable[[int, int], None]
+
+SMALLEST = 320, 240  # pixels on which there is room for a view between title and curves
 
 __all__ = ["Timing", "ViewError", "animate", "picture", "render", "window"]
 
@@ -68,7 +70,7 @@ class Timing:
     pace: str = "force"
 
     def __post_init__(self) -> None:
-        if (self.frames is not None and self.frames < 2) or self.fps < 1:
+        if not ((self.frames is None or (self.frames >= 2 and self.frames % 1 == 0)) and self.fps >= 1):
             count = "any number of" if self.frames is None else self.frames
             raise ViewError(f"{count} frames at {self.fps} per second are no animation: it takes 2 at 1 per second.")
         if self.pace not in ("force", "time"):
@@ -80,6 +82,7 @@ class Camera:
 
     def __init__(self, chosen: Setting, size: tuple[int, int], oversampling: int = 2) -> None:
         require_renderer()
+        _ensure_size(size)
         self.setting = chosen
         source = chosen.source
         patches: tuple[Shot, ...] = chosen.patches if chosen.zoom == 1 else ()
@@ -131,8 +134,17 @@ class Camera:
         return float(np.clip(shot.centre[0], left + half, right - half)) + self.aside
 
 
+def _ensure_size(size: tuple[int, int]) -> None:
+    try:
+        width, height = (operator.index(each) for each in size)
+    except (TypeError, ValueError):
+        raise ViewError(f"size = {size!r} is not possible: it is two whole numbers of pixels.") from None
+    if width < SMALLEST[0] or height < SMALLEST[1]:
+        raise ViewError(f"size = {size!r} is not possible: it takes {SMALLEST[0]} x {SMALLEST[1]} pixels or more.")
+
+
 def render(
-    thing: Series | Motion,
+    thing: Series | Motion | str | Path,
     time: float | None = None,
     field: str | None = None,
     factor: float | None = None,
@@ -151,7 +163,7 @@ def render(
 
 
 def picture(
-    thing: Series | Motion,
+    thing: Series | Motion | str | Path,
     png: str | Path,
     time: float | None = None,
     field: str | None = None,
@@ -163,10 +175,10 @@ def picture(
 
     Parameters
     ----------
-    thing : Series or Motion
-        Fields of a flexible run, or any motion, drawn undeformed.
+    thing : Series or Motion or path
+        Fields of a flexible run, or the folder they are in, or any motion, drawn undeformed.
     png : path
-        Where to.
+        Where to; its name ends in .png.
     time : float, optional
         In the run's unit; a series shows the nearest of its frames, from the first to the last. By
         default the instant of the largest N.
@@ -179,7 +191,7 @@ def picture(
     zoom : float
         1 shows the whole hoop, more enlarges what is about the contact.
     size : (width, height)
-        In pixels.
+        In pixels, at least 320 x 240.
 
     Raises
     ------
@@ -188,12 +200,14 @@ def picture(
     SeriesError
         A damaged series.
     """
+    if Path(png).suffix.lower() != ".png":
+        raise ViewError(f"{png} cannot be a picture: its name must end in .png.")
     film.require_folder(Path(png))
     film.write_png(Path(png), render(thing, time, field, factor, zoom, size))
 
 
 def animate(
-    thing: Series | Motion,
+    thing: Series | Motion | str | Path,
     path: str | Path,
     field: str | None = None,
     factor: float | None = None,
@@ -244,7 +258,9 @@ def animate(
         kind.write(path, pages(camera), timing.fps, [camera.layout.stamp(time) for time in times])
 
 
-def window(thing: Series | Motion, field: str | None = None, factor: float | None = None, zoom: float = 1.0) -> None:
+def window(
+    thing: Series | Motion | str | Path, field: str | None = None, factor: float | None = None, zoom: float = 1.0
+) -> None:
     """Open a window with a time slider; space plays, [ and ] change the factor, c changes the field.
 
     Raises

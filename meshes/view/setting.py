@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -34,7 +35,7 @@ class Setting:
 
 
 def setting(
-    thing: Series | Motion, field: str | None = None, factor: float | None = None, zoom: float = 1.0
+    thing: Series | Motion | str | Path, field: str | None = None, factor: float | None = None, zoom: float = 1.0
 ) -> Setting:
     """Scales and colours taken from the whole run.
 
@@ -43,7 +44,7 @@ def setting(
     ViewError
         A field that is not there, a factor or an enlargement that is no number.
     SeriesError
-        A damaged series.
+        A damaged series, or nothing that can be drawn.
     """
     if factor is not None and not (np.isfinite(factor) and factor >= 0):
         raise ViewError(f"factor = {factor!r} is not possible: it must be a number from 0.")

@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 import pytest
 
-from meshes import Placement, disk_block, floor_block, rim_block, ring_mesh
+from meshes import Placement, SeriesError, disk_block, floor_block, rim_block, ring_block, ring_mesh
 
 
 def areas(block):
@@ -22,6 +22,26 @@ def test_a_disk_is_a_polygon_about_its_centre():
     assert areas(disk) == pytest.approx(np.full(24, 0.125 * np.sin(2 * pi / 24)), rel=1e-12)
     assert disk.points[disk.cells[:, 0]] == pytest.approx(np.tile([3.0, -1.0, 0.0], (24, 1)))
     assert set(disk.cells[:, 1]) == set(disk.cells[:, 2]) == set(range(1, 25))
+
+
+def test_what_blocks_share_nobody_writes_to():
+    """One array serves all disks, rims and rings: who moves its numbers in place would move them everywhere."""
+    ring = ring_mesh(0.9, 1.0, 8)
+    for block in (
+        disk_block((0.0, 0.0), 1.0, 0.0),
+        rim_block(ring, ring.points[ring.rim_nodes]),
+        ring_block(ring, ring.points),
+    ):
+        with pytest.raises(ValueError, match="read-only"):
+            block.cells[0] += 1
+
+
+@pytest.mark.parametrize("radius", [0.0, -1.0, float("nan"), float("inf")])
+def test_bodies_that_cannot_be(radius):
+    with pytest.raises(SeriesError, match="a disk of radius"):
+        disk_block((0.0, 0.0), radius, 0.0)
+    with pytest.raises(SeriesError, match="a floor from"):
+        floor_block(-1.0, 1.0, radius)
 
 
 @pytest.mark.parametrize("phi", [0.0, 0.4, pi / 2, 4.0])

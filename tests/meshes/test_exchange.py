@@ -6,8 +6,8 @@ import meshio
 import numpy as np
 import pytest
 
-from meshes import MeshError, ring_mesh
-from meshes.exchange import HOLD, save_mesh
+from meshes import MeshError, ring_mesh, save_mesh
+from meshes.exchange import HOLD
 
 
 @pytest.mark.parametrize("suffix", sorted(set(HOLD) - {".e", ".ex2", ".exo"}))
@@ -57,6 +57,13 @@ def test_lengths_are_in_the_unit_that_is_asked(suffix, tmp_path):
     ring = ring_mesh(0.98, 1.0, 24)
     save_mesh(ring, tmp_path / f"ring{suffix}", 0.25)
     np.testing.assert_array_equal(meshio.read(tmp_path / f"ring{suffix}").points[:, :2], 0.25 * ring.points)
+
+
+@pytest.mark.parametrize("length", [0.0, -1.0, float("nan"), float("inf")])
+def test_a_unit_of_length_that_cannot_be(length, tmp_path):
+    with pytest.raises(MeshError, match=r"length = .* is not possible"):
+        save_mesh(ring_mesh(0.98, 1.0, 24), tmp_path / "ring.vtu", length)
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize(

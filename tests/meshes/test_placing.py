@@ -76,6 +76,8 @@ def test_the_mean_through_the_wall_is_an_integral(halved):
     off = ring.radius - 0.85
     hoop = off**2 + 4 * off**3
     np.testing.assert_allclose(bending_stress(ring, hoop), hoop - 0.3**2 / 12, atol=1e-15)
+    whole = np.arange(hoop.size)  # of integers, as a test of one's own may have it
+    np.testing.assert_array_equal(bending_stress(ring, whole), bending_stress(ring, whole.astype(float)))
 
 
 def test_the_grid_orders_every_node():
@@ -98,7 +100,8 @@ def test_frames_are_even_without_a_force_and_dense_where_it_changes():
     assert np.diff(times).max() <= 2 / 200 * (1 + 1e-12)  # half the frames are evenly spaced
     assert ((times > 0.68) & (times < 0.72)).sum() >= 100  # the other half is here
     np.testing.assert_array_equal(frame_times(0, 1, 5, t, 0 * t), np.linspace(0, 1, 5))
-    for bad in ((0, 1, 1), (1, 1, 5), (0, np.inf, 5), (0, 1, np.nan)):
+    unsorted, unknown = ([1.0, 0.5, 0.0], [1.0, 5.0, 0.0]), ([0.0, 1.0], [1.0, np.nan])
+    for bad in ((0, 1, 1), (1, 1, 5), (0, np.inf, 5), (0, 1, np.nan), (0, 1, 5, *unsorted), (0, 1, 5, *unknown)):
         with pytest.raises(ValueError, match="cannot be chosen"):
             frame_times(*bad)
 

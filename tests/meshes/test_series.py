@@ -54,6 +54,12 @@ def test_round_trip_is_exact_to_the_bit(written, ovals):
     for name, value in ovals.history(TIMES).items():
         np.testing.assert_array_equal(series.history[name], value)
     assert series.nearest(0.4).time == 1 / 3
+    assert series.nearest(-np.inf).time == TIMES[0]
+    assert series.nearest(np.inf).time == TIMES[-1]
+    with pytest.raises(SeriesError, match="t = nan"):
+        series.nearest(np.nan)
+    with pytest.raises(TypeError, match="integer"):
+        series[0:2]
 
 
 def test_odd_numbers_survive(tmp_path):
@@ -292,6 +298,24 @@ def test_a_curve_whose_name_the_writer_needs(tmp_path):
     with SeriesWriter(tmp_path) as writer, pytest.raises(SeriesError, match="history file cannot"):
         writer.history(t=[0.0, 1.0], file=[1.0, 2.0])
     assert not (tmp_path / "fields" / "history.npz").exists()
+
+
+@pytest.mark.parametrize("name", ["../ring", "a/b", "", "a\\b"])
+def test_a_block_is_written_into_the_folder_of_its_series(tmp_path, name):
+    with SeriesWriter(tmp_path / "run") as writer, pytest.raises(SeriesError, match="a block named"):
+        writer.add(Frame(0.0, {name: disk_block((0.0, 0.0), 1.0, 0.0)}))
+    assert [path.name for path in tmp_path.rglob("*.vtu")] == []
+
+
+def test_cells_that_are_changed_between_frames_are_written_as_they_are(tmp_path):
+    """Nothing is remembered of an array that can be written to."""
+    points, cells = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]]), np.array([[0, 1, 2]])
+    with SeriesWriter(tmp_path) as writer:
+        writer.add(Frame(0.0, {"one": Block(points, cells, 5)}))
+        cells[:] = [[1, 2, 3]]
+        writer.add(Frame(1.0, {"one": Block(points, cells, 5)}))
+    first, second = (frame.blocks["one"].cells.tolist() for frame in read(tmp_path))
+    assert (first, second) == ([[0, 1, 2]], [[1, 2, 3]])
 
 
 def test_other_programs_are_told_which_component_of_the_stress_is_which(tmp_path):

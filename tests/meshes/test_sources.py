@@ -30,13 +30,16 @@ def series(tmp_path_factory, ring, ovals):
 
 
 def test_a_frame_has_the_forces_and_the_slip_of_its_instant(series):
-    """Those of the ovals are 1 + cos^2 t, 0.3 sin 2t and -0.2 t, drawn through 200 points: off by 1e-5."""
-    for time in TIMES[[1, 4]]:
+    """Those of the ovals are 1 + cos^2 t, 0.3 sin 2t and -0.2 t, drawn through 200 points: off by 1e-5.
+
+    In a roll, up to 0.4, what the patch creeps by is no slip.
+    """
+    for time in TIMES[[1, 3]]:
         shot = SeriesSource(series).shot(time + 0.01)
         assert shot.time == time
         assert shot.normal_force == pytest.approx(1 + np.cos(time) ** 2, abs=1e-4)
         assert shot.friction_force == pytest.approx(0.3 * np.sin(2 * time), abs=1e-4)
-        assert shot.slip_velocity == pytest.approx(-0.2 * time, abs=1e-12)
+        assert shot.slip_velocity == pytest.approx(0.0 if time < 0.4 else -0.2 * time, abs=1e-12)
         assert shot.radius == pytest.approx(1.0, rel=1e-3)
         np.testing.assert_allclose(shot.centre, [time, 1.0], atol=1e-3)
 

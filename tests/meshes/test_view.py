@@ -326,9 +326,35 @@ def test_bad_wishes_are_one_sentence(series, tmp_path, arguments, words):
 
 
 def test_bad_animations_are_one_sentence(series, tmp_path):
-    for name, arguments in (("a.avi", {}), ("a.gif", {"frames": 1}), ("a.gif", {"start": 1.0, "stop": 0.5})):
+    nan = float("nan")
+    for name, arguments in (
+        ("a.avi", {}), ("a.gif", {"frames": 1}), ("a.gif", {"frames": 2.5}), ("a.gif", {"frames": nan}),
+        ("a.gif", {"fps": nan}), ("a.gif", {"start": 1.0, "stop": 0.5}),
+    ):  # fmt: skip
         with pytest.raises(ViewError):
             animate(series, tmp_path / name, timing=Timing(**arguments))
+
+
+@pytest.mark.parametrize("size", [(300, 240), (320, 200), (0, 0), (-100, 50), (400.5, 300), 300, "big"])
+def test_a_page_without_room_is_one_sentence(series, tmp_path, size):
+    with pytest.raises(ViewError, match=r"size = .* is not possible"):
+        picture(series, tmp_path / "a.png", size=size)
+
+
+def test_what_cannot_be_drawn_is_one_sentence(tmp_path):
+    with pytest.raises(SeriesError, match="holds no series"):
+        picture(tmp_path, tmp_path / "a.png")
+    with pytest.raises(SeriesError, match="a NoneType cannot be drawn"):
+        picture(None, tmp_path / "a.png")
+    with pytest.raises(ViewError, match=r"must end in \.png"):
+        picture(tmp_path, tmp_path / "a.jpg")
+
+
+@pytest.mark.parametrize("size", [(320, 240), (321, 601)])
+def test_a_picture_of_a_folder(series, size):
+    page = render(series.pvd.parent, 0.6, size=size)
+    assert page.shape == (size[1], size[0], 3)
+    np.testing.assert_array_equal(page, render(series, 0.6, size=size))
 
 
 def test_a_damaged_frame_is_one_sentence(tmp_path, ring, ovals):

@@ -134,8 +134,7 @@ def write_mesh(scene: Scene, path: Path) -> str:
         A format that cannot be written.
     """
     from flexible.models.select import ring_for
-    from meshes import MeshError
-    from meshes.exchange import save_mesh
+    from meshes import MeshError, save_mesh
 
     ring = ring_for(scene.to_dimensionless()).mesh
     try:

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from flexible import simulate
+import rigid
+from flexible import simulate, write_fields
 from flexible.output.instants import instants_at, times_of
+from meshes import SeriesError, frame_times
 from rigid import load_scene
 
 
@@ -32,6 +34,49 @@ def test_frames_have_the_curves_force(thick, frames):
         nearest = steps[np.abs(steps - t).argmin()]
         assert np.abs(when[at_steps] - nearest).min() < 1e-12
     assert at_steps.mean() > (0.9 if frames == 20 else 0.5)
+
+
+@pytest.mark.parametrize("frames", [2, 3, 7, 50])
+def test_frames_of_a_whole_motion_begin_and_end_with_it(frames):
+    """Between its marches a motion is in closed form, where no frame is moved to a step."""
+    scene = load_scene("paper-3.3-massless").replace(
+        ring={"bending_stiffness": 200}, contact={"stiffness": 1e7}, run={"turns": 2}, solve={"rtol": 1e-2}
+    )
+    motion = simulate(scene, history=True)
+    when = times_of(motion, frames, None, None)
+    assert len(when) == frames
+    assert when[0] == 0
+    assert when[-1] == motion.t_end
+    assert (np.diff(when) > 0).all()
+    spans = [np.array([kept.states[0].t, kept.states[-1].t]) * scene.time_unit for kept in motion.kept]
+    between = [t for t in frame_times(0.0, motion.t_end, frames, motion.history.t, motion.history.normal_force)
+               if not any(a <= t <= b for a, b in spans)]  # fmt: skip
+    assert set(between) <= set(when)
+
+
+@pytest.mark.parametrize(
+    ("wish", "words"),
+    [
+        ({"frames": 2.5}, "frames = 2.5"),
+        ({"frames": float("nan")}, "frames = nan"),
+        ({"frames": "5"}, "frames = '5'"),
+        ({"pulse": "0"}, "pulse = '0'"),
+        ({"pulse": 0.5}, "pulse = 0.5"),
+        ({"fields": "displaced"}, "fields = displaced"),
+        ({"fields": None}, "fields = none"),
+        ({"fields": [1]}, "fields = 1"),
+    ],
+)
+def test_wishes_that_cannot_be_are_one_sentence(thick, tmp_path, wish, words):
+    with pytest.raises(SeriesError, match=words) as caught:
+        write_fields(thick, tmp_path / "none", **wish)
+    assert "\n" not in str(caught.value)
+    assert not (tmp_path / "none").exists()
+
+
+def test_a_rigid_motion_has_no_fields(tmp_path):
+    with pytest.raises(SeriesError, match="fields are of a flexible motion"):
+        write_fields(rigid.simulate("paper-3.1"), tmp_path)
 
 
 def test_frames_span_what_was_asked(thick):
