@@ -129,7 +129,7 @@ class History:
         return f"History({len(self.t)} steps)"
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """A row for each step."""
+        """A row for each step, in the units of :attr:`FlexibleMotion.units`."""
         import pandas
 
         return pandas.DataFrame({entry.name: getattr(self, entry.name) for entry in dataclasses.fields(self)})

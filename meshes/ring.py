@@ -31,7 +31,8 @@ class Quality:
     """How good a ring mesh is; the errors are relative to the true annulus.
 
     ``jacobian_ratio`` is the smallest over the largest Jacobian determinant within an element, ``aspect`` the
-    longer over the shorter mid-line of an element, both of the worst element.
+    longer over the shorter mid-line of an element, both of the worst element; ``smallest_angle`` and ``largest_angle``
+    are what elements take around the ring, in radians.
     """
 
     elements: int

@@ -165,8 +165,9 @@ def _point_mass(hoop: Mapping[str, Any], parts: dict[str, Any]) -> None:
         parts["hoop"] |= {"k": 0.0}
 
 
-def scene_to_dict(scene: Scene) -> dict[str, dict[str, Any]]:
-    """The scene as the nested dict of its TOML file; keys that say nothing are left out."""
+def scene_to_dict(scene: SceneLike) -> dict[str, dict[str, Any]]:
+    """A scene, or what says which, as the nested dict of its TOML file; keys that say nothing are left out."""
+    scene = as_scene(scene)
     data: dict[str, dict[str, Any]] = {}
     for part in PARTS:
         table = {}
@@ -237,6 +238,8 @@ def scene_tables(source: str | PathLike[str]) -> dict[str, Any]:
     SceneError
         No such scene, or not TOML.
     """
+    if not isinstance(source, (str, PathLike)):
+        raise SceneError(f"{source!r} is neither the name of a scene nor the path of a file.")
     path = Path(source)
     try:
         text = path.read_text(encoding="utf-8-sig") if path.is_file() else None  # an editor may begin it with a mark

@@ -14,7 +14,7 @@ from .kernel.angle import trig
 from .kernel.layout import MU_S, ZETA
 from .phases.rolling.closed_form import ceiling, margin_polynomials, rolling_forces, turning_point
 from .sampler import parameters
-from .scene import Friction, Hoop, Release, Scene
+from .scene import Friction, Hoop, Release, Scene, SceneError
 from .solve import release_state
 
 
@@ -32,7 +32,14 @@ def rolling_mu_s(hoop: Hoop, release: Release) -> float:
     -------
     float
         ``inf`` where N of rolling falls to 0 within the swing, so that no friction keeps the hoop rolling.
+
+    Raises
+    ------
+    SceneError
+        A release that slips.
     """
+    if release.slip0 != 0.0:
+        raise SceneError(f"release.slip0 = {release.slip0!r} is not possible here: what is released so does not roll.")
     par, state = _at_release(hoop, release)
     par[MU_S] = 1.0
     _, _, h, low = trig(state[1], state[2])

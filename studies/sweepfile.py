@@ -12,6 +12,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from rigid import Scene, SceneError, scene_from_dict, scene_to_dict
 from rigid.allowed import shown
 from rigid.elastic import SECTION, UNITS
@@ -125,7 +127,8 @@ def sweep_from_dict(data: Mapping[str, Any], solvers: str | Sequence[str] = (), 
     sweep = Sweep(tuple(keys), tuple(choices), tables, who or named, histories, repeated)
     if sweep.cases > max_cases:
         raise SceneError(
-            f"{sweep.announcement()}. That is more than {max_cases}: shorten the lists, or allow it by --max-cases."
+            f"{sweep.announcement()}. That is more than {max_cases}: shorten the lists, or allow it:"
+            " max_cases, on the command line --max-cases."
         )
     _check(sweep)
     return sweep
@@ -206,6 +209,8 @@ def _varied(
         if part == "run":
             tables["run"] = {}  # how far to run is said anew, not added to
         for key, value in table.items():
+            if isinstance(value, tuple | np.ndarray):  # of a dict in a program
+                value = value.tolist() if isinstance(value, np.ndarray) else list(value)
             if isinstance(value, list):
                 if not value:
                     raise SceneError(f"{part}.{key} = [] is not possible: a list needs a value.")

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from rigid import Scene, SceneError
+from rigid import SceneError, SceneLike, as_scene
 
 THINNEST = 9e-4  # wall over R: quads are too long for a thinner one, and rounding errors of their stretching too large
 
 
-def ensure_possible(scene: Scene) -> None:
-    """Of a scene in any units.
+def ensure_possible(scene: SceneLike) -> None:
+    """Of a scene in any units, or what says which (see :func:`rigid.simulate`).
 
     Raises
     ------
     SceneError
         A point mass without inertia, which cannot ride on a flexible hoop, or a wall too thin for quads.
     """
+    scene = as_scene(scene)
     if scene.hoop.k == 0 and scene.hoop.mass_ratio == 0:
         raise SceneError(
             "hoop.k = 0 is not possible here: the flexible hoop needs a disk with a radius, or a hoop with a mass."

@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from rigid import SceneLike, as_scene, scene_to_dict
+from rigid import SceneError, SceneLike, as_scene, scene_to_dict
 from rigid.lists import phases_of
 from rigid.output import summary
 
@@ -138,6 +138,8 @@ def atlas_of(
     SceneError
         What no scene or no atlas can be.
     """
+    if not (isinstance(side, int | np.integer) and side > 0):
+        raise SceneError(f"side = {side!r} is not possible: it is a whole number of squares, from 1.")
     chosen = plane(as_scene(scene), over)
     count = max(1, -(-side // FIRST)) * FIRST
     start = time.perf_counter()

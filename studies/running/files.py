@@ -16,7 +16,7 @@ from typing import Any
 from rigid.output import whole
 
 
-class StudyError(Exception):
+class StudyError(ValueError):
     """Something a user can mend, in one sentence."""
 
 

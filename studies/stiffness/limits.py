@@ -250,7 +250,7 @@ def limit_of(
     it does. With fewer than :func:`.series.fewest` cases there a rate is fitted, to all.
     Cases come in any order of ``s``, which is above 0.
     """
-    s, y, error = ascending(s, y, error)
+    s, y, error = ascending(s, y, error, exponents)
     (values, alike), stiff = settled(y, rigid), np.asarray(s, float) >= holds
     known = exponents is not None and (holds == 0 or int(np.isfinite(values[stiff]).sum()) >= fewest(exponents))
     if exponents is not None and known:

@@ -125,13 +125,15 @@ def inferred_series(s: ArrayLike, y: ArrayLike, error: ArrayLike, exponents: Seq
     return found
 
 
-def ascending(s: ArrayLike, y: ArrayLike, error: ArrayLike | None) -> tuple[Array, Array, Array | None]:
-    """Stiffness, measure and its error of the cases in any order, softest first.
+def ascending(
+    s: ArrayLike, y: ArrayLike, error: ArrayLike | None, exponents: Sequence[float] | None = None
+) -> tuple[Array, Array, Array | None]:
+    """Stiffness, measure and its error of the cases in any order, softest first; ``exponents`` are looked at alone.
 
     Raises
     ------
     ValueError
-        Not as many of each, a stiffness that is none, or one twice.
+        Not as many of each, a stiffness that is none, or one twice; exponents that are no rates, slowest first.
     """
     x, v, e = np.asarray(s, float), np.asarray(y, float), None if error is None else np.asarray(error, float)
     lengths = [each.shape for each in (x, v, e) if each is not None]
@@ -140,6 +142,10 @@ def ascending(s: ArrayLike, y: ArrayLike, error: ArrayLike | None) -> tuple[Arra
         raise ValueError(f"s, y and error of shapes {told} are not possible: there is one of each for every case.")
     if not np.all(np.isfinite(x) & (x > 0)):
         raise ValueError(f"s = {x[~(np.isfinite(x) & (x > 0))][0]:g} is not possible: a stiffness is above 0.")
+    if exponents is not None:
+        rates = np.asarray(exponents, float)
+        if rates.ndim != 1 or not rates.size or not np.all((rates > 0) & (rates < inf)) or np.any(np.diff(rates) < 0):
+            raise ValueError(f"exponents = {exponents!r} is not possible: rates are above 0, slowest first.")
     order = np.argsort(x)
     if np.any(np.diff(x[order]) == 0):
         raise ValueError(

@@ -22,6 +22,7 @@ from rigid import Run, Scene, SceneLike, as_scene
 from ..running.case import Case
 from ..running.files import StudyError
 from ..running.runs import run_cases
+from ..running.solvers import ensure_accepts
 from ..running.workers import Here, Pool
 from .found import LIMITS, Rung, StiffnessStudy
 from .ladder import Ladder
@@ -75,14 +76,18 @@ def stiffness_study(
     Raises
     ------
     StudyError
-        No rate, a rigid hoop without a pulse to study, or too few rungs that came through to speak of a limit.
+        No rate, no ladder, no such solver, a rigid hoop without a pulse to study, or no rung that came through. Of too
+        few rungs a limit is NaN: a rate that is fitted takes five, known ones four, and two more than they are.
     """
     from flexible import rigid_limit
 
     if exponent is not None and not 0 < exponent < inf:
         raise StudyError(f"exponent = {exponent!r} is not possible: a rate is finite and above 0.")
     scene = as_scene(scene)
+    if not isinstance(ladder, Ladder | None):
+        raise StudyError(f"ladder = {ladder!r} is not possible: it is a studies.Ladder.")
     ladder = ladder or Ladder.around(scene)
+    ensure_accepts(solver, ladder.rungs(scene)[0])
     pool = pool or Here()
     if not all_pulses:
         scene = scene.replace(run=Run(until="pulse"))

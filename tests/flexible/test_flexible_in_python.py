@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import rigid
-from flexible import load_motion, rigid_limit, simulate
+from flexible import ensure_possible, load_motion, rigid_limit, simulate
 from rigid import MotionFileError, SceneError, load_scene, scene_to_dict
 
 mpl.use("Agg")
@@ -120,3 +120,9 @@ def test_a_rigid_motion_comes_back_too(tmp_path):
     found = rigid.simulate("paper-3.1")
     found.save(tmp_path / "rigid")
     assert load_motion(tmp_path / "rigid") == found
+
+
+def test_what_takes_a_scene_takes_its_name():
+    assert rigid_limit("paper-3.3-light") == load_scene("paper-3.3-light")
+    with pytest.raises(SceneError, match=r"hoop\.k = 0 is not possible here"):
+        ensure_possible({**scene_to_dict("paper-3.1"), "hoop": {"point_mass": True}})

@@ -5,7 +5,7 @@ import re
 import pytest
 
 import rigid
-from rigid import Ring, SceneError, load_scene, scene_from_dict, simulate_batch
+from rigid import Ring, SceneError, load_scene, scene_from_dict, scene_to_dict, simulate_batch
 
 HUGE = 10**400
 
@@ -16,6 +16,8 @@ HUGE = 10**400
         lambda: scene_from_dict(None),
         lambda: scene_from_dict({1: 2}),
         lambda: simulate_batch({1: 2}),
+        lambda: load_scene(None),
+        lambda: scene_to_dict(None),
         lambda: Ring(weld_half_angle="3"),
         lambda: Ring(weld_half_angle=None),
         lambda: Ring(weld_half_angle=HUGE),

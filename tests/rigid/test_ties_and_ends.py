@@ -73,6 +73,8 @@ def test_the_friction_that_rolls_throughout_is_the_largest_ratio_of_the_swing(ho
 def test_no_friction_rolls_where_n_would_vanish():
     """A tiny disk on a massless hoop cannot roll through: N of rolling falls below 0."""
     assert rolling_mu_s(Hoop(1e-3), RELEASE) == inf
+    with pytest.raises(SceneError, match=r"release\.slip0 = 1\.0 is not possible here"):
+        rolling_mu_s(Hoop(0.5), Release(1.0, 0.0, slip0=1.0))
 
 
 @pytest.mark.parametrize("phi0", [0.2, 1.0, 2.5])

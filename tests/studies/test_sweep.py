@@ -526,6 +526,17 @@ def test_a_product_too_large_is_refused_before_it_is_made():
         sweep_from_dict(of_lists(7, 5), max_cases=2 * 7**5 - 1)
 
 
+@pytest.mark.parametrize("kind", [tuple, np.array])
+def test_in_a_program_values_come_as_an_array_too(kind):
+    lists = {"sweep": {"scene": "paper-3.1"}, "hoop": {"k": [0.1, 0.2, 0.3]}, "friction": {"mu": [0.1, 0.2]}}
+    arrays = lists | {"hoop": {"k": kind([0.1, 0.2, 0.3])}, "friction": {"mu": kind([0.1, 0.2])}}
+    assert list(sweep_from_dict(arrays).points) == list(sweep_from_dict(lists).points)
+    with pytest.raises(SceneError, match=r"hoop\.k = \[\] is not possible"):
+        sweep_from_dict({"sweep": {"scene": "paper-3.1"}, "hoop": {"k": kind([])}})
+    with pytest.raises(SceneError, match=r"hoop\.k = \[0\.1, 0\.2\] is not possible"):
+        sweep_from_dict({"sweep": {"scene": "paper-3.1"}, "hoop": {"k": kind([[0.1, 0.2]])}})
+
+
 def test_the_bound_is_an_option_and_nothing_is_left_of_a_refused_sweep(hoop, tmp_path):
     line = ("study", "sweep", sweep_file(tmp_path), "--workers", 1, "--out", tmp_path / "out", "--max-cases")
     status, out, err = hoop(*line, 5)

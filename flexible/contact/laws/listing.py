@@ -8,7 +8,7 @@ from __future__ import annotations
 from math import inf
 from typing import Any
 
-from rigid import Scene
+from rigid import Scene, SceneLike, as_scene
 from rigid.kernel.compile import loop
 
 from . import brush, patch, regularised
@@ -89,8 +89,12 @@ def sticks(law: Any, mode: int) -> bool:
     return bool(law.law == patch.CODE and mode == patch.STICK)
 
 
-def rigid_limit(scene: Scene) -> Scene:
-    """The scene whose rigid motion is the limit of this one's flexible motion; where mu_s > mu that may be another."""
+def rigid_limit(scene: SceneLike) -> Scene:
+    """The scene whose rigid motion is the limit of this one's flexible motion; where mu_s > mu that may be another.
+
+    ``scene`` is a scene or what says which (see :func:`rigid.simulate`).
+    """
+    scene = as_scene(scene)
     mu_s = LAWS[scene.contact.law].static_coefficient(scene.friction)
     return scene if mu_s == scene.friction.mu_s else scene.replace(friction={"mu_s": mu_s})
 

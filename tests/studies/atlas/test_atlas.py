@@ -345,3 +345,9 @@ def test_the_help_names_every_key(hoop):
     status, out, _ = hoop("study", "atlas", "-h")
     assert status == 0
     assert all(key in " ".join(out.split()) for key in SYMBOLS)
+
+
+@pytest.mark.parametrize("side", [0, -5, 20.5, float("nan"), "20"])
+def test_squares_that_cannot_be_counted(side):
+    with pytest.raises(SceneError, match=r"side = .* whole number of squares"):
+        atlas_of("paper-3.1", {"hoop.k": (0.1, 0.9), "friction.mu": (0.1, 1.0)}, side=side)

@@ -289,3 +289,9 @@ def test_cases_come_in_any_order(exponents):
 def test_what_is_no_ladder_has_no_limit(s, y, error, told):
     with pytest.raises(ValueError, match=f"{told}.*is not possible|{told}.*are not possible|{told}.*comes twice"):
         limit_of(s, y, 0.17, error)
+
+
+@pytest.mark.parametrize("exponents", [(), (0.0,), (-1.0,), (float("nan"),), (float("inf"),), (2 / 3, 1 / 3), 1 / 3])
+def test_what_is_no_rate_extrapolates_nothing(exponents):
+    with pytest.raises(ValueError, match=r"exponents = .* is not possible: rates are above 0, slowest first"):
+        limit_of(S, 0.1 + 0.01 * S ** (-1 / 3), 0.1, exponents=exponents)

@@ -290,3 +290,16 @@ def test_the_row_of_a_limit_says_whether_the_rigid_value_is_inside(inside, said)
     scene = load_scene("paper-3.1")
     (row,) = limit_rows(SimpleNamespace(limits={"impulse_ratio": limit}, scene=scene))
     assert dict(zip(LIMIT_HEADING, row, strict=True))["inside?"] == said
+
+
+def test_what_cannot_be_studied_is_a_sentence_before_anything_is_solved(monkeypatch):
+    def no_case(*_: object, **__: object) -> None:
+        raise AssertionError("a case was run")
+
+    monkeypatch.setattr("studies.stiffness.study.run_cases", no_case)
+    with pytest.raises(StudyError, match="'nope' is not a solver"):
+        stiffness_study("paper-3.3-massless", solver="nope")
+    with pytest.raises(StudyError, match="ladder = 5 is not possible"):
+        stiffness_study("paper-3.3-massless", 5)
+    with pytest.raises(ValueError, match="exponent = 0 is not possible"):  # as all other troubles are
+        stiffness_study("paper-3.3-massless", exponent=0)
