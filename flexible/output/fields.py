@@ -8,6 +8,10 @@
 Instants between two steps are not interpolated: the march takes one more, shorter step to each, so the ring is in
 equilibrium with the contact in every frame. Between the pulses the hoop is rigid, and frames there show it undeformed.
 
+``displacement``, ``velocity`` and ``stress`` (xx, yy, xy) are along the world's axes, x to the right and y up. On the
+block ``rim`` are ``pressure`` and ``traction``, the vertical and the horizontal force of the floor on the undeformed
+rim, and ``stick``: 1 where a point of the rim sticks, -1 where it slips, 0 where it is off the floor.
+
 Units are the scene's. Stresses, pressures and energy densities are those of the ring's ``section_width``; where a scene
 says none, of a hoop of width R, and R/b times as large for another of width b.
 """
