@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import cos, inf, sin
 
 import numpy as np
 
@@ -47,7 +47,11 @@ def taken_over(hoop: Hoop, state: State) -> tuple[float, float, Aloft]:
         height = max(float(hoop.energies(state)[1]) / mass - 1 - scene.e * c, LOWEST)
         if height + rising**2 / 2 >= LEAST:
             return omega, along - lever * omega, Aloft(height, rising)
-    if state.res.stuck > 0:
-        return about / (lever**2 + beside**2 + scene.K), 0.0, Aloft()
+    inertia = lever**2 + beside**2 + scene.K
+    rolling = about / inertia
+    alpha = beside * (1 + rolling**2) / inertia
+    normal, friction = 1 - alpha * beside - rolling**2 * (lever - 1), alpha * lever - rolling**2 * beside
+    if hoop.law.rolls(state, rolling, abs(friction) / normal if normal > 0 else inf):
+        return rolling, 0.0, Aloft()
     omega = (about - lever * along) / (beside**2 + scene.K)
     return omega, along - lever * omega, Aloft()

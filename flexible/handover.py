@@ -35,6 +35,9 @@ Array = NDArray[np.float64]
 # of the rates; a shorter one sees how the patch's height ripples as point after point comes to bear (measured at a
 # foundation of 1e4: rates 35 % off at 1e-3, 0.5 % at 1e-2).
 SPAN = 1e-2
+#: A parabolic patch of which no point has let go creeps 2 F/(3 mu N) of what lets go all, which so is at most this many
+#: times as much as it. Where nearly all do, F all but stands still, and the points of a brush may never carry it.
+ALL_SLIP = 3.0
 GAINS = 0.01  # share of the energy that rigid hoops may add; what one lacks to go over the top from 10 degrees is 0.008
 
 
@@ -59,11 +62,6 @@ class Pose:
         angular = (self.normal_force * rigid.e * s - self.friction_force * (1 + rigid.e * c)) / (rigid.K * mass)
         up = rigid.e * self.omega**2 * c if self.kind is Kind.FLIGHT else 1.0
         return self.friction_force / mass - rigid.e * (angular * c - self.omega**2 * s), up, angular
-
-
-def pose_at(motion: Motion, t: float, side: Side = "right") -> Pose:
-    """The rigid motion at time ``t``, without its units; where phases meet, in the one that ``side`` says."""
-    return _pose(without_units(motion.at(t, side), motion.scene), motion.phase_at(t, side).kind)
 
 
 def _pose(now: States, kind: Kind) -> Pose:
@@ -243,7 +241,8 @@ def _balanced(hoop: Hoop, state: State, pose: Pose, creep: float) -> State:
 
     The ring gives way to a friction that is not shared like the pressure, and bristles of a brush have let go at its
     rear, so both come out different at first; a hoop of small inertia would start with the acceleration that the
-    difference makes. The ``creep`` of the state goes with the stretch that it keeps up. Broyden's method.
+    difference makes. The ``creep`` of the state goes with the stretch that it keeps up, as far as all points slip.
+    Broyden's method.
     """
     wanted = np.array([pose.normal_force, pose.friction_force])
     best, least = restart(hoop, state, state.mode), np.inf
@@ -272,8 +271,9 @@ def _balanced(hoop: Hoop, state: State, pose: Pose, creep: float) -> State:
         along = step @ inverse
         if along @ gained != 0:
             inverse += np.outer(step - inverse @ gained, along) / (along @ gained)
-        step = -inverse @ off
-        change = change + step
+        ahead = change - inverse @ off
+        ahead[1] = min(max(ahead[1], -1.0), ALL_SLIP - 1)
+        step, change = ahead - change, ahead
     return best
 
 

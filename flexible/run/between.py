@@ -58,16 +58,20 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
             return error.stop
         state = state._replace(t=builder.t, x_C=builder.x_C)
         ends, timed = _ends_of(motion, pulse, start, state)
+        run_out = inf if scene.run.t_end is None else scene.run.t_end
+        ends = ends._replace(t=min(ends.t, run_out))
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, swept((float(state.pos[2]), pulse.phi_end)))
         state, segment, stop = builder.march(hoop, state, ends, scene.solve.rtol, watch)
         onward = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
-        back = not timed and onward * (float(state.pos[2]) - pulse.phi_end) < 0
+        inside = not timed and onward * (float(state.pos[2]) - pulse.phi_end) < 0
+        cut_short = inside and state.t >= run_out - SHORTEST
+        back = inside and not cut_short
         if stop is None and back and ends.t - state.t < SHORTEST:
             stop = Stop(": the hoop does not get out of the pulse", state.t, float(state.pos[2]))
         if stop is not None:
             return stop
-        _list(builder, segment, motion, pulse, start, back, timed)
+        _list(builder, segment, motion, pulse, start, back, cut_short or (pulse.cut and timed))
         done += 1
         if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse) and not builder.pulses[-1].cut:
             return pulse_over(back)
@@ -95,7 +99,7 @@ def _ends_of(motion: Motion, pulse: Pulse, start: float, state: State) -> tuple[
 
 
 def _list(
-    builder: Builder, segment: Segment, motion: Motion, pulse: Pulse, start: float, back: bool, timed: bool
+    builder: Builder, segment: Segment, motion: Motion, pulse: Pulse, start: float, back: bool, cut: bool
 ) -> None:
     """List the pulse that a segment went through, from where it came to it, to where it left it."""
     first = segment.t_start if start == pulse.t_start else comes_to(segment, motion, pulse)
@@ -105,4 +109,4 @@ def _list(
     measured = segment.pulse(segment.t_start if first is None else first, leaves)
     released = pulse.t_start == 0 and len(builder.marches) == 1
     # what the rigid hoop ran no farther than to its end this one has left
-    builder.list_pulse(measured, pulse.cut and (timed or released))
+    builder.list_pulse(measured, cut or (pulse.cut and released))

@@ -15,6 +15,7 @@ from ..segment import Segment
 INSTANTS = 200  # of a rolling that are looked at
 LEAD = 0.5  # a flexible segment begins this many pulse lengths before the pulse, to let its start settle
 AT_REST = 1e-6  # sqrt(R/g), and an angle, within which two turns are one
+STILL_TURNS = 1e-3  # of the way to the farthest turn or pulse: a turn before it is that in which a swing began
 BEHIND = 0.1  # of the time from a turn to the pulse, if that is less
 LONGEST = 4.0  # pulse lengths that a hoop may take for a pulse in which it turns
 FORWARD, BACKWARD = 1, -1
@@ -43,11 +44,11 @@ def lead(motion: Motion, pulse: Pulse, rolls_to: float = 1.0) -> float:
     return start
 
 
-def comes_to(segment: Segment, motion: Motion, pulse: Pulse) -> float | None:
-    """When the hoop comes to the angle at which a pulse of the rigid one begins; to a pulse that a landing opens, when
-    it has landed by then.
+def comes_to(segment: Segment, motion: Motion, pulse: Pulse, after: float | None = None) -> float | None:
+    """When the hoop comes, ``after`` its beginning or a turn, to the angle at which a pulse of the rigid one begins; to
+    a pulse that a landing opens, when it has landed by then.
     """
-    enters = segment.crossing(pulse.phi_start, segment.t_start)
+    enters = segment.crossing(pulse.phi_start, segment.t_start if after is None else after)
     phases = pairwise(motion.phases)
     lands = any(before.kind is Kind.FLIGHT and phase.t_start == pulse.t_start for before, phase in phases)
     return segment.in_the_air(enters) if enters is not None and lands else enters
@@ -75,8 +76,16 @@ def swings(segment: Segment) -> bool:
 
 
 def _turned(swing: Motion) -> list[float]:
-    """When the rigid hoop of a swing turns; where it begins it is turning already, and may go the other way."""
-    return [turn.t for turn in swing.turns if abs(turn.phi - swing.scene.release.phi0) > AT_REST]
+    """When the rigid hoop of a swing turns.
+
+    Where that begins the flexible one is turning already: a rigid hoop without its creep may go the other way, or go on
+    a little and turn there.
+    """
+    began = swing.scene.release.phi0
+    ways = [abs(turn.phi - began) for turn in swing.turns]
+    farthest = max([*ways, *(abs(pulse.phi_end - began) for pulse in swing.pulses)], default=0.0)
+    least = max(AT_REST, STILL_TURNS * farthest)
+    return [turn.t for turn, way in zip(swing.turns, ways, strict=True) if way > least]
 
 
 def turns_of(swing: Motion, pulses: list[Pulse], most: int | None) -> int:
@@ -90,10 +99,14 @@ def turns_of(swing: Motion, pulses: list[Pulse], most: int | None) -> int:
 
 def _ways(segment: Segment, swing: Motion, pulse: Pulse) -> tuple[float | None, float | None]:
     """When the hoop comes to a pulse, and when it leaves it at its end."""
-    enters = segment.t_start if pulse.cut else comes_to(segment, swing, pulse)
+    turned = [turn.t for turn in segment.turns()]
+    before = sum(t < pulse.t_start for t in _turned(swing))  # so many turns the hoop comes to it
+    if len(turned) < before:
+        return None, None
+    behind_turn = max([segment.t_start, *turned[:before]])
+    enters = segment.t_start if pulse.cut else comes_to(segment, swing, pulse, behind_turn)
     if enters is None:
         return None, None
-    turned = [turn.t for turn in segment.turns()]
     behind = sum(t < pulse.t_end - AT_REST for t in _turned(swing))  # so many turns the hoop leaves the pulse
     after = max([enters, *turned[:behind]])
     return enters, segment.crossing(pulse.phi_end, after) if len(turned) >= behind else None

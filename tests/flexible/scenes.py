@@ -5,11 +5,13 @@ from math import pi
 import numpy as np
 
 from flexible.contact.points.data import NOTHING, no_bristles
+from flexible.handover import _pose
 from flexible.models.state import Touching, in_motion
 from flexible.time.adaptive import Limits, march
 from flexible.time.events import Ends
 from flexible.time.methods import ESDIRK3
 from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
+from rigid.output.units import without_units
 
 #: the hoop of the paper's sec. 3.3, on a floor soft enough to be quick
 HOOP = Scene(
@@ -21,6 +23,11 @@ HOOP = Scene(
     contact=Contact(stiffness=1e8, damping=0.0),
     solve=Solve(rtol=1e-3, level="reduced"),
 )
+
+
+def pose_at(motion, t, side="right"):
+    """The rigid motion at time ``t``, without its units; where phases meet, in the one that ``side`` says."""
+    return _pose(without_units(motion.at(t, side), motion.scene), motion.phase_at(t, side).kind)
 
 
 def flying(hoop, pos, vel):

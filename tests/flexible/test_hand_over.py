@@ -4,11 +4,11 @@ from math import pi, radians
 
 import numpy as np
 import pytest
-from scenes import HOOP
+from scenes import HOOP, pose_at
 
 import flexible
 import rigid
-from flexible.handover import equilibrium, hand_over, pose_at
+from flexible.handover import equilibrium, hand_over
 from flexible.models.chain import ChainHoop
 from flexible.models.reduced import ReducedHoop
 from flexible.time.adaptive import march
@@ -92,6 +92,44 @@ def test_a_hoop_that_rolls_is_not_made_to_slip_by_its_hand_over(stiffer):
     assert np.abs(states.friction_force / states.normal_force).max() < 0.76 * 0.276
     assert [phase.kind for phase in motion.phases] == [Kind.ROLL]
     assert [phase.kind for phase in flexible.simulate(scene).phases] == [Kind.ROLL]
+
+
+@pytest.mark.parametrize("share", [0.97, 0.985, 0.993, 0.998, 0.9999])
+@pytest.mark.parametrize(("phi0", "omega0"), [(2.0, 0.5), (1.35, 0.6)])
+def test_a_brush_that_all_but_slips_creeps_no_more_than_one_that_does(phi0, omega0, share):
+    """All of a parabolic patch of width 2 a slips from a creep of mu a phidot eps_n/eps_t on.
+
+    Its dozen of points cannot carry the last of mu N, 2 to 3 %, and no creep will have them do it.
+    """
+    hoop, release, run = Hoop(0.1, 1.02, 0.1), Release(phi0, omega0), Run(until="pulse")
+    start = rigid.simulate(Scene(hoop, Friction(9.0, 9.0), release, run)).at(0.0)
+    mu = abs(float(start.friction_force / start.normal_force)) / share
+    scene = Scene(hoop, Friction(mu, mu), release, run).replace(contact={"law": "brush"}, solve={"resolve": "all"})
+    state = hand_over(ReducedHoop(scene), rigid.simulate(scene), 0.0)
+    assert abs(state.slip_velocity) <= mu * state.res.length / 2 * omega0 / scene.contact.tangential_ratio
+    assert abs(state.res.friction) == pytest.approx(abs(float(start.friction_force)), rel=0.03)
+    ours, theirs = flexible.simulate(scene, states=False).pulses[0], rigid.simulate(scene).pulses[0]
+    assert ours.normal_impulse == pytest.approx(theirs.normal_impulse, rel=1e-3)
+
+
+def test_a_brush_is_handed_over_between_slips():
+    """In the middle of a run, with F at 0.988 of what rolls."""
+    release = Release(0.04728663778816866, 0.0, -0.6878798824644039)
+    scene = Scene(
+        Hoop(0.5637576790957322, 1.062140071386526), Friction(0.29712544, 0.29712544), release, Run(t_end=5.0)
+    )
+    scene = scene.replace(contact={"law": "brush"}, ring={"bending_stiffness": 1e5})
+    motion = flexible.simulate(scene, states=False)
+    assert abs(motion.ledger.hand_over) < 1e-3 * motion.ledger.initial
+    (ours,), (theirs,) = motion.pulses, rigid.simulate(scene).pulses
+    assert ours.normal_impulse == pytest.approx(theirs.normal_impulse, rel=1e-3)
+
+
+@pytest.mark.parametrize("stiffness", [1e9, 1e12])
+def test_a_brush_that_slides_as_it_is_handed_over_slides_on(stiffness):
+    scene = Scene(Hoop(0.1, 1.02, 0.1), Friction(0.35, 0.3), Release(2.9, 3.0, 1.0), Run(t_end=0.3))
+    scene = scene.replace(contact={"law": "brush", "stiffness": stiffness})
+    assert [phase.kind for phase in flexible.simulate(scene, states=False).phases] == [Kind.SKID]
 
 
 @pytest.mark.slow

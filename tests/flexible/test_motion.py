@@ -4,12 +4,12 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from scenes import HOOP, energy, flying, steps_of
+from scenes import HOOP, energy, flying, pose_at, steps_of
 
 import flexible
 import rigid
 from flexible.contact.laws.patch import SLIDE_LEFT, SLIDE_RIGHT, STICK, Patch
-from flexible.handover import Pose, equilibrium, hand_over, pose_at
+from flexible.handover import Pose, equilibrium, hand_over
 from flexible.models.reduced import ReducedHoop
 from flexible.time.adaptive import march, restart
 from flexible.time.events import Ends

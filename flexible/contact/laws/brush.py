@@ -12,6 +12,7 @@ its limit is the rigid hoop with that static coefficient.
 
 from __future__ import annotations
 
+from math import sqrt
 from typing import Any
 
 import numpy as np
@@ -85,13 +86,22 @@ class Brush(Law):
     name, code, points, points_of_soft = "brush", CODE, 12, 20
     tractions = staticmethod(tractions)
 
+    def rolls(self, state: PatchState, omega: float, share: float) -> bool:
+        """Points that stick are not enough, as some do for an instant in a brush that slides: it creeps no faster than
+        one that slips as a whole does, and swings no faster than bristles can catch a hoop, both twice."""
+        law, res = self.parameters, state.res
+        creeps = law.mu_s * abs(omega) * res.length / 2 * law.eps_n / law.eps_t
+        caught = law.mu_s * res.normal / sqrt(law.eps_t * res.length) if res.length > 0 else 0.0
+        return res.stuck > 0 and abs(state.slip_velocity) <= 2 * (creeps + caught)
+
     def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:
         """See :func:`flexible.contact.points.bristles.rolled_in`."""
         return rolled_in(bristles, self.parameters, res, pose.phi, pose.omega)
 
     def slid_in(self, bristles: Bristles, res: Resultants) -> Bristles:
-        """All points slide."""
-        return bristles._replace(sliding=np.full_like(bristles.sliding, 1 if res.friction > 0 else -1))
+        """All points slide, their stretch beyond what they hold: one that is at it to the last bit would stick."""
+        sliding = np.full_like(bristles.sliding, 1 if res.friction > 0 else -1)
+        return bristles._replace(stretch=2 * bristles.stretch, sliding=sliding)
 
     def pulls(self, state: PatchState, stretch: Array, pressure: Array) -> Array:
         """The bristles' pull."""

@@ -87,6 +87,10 @@ class Law:
         """The mode in which the patch begins out of a rigid phase."""
         return 0
 
+    def rolls(self, state: PatchState, omega: float, share: float) -> bool:
+        """Whether the hoop rolls, of which N and F of a rigid one that rolled so would have the ratio ``share``."""
+        return state.res.stuck > 0
+
     # what is stored
 
     def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:

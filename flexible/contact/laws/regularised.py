@@ -16,7 +16,7 @@ from rigid.kernel.compile import loop
 
 from ..points.bristles import keep_touching
 from ..points.data import Bristles, Resultants, Shared, Tractions
-from .law import Law, Rolling
+from .law import Law, PatchState, Rolling
 
 CODE = 2
 _MOST = 0.999  # of mu N that a creep is sought for: the rest is sliding
@@ -55,6 +55,13 @@ class Regularised(Law):
     name, code = "regularised", CODE
     rolls_to = 0.3  # of a hoop that creeps as slowly as that what is left out is a hundredth of what v_s changes
     tractions = staticmethod(tractions)
+
+    def rolls(self, state: PatchState, omega: float, share: float) -> bool:
+        """Where a rigid hoop would, and this one creeps no faster than twice what carries that one's F, and v_s."""
+        if share >= self.parameters.mu:
+            return False
+        part = share / self.parameters.mu
+        return abs(state.slip_velocity) <= self.parameters.slip_scale * (1 + 2 * part / sqrt(1 - part**2))
 
     def rolled_in(self, bristles: Bristles, res: Resultants, pose: Rolling) -> tuple[Bristles, float]:
         """The creep that carries F."""

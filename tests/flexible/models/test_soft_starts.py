@@ -4,10 +4,11 @@ from math import pi
 
 import numpy as np
 import pytest
+from scenes import pose_at
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 
-from flexible.handover import equilibrium, pose_at
+from flexible.handover import equilibrium
 from flexible.models.select import hoop_of
 from rigid import scene_from_dict, simulate
 
