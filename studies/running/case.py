@@ -215,7 +215,7 @@ def _resolved(case: Case) -> dict[str, Any]:
     """
     rtol = case.scene.solve.rtol
     best, excess = _pair(case, rtol)
-    least, stuck = excess, 0
+    last, least, stuck = best, excess, 0
     steps = spent = best["motion"].get("steps", 0)  # of the finer run; 0 where the solver does not count any
     while least > 1 and stuck < 2:
         factor = min(max(1.5 * min(excess, 3 * least), 2.0), 8.0)
@@ -225,10 +225,10 @@ def _resolved(case: Case) -> dict[str, Any]:
             break
         rtol /= factor
         try:
-            pair, excess = _pair(case, rtol, NOISY * factor ** (1 / 3) * steps or inf)
+            pair, excess = _pair(case, rtol, NOISY * factor ** (1 / 3) * steps or inf, last)
         except Unfinished:
             break
-        steps = pair["motion"].get("steps", 0)
+        last, steps = pair, pair["motion"].get("steps", 0)
         spent += steps
         stuck = stuck + 1 if excess > 0.7 * least else 0
         if excess < least:
@@ -248,9 +248,15 @@ def _distances(case: Case, pulse: Mapping[str, float]) -> dict[str, float]:
     return {name: away for name, away in found.items() if away > SAME * MEASURES[name].unit.of(case.scene)}
 
 
-def _pair(case: Case, rtol: float, most: float = inf) -> tuple[dict[str, Any], float]:
+def _pair(
+    case: Case, rtol: float, most: float = inf, before: Mapping[str, Any] | None = None
+) -> tuple[dict[str, Any], float]:
     """The run at a quarter of a tolerance with its error, known from the run at all of it, and how many times it is
-    too large; neither may take more than ``most`` steps."""
+    too large; neither may take more than ``most`` steps.
+
+    Two runs may agree by luck: where those ``before`` them, of a greater tolerance, lie beyond their own error from
+    what these say, these are in error by the rest.
+    """
     coarse, fine = (
         _once(case, case.scene.replace(solve={"rtol": tolerance}), most) for tolerance in (rtol, rtol / FINER)
     )
@@ -261,6 +267,11 @@ def _pair(case: Case, rtol: float, most: float = inf) -> tuple[dict[str, Any], f
         coarse, fine = (run | {name: run[name][:common] for name in ("pulses", "phases", "histories")}
                         for run in (coarse, fine))  # fmt: skip
     errors = tuple(_errors(old, new) for old, new in zip(coarse["pulses"], fine["pulses"], strict=True))
+    if before is not None:
+        for error, new, old, was in zip(
+            errors, fine["pulses"], before["pulses"], before["numerical_error"], strict=False
+        ):
+            error |= {name: max(error[name], abs(new[name] - old[name]) - was[name]) for name in error}
     excess = 0.0
     for name, away in _distances(case, fine["pulses"][0]).items():
         allowed = max(SHARE * away, NEGLIGIBLE * MEASURES[name].unit.of(case.scene))

@@ -99,3 +99,27 @@ def test_energy_that_the_steps_took_friction_may_have_had(monkeypatch, taken):
     assert not outcome.failure
     assert outcome.numerical_error[0]["impulse_ratio"] < 1e-3
     assert outcome.numerical_error[0]["friction_loss"] >= abs(taken)
+
+
+#: by the tolerance, of a J_F of 0.5: pairs that agree to 1e-6 and 1e-4, around values that are 1e-2 apart
+LUCKY = {1e-3: 0.5, 2.5e-4: 0.5 + 1e-6, 1.25e-4: 0.51, 1.25e-4 / 4: 0.51 + 1e-4}
+
+
+def lucky(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
+    """The third solver's motion with a friction impulse by luck."""
+    motion = softened(scene)
+    known = min(LUCKY, key=lambda rtol: abs(rtol / scene.solve.rtol - 1))
+    pulses = tuple(dataclasses.replace(pulse, friction_impulse=LUCKY[known]) for pulse in motion.pulses)
+    return dataclasses.replace(motion, pulses=pulses)
+
+
+def test_pairs_that_agree_by_luck_are_held_against_each_other():
+    """Each of them to its own error; what is then between them is the error of the finer one."""
+    case = Case(f"{__name__}:lucky", SCENE, against=(("friction_impulse", 0.0, 0.0),))
+    first, _ = _pair(case, 1e-3)
+    assert first["numerical_error"][0]["friction_impulse"] == pytest.approx(1e-6, rel=1e-6)
+    second, excess = _pair(case, 1.25e-4, before=first)
+    assert second["numerical_error"][0]["friction_impulse"] == pytest.approx(1e-2 + 1e-4 - 2e-6, rel=1e-6)
+    alone, less = _pair(case, 1.25e-4)
+    assert alone["numerical_error"][0]["friction_impulse"] == pytest.approx(1e-4, rel=1e-6)
+    assert excess > 50 * less
