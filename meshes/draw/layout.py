@@ -165,9 +165,9 @@ class Layout:
         room = 0.3 * usual
         axes.set_ylim(3 * low if low < -usual else low - room, 3 * high if high > usual else high + room)
         decades = 10.0 ** np.arange(np.ceil(np.log10(usual)), np.ceil(np.log10(max(high, -low, 2 * usual))))
-        decades = decades[-1:] if low < -usual else decades[:: -max(1, len(decades) // 3)][:3]
-        ticks = np.concatenate([-decades, [0.0], decades])
-        axes.set_yticks(ticks[(ticks >= min(low, 0.0)) & (ticks <= max(high, 0.0))], minor=False)
+        some = decades[:: -max(1, len(decades) // 3)][:3]
+        above = decades[decades <= high][-1:] if low < -usual else some[some <= high]
+        axes.set_yticks(np.sort([*-decades[decades <= -low][-1:], 0.0, *above]), minor=False)
         axes.yaxis.set_major_formatter(lambda value, _: _decade(value))
         axes.yaxis.set_minor_locator(NullLocator())
 
@@ -277,7 +277,8 @@ class Layout:
                 axes.tick_params(labelbottom=False)
             else:
                 axes.set_xlabel(f"t  [{self.units['time']}]", fontsize=self.type, color=style.INK, labelpad=1)
-            axes.set_ylabel(f"{name}  [{self.units['force']}]", fontsize=self.type, color=colour)
+            how = "" if curves.usual is None else ", log"
+            axes.set_ylabel(f"{name}  [{self.units['force']}]{how}", fontsize=self.type, color=colour)
             axes.yaxis.set_label_coords(-3.6 * em / (self.size[0] - left - right), 0.5)
             line = axes.axvline(0, color=style.INK, lw=0.07 * self.type, zorder=4, animated=True)
             (dot,) = axes.plot([], [], "o", color=colour, zorder=5, animated=True)

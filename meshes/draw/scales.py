@@ -34,7 +34,7 @@ def scalar(block: Block, field: str) -> Array:
     """
     if field not in (names := field_names(block)):
         known = ", ".join(names) or "none"
-        raise ViewError(f"there is no field {field!r} to colour the ring by; the series holds: {known}.")
+        raise ViewError(f"there is no field {field!r} to colour the ring by; of the ring the series holds: {known}.")
     if field.startswith("stress "):
         column = {"xx": 0, "yy": 1, "xy": 2}[field.removeprefix("stress ")]
         return np.asarray(block.point_data["stress"][:, column], dtype=float)

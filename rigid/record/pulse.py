@@ -22,7 +22,6 @@ from ..kernel.layout import (  # fmt: skip
     IMPACT,
     LAST_KIND,
     MU,
-    MU_S,
     OMEGA,
     ONE_MINUS_E,
     P_ANGLE,
@@ -61,6 +60,7 @@ from ..kernel.layout import (  # fmt: skip
 MOST_PHASES = float(SEQUENCE_BASE) ** 15  # of a pulse, in the digits that a float holds: what follows is not listed
 AT_BOTTOM = 1e-7  # of J_N, compression of a pulse that opens at the bottom, at a turn: no more than a root of round-off
 EDGE = 1e-12  # of N over M g: round-off at the edge of a pulse
+NO_LOSS = 1e-14  # of an energy: round-off of the difference of two that are equal
 ALIKE = 1e-10  # of an energy: what a landing takes is more, round-off less
 JUST_OPEN = 1e-6  # sqrt(R/g): a pulse that the release at a touch opens begins at it
 SAME_PLACE = 1e-12  # of phi: what a way there and back leaves
@@ -227,8 +227,8 @@ def write_pulse(par, state, events):
     events[r + 5], events[r + 6], events[r + 7], events[r + 8] = state[T], state[ANGLE], state[TOP], state[WHOLE]
     events[r + 9] = normal
     events[r + 10] = x - state[P_XDOT]
-    # without friction a difference of energies is its round-off
-    events[r + 11] = state[P_ENERGY] - energy(par, state) if par[MU_S] > 0.0 else 0.0
+    lost = state[P_ENERGY] - energy(par, state)
+    events[r + 11] = lost if lost > NO_LOSS * state[P_ENERGY] else 0.0
     events[r + 12] = state[P_PEAK]
     compression = -y0 + (state[P_T_BOTTOM] - state[P_T])
     events[r + 13] = events[r + 14] = events[r + 15] = nan if state[P_CUT] != 0.0 else 0.0

@@ -93,7 +93,12 @@ def bench(
 @click.option(
     "--seed", type=click.IntRange(0, 2**31), default=0, metavar="N", help="The sequence of scenes; 0 by default."
 )
-@click.option("--scenes", type=click.IntRange(1, 1_000_000), metavar="N", help="How many scenes; 3000 by default.")
+@click.option(
+    "--scenes",
+    type=click.IntRange(1, 1_000_000),
+    metavar="N",
+    help="How many scenes, beside three hoops of many cycles; 3000 by default.",
+)
 @click.option(
     "--soft", type=click.IntRange(0, 100_000), default=0, metavar="N", help="N more, of any stiffness; 0 by default."
 )

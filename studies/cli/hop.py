@@ -172,8 +172,10 @@ def parse_over(text: str) -> tuple[str, tuple[Any, ...]]:
     key, equals, values = text.partition("=")
     key = key.strip()
     wrong = SceneError(f"--over {text} is not possible: it is KEY=LOW:HIGH:COUNT or KEY=VALUE,VALUE,...")
-    if not equals or "." not in key:
+    if not equals:
         raise wrong
+    if "." not in key:
+        raise SceneError(f"--over {text} is not possible: {key or 'KEY'} is a part and its key, such as hoop.k.")
     try:
         if ":" not in values:
             return key, tuple(float(value) for value in values.split(","))

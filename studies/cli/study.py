@@ -23,7 +23,8 @@ POSITIVE = Finite(0, min_open=True)
 RAISED = "the foundation eps R^2/(m g), with --along bending E I/(m g R^2)"
 
 CODE = (
-    "The module is imported (PYTHONPATH says from where) and its function called in every worker, "
+    "The module is imported (PYTHONPATH says from where) and its function called in every worker as "
+    "function(scene, *, history=False, progress=None), which gives a rigid.Motion or what has its attributes, "
     "with all that you may do: name only code that you trust."
 )
 

@@ -23,7 +23,7 @@ ringing falls by e within the stick.""",
 }
 
 FOUND = """\
-<p>Where J<sub>F</sub>/J<sub>N</sub> tends by what is compliant:</p>
+<p>Where J<sub>F</sub>/J<sub>N</sub> tends by what is compliant, approached so with this scene's damping:</p>
 <ul>{% for other in others %}<li>{{ other }}</li>{% endfor %}</ul>
 <p>{{ damping }}</p>
 {% for sheet in sheets %}

@@ -107,7 +107,9 @@ def limit_sheets(study: LimitStudy) -> list[Any]:
     return [
         verdict(study),
         *damping_sentences(study),
-        "J_F/J_N by what is compliant: " + "; ".join(other_sentences(study)) + ".",
+        "J_F/J_N by what is compliant, approached so with this scene's damping: "
+        + "; ".join(other_sentences(study))
+        + ".",
         *([event_sheet(study)] if study.events else []),
         term_sheet(study),
         sight_sheet(study),
@@ -122,9 +124,10 @@ def verdict(study: LimitStudy) -> str:
     same = abs(term.limit - paper) < 1e-12
     law = study.scene.contact.law
     becomes = "becomes the paper's rigid hoop" if same else "does not become the paper's rigid hoop"
+    least = ", with the least of damping" if study.scene.contact.damping == 0 and study.separate == inf else ""
     lead = (
-        f"Made ever stiffer, the hoop on a floor with the {law} law {becomes}: J_F/J_N (friction impulse over normal "
-        "impulse, of the first pulse)"
+        f"Made ever stiffer{least}, the hoop on a floor with the {law} law {becomes}: J_F/J_N (friction impulse over"
+        " normal impulse, of the first pulse)"
     )
     if same and not term.coefficient:
         why = "there is no friction" if study.scene.friction.mu_s == 0 else "nothing in it depends on the stiffness"

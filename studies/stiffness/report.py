@@ -52,8 +52,8 @@ _FITTED = """\
  The dashed line is what was fitted to the cases that it spans: the series whose powers are known, which dips where the
 distance changes its sign, or a single power."""
 _FORESEEN = """\
- The black line is the leading powers as predicted from the rigid motion, without any of the cases; it begins where
-they hold."""
+ The black line is the leading powers as predicted from the rigid motion, without any of the cases; """
+_FROM, _ONWARD = "it begins where they hold.", "they hold from some stiffness on that is not foretold here."
 
 
 def captions(study: StiffnessStudy) -> dict[str, str]:
@@ -68,7 +68,7 @@ def captions(study: StiffnessStudy) -> dict[str, str]:
     if any(each.series is not None or isfinite(each.rate) for each in distances):
         told["distance"] += _FITTED
     if any(each.predicted is not None for each in distances):
-        told["distance"] += _FORESEEN
+        told["distance"] += _FORESEEN + (_FROM if study.separate > 0 else _ONWARD)
     return told
 
 

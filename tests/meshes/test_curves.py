@@ -8,6 +8,24 @@ from meshes.draw.shots import Curves, MotionSource
 from rigid import load_scene, simulate
 
 
+@pytest.mark.parametrize(
+    ("low", "high", "ticks"),
+    [(-130.0, 74.0, [-100, 0, 10]), (0.0, 300.0, [0, 1, 10, 100]), (-20.0, 0.5, [-10, 0]), (-0.2, 50.0, [0, 1, 10])],
+)
+def test_a_logarithmic_axis_has_a_tick_wherever_a_decade_is(low, high, ticks):
+    """On both sides of zero, of a usual force of 1: between a single one and zero nothing can be read."""
+    t = np.linspace(0, 1, 1001)
+    force = np.ones_like(t)
+    force[500:510] = 300.0
+    friction = np.where((t > 0.5) & (t < 0.505), high, 0.3)
+    friction[(t > 0.51) & (t < 0.515)] = low
+    layout = Layout((640, 480), Curves(t, force, friction), (0.0, 1.0), None, {}, "")
+    of_normal, of_friction = [axes for axes in layout.figure.axes if axes.get_yscale() == "asinh"]
+    assert of_friction.get_yticks() == pytest.approx(ticks)
+    assert "log" in of_friction.get_ylabel()
+    assert "log" in of_normal.get_ylabel()
+
+
 def test_a_pulse_far_above_the_usual_force_gets_a_logarithm():
     t = np.linspace(0, 1, 2001)
     spike = 1 + 200 * np.exp(-(((t - 0.5) / 0.004) ** 2))

@@ -136,6 +136,8 @@ def write_mesh(scene: Scene, path: Path) -> str:
     from flexible.models.select import ring_for
     from meshes import MeshError, save_mesh
 
+    if not path.parent.is_dir():
+        raise StudyError(f"{path} cannot be written: there is no folder {path.parent}.")
     ring = ring_for(scene.to_dimensionless()).mesh
     try:
         save_mesh(ring, path, scene.hoop.R)

@@ -70,12 +70,15 @@ def one_flexible(
     if resume is not None and motion == resume and target == earlier and wishes is None:
         return _told(motion, None, as_json, None)  # nothing was left to do: what is there stays
     had = resume is not None and target is not None and (target / "fields.pvd").exists()
-    status = _told(motion, target, as_json, wishes)
+    cut = target is not None and stop()
+    status = _told(motion, target, as_json, None if cut else wishes)
     if had and wishes is None:
         click.echo(f"hoop: The fields in {target} were of the motion before, and are gone; --fields makes new ones.",
                    err=True)  # fmt: skip
-    if target is not None and stop():
-        click.echo(f"hoop: hoop flexible {shlex.quote(name)} --continue {shlex.quote(str(target))} goes on.", err=True)
+    if cut:
+        fields = "" if wishes is None else " --fields"
+        onward = f"hoop flexible {shlex.quote(name)} --continue {shlex.quote(str(target))}{fields}"
+        click.echo(f"hoop: {onward} goes on{', and writes the fields' if fields else ''}.", err=True)
         return 130
     return status
 

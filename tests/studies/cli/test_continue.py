@@ -61,6 +61,22 @@ def test_ctrl_c_keeps_what_there_is_and_continue_goes_on(hoop, tmp_path, monkeyp
         assert (out / name).read_text() == (tmp_path / "whole" / name).read_text()
 
 
+def test_fields_are_left_to_what_goes_on(hoop, tmp_path, monkeypatch):
+    """Who types Ctrl-C waits for no frames, is told how they come, and they do."""
+    scene, out = tmp_path / "scene.toml", tmp_path / "out"
+    scene.write_text(MOTION.format(run="turns = 2"), encoding="utf-8")
+    with monkeypatch.context() as patched:
+        patched.setattr(single, "bar", interrupting)
+        status, _, err = hoop("flexible", scene, "--json", "--out", out, "--fields", "--frames", 5)
+    assert status == 130
+    assert f"--continue {shlex.quote(str(out))} --fields goes on, and writes the fields." in err
+    assert (out / "motion.npz").exists()
+    assert not (out / "fields.pvd").exists()
+    status, _, _ = hoop("flexible", scene, "--json", "--continue", out, "--fields", "--frames", 5)
+    assert status == 0
+    assert (out / "fields.pvd").exists()
+
+
 def test_a_second_ctrl_c_interrupts_between_the_calls_of_compiled_code():
     """Both come while one runs: neither is lost, and neither raises where numba would crash."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)

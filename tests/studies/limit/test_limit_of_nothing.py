@@ -85,3 +85,12 @@ def test_a_foundation_that_cannot_be_is_refused_before_the_work(hoop, monkeypatc
     assert (status, out) == (2, "")
     assert "contact.stiffness = 1e+99 is not possible" in err
     assert is_one_sentence(err)
+
+
+def test_without_damping_the_limit_is_that_of_the_least_of_it():
+    """A patch that rings breaks its stick for ever: of it no limit is seen, of the least damping the paper's."""
+    study = limit_study("paper-3.3-massless", damping=0.0, foundations=())
+    assert verdict(study).startswith("Made ever stiffer, with the least of damping, the hoop")
+    assert "no limit seen" in other_sentences(study)[-1]
+    damped = limit_study("paper-3.3-massless", foundations=())
+    assert verdict(damped).startswith("Made ever stiffer, the hoop")
