@@ -239,6 +239,8 @@ def _with_units(scene: Scene, way: Passage, found: dict[float, NDArray[np.float6
     # CREEP follows where an onset leads; where it leads itself, the onset's lag or the next order
     behind = NEXT_OF_A_RING_WITH_MASS if scene.hoop.mass_ratio > 0 else NEXT
     leading = sorted({*found, CREEP, behind})[:2]
+    if not any(coefficient for term in terms.values() for _, coefficient in term.powers):
+        leading = [behind, behind + 1]  # it slides throughout: the patch's depth, and what the ring gives way
     if BRUSH_DELAY in found:  # the runaway takes its time from the creep, as a logarithm
         leading.append(CREEP)
     return Prediction("v_s" if regularised else "eps", terms, CREEP in found, tuple(leading))

@@ -70,13 +70,18 @@ def terms(x: ArrayLike, exponents: Sequence[float]) -> Array:
 def settled(y: ArrayLike, rigid: float) -> tuple[Array, float]:
     """The values, all of them the last one where no more than round-off is between them, and that round-off.
 
-    It is 0 where all of them are the rigid value to the last bit.
+    Where that is so of the stiffest, at least ``FEWEST`` of them, softer ones are of another kind, such as a slip that
+    stops for a moment, and left out. The round-off is 0 where all are the rigid value to the last bit.
     """
     values = np.asarray(y, float)
     known = values[np.isfinite(values)]
     alike = _ALIKE * float(np.max(np.abs(known), initial=0.0))
-    if known.size and np.ptp(known) <= alike:
-        values = np.where(np.isfinite(values), known[-1], nan)
+    if known.size:
+        apart = np.isfinite(values) & (np.abs(values - known[-1]) > alike)
+        first = int(np.flatnonzero(apart)[-1]) + 1 if apart.any() else 0
+        if first == 0 or np.isfinite(values[first:]).sum() >= FEWEST:
+            values = np.where(np.isfinite(values) & (np.arange(values.size) >= first), known[-1], nan)
+            known = values[np.isfinite(values)]
     return values, alike if np.any(known != rigid) else 0.0
 
 

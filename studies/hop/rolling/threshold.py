@@ -95,6 +95,8 @@ class Bracket:
             return self.ends
         if self.open:
             doubts = (f"{self.open} undecided{' in between' if self.value is not None else ''}", *doubts)
+        if self.gaps:
+            doubts = ("not at every softer one", *doubts)
         if self.value is not None:
             between = f"between {self._digits(self.low)} and {self._digits(self.high)}"
             return f"below {self._digits(self.value)} ({', '.join([between, *doubts])})"

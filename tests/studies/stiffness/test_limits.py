@@ -295,3 +295,15 @@ def test_what_is_no_ladder_has_no_limit(s, y, error, told):
 def test_what_is_no_rate_extrapolates_nothing(exponents):
     with pytest.raises(ValueError, match=r"exponents = .* is not possible: rates are above 0, slowest first"):
         limit_of(S, 0.1 + 0.01 * S ** (-1 / 3), 0.1, exponents=exponents)
+
+
+def test_soft_cases_of_another_kind_say_nothing_of_a_limit_that_stiff_ones_have():
+    """J_F/J_N is mu to the last bit in all pulses but two soft ones, in which the hoop sticks for a moment."""
+    values = np.full(S.size, 0.167)
+    values[1::2] += 2e-16
+    values[:2] -= [9.9e-4, 4.7e-7]
+    limit = limit_of(S, values, 0.167, np.full(S.size, 1e-10), (1 / 3, 2 / 3))
+    assert limit.rigid_inside
+    assert abs(limit.error) <= limit.uncertainty <= 1e-10  # that of the cases
+    other = limit_of(S, values, 0.168, np.full(S.size, 1e-10), (1 / 3, 2 / 3))
+    assert not other.rigid_inside

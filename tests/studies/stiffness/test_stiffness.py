@@ -303,3 +303,16 @@ def test_what_cannot_be_studied_is_a_sentence_before_anything_is_solved(monkeypa
         stiffness_study("paper-3.3-massless", 5)
     with pytest.raises(ValueError, match="exponent = 0 is not possible"):  # as all other troubles are
         stiffness_study("paper-3.3-massless", exponent=0)
+
+
+def test_a_pulse_that_slides_throughout_comes_like_the_depth_of_the_patch():
+    """Nothing creeps: no distance falls like the half-width, s^(-1/3), but like the depth, s^(-2/3), and what the ring
+    gives way, 1/s, behind it. Limits found with them are nearer to the rigid hoop than the stiffest case."""
+    scene = Scene(Hoop(0.1, 1.02), Coefficients(0.07, 0.07), Release(np.radians(20)))
+    study = stiffness_study(scene, Ladder("both", 1e7, 1e12, 6))
+    assert study.prediction.rates == pytest.approx((2 / 3, 1))
+    for name in ("friction_loss", "normal_impulse"):
+        limit = study.limits[name]
+        assert limit.known
+        assert abs(limit.error) <= limit.uncertainty
+    assert abs(study.limits["friction_loss"].error) < 0.5 * study.limits["friction_loss"].distance
