@@ -35,7 +35,8 @@ class Ring:
     poisson : float
         Poisson's ratio, plane stress.
     thickness : float or None
-        Wall h over R, of a hoop with r = 1 alone, 0.02 by default; with r > 1 it is 1 - 1/r.
+        Wall h over R, of a hoop with r = 1 alone, 0.02 by default; with r > 1 it is 1 - 1/r. With r = 1 the rigid hoop
+        has none, and turns with some m_h h R more: a stiff hoop with a mass is the rigid one for r > 1 alone.
     weld_half_angle : float
         Half the arc of the inner rim that is welded to the disk, seen from the centre, in radians;
         ``weld_half_angle_deg`` gives it in degrees.

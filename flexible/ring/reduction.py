@@ -130,17 +130,12 @@ class ReducedRing:
 
 
 def body_of(scene: Scene) -> Body:
-    """The rigid parts of a scene's hoop.
-
-    One of r = 1 has no thickness, and its wall's quads turn with less inertia: what they lack turns with the disk, so
-    that the stiff hoop is the rigid one.
-    """
+    """The rigid parts of a scene's hoop."""
     hoop = scene.hoop
     offset = (1 - hoop.k) / hoop.r
     inner = 1 - scene.wall
     mass = float(hoop.mass_ratio)
-    lacks = mass * (1 - inner**2) / 2 if hoop.r == 1 else 0.0
-    return Body(offset, (hoop.k / hoop.r) ** 2 / 2 + lacks, mass, mass * (1 + inner**2) / 2)
+    return Body(offset, (hoop.k / hoop.r) ** 2 / 2, mass, mass * (1 + inner**2) / 2)
 
 
 LEAST, MODES = 6, 24  # modes at any rtol, and at the rtol

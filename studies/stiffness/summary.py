@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..plots.sheet import number, power_of
 from ..running.measures import MEASURES, shortened
+from .ladder import wall_sentence
 
 if TYPE_CHECKING:
     from .found import Rung, StiffnessStudy
@@ -244,7 +245,7 @@ def law_sentence(study: StiffnessStudy) -> str:
     from flexible.contact.laws.listing import LAWS
 
     friction = study.scene.friction
-    explained = LAWS[study.scene.contact.law].explanation(friction)
+    explained = LAWS[study.scene.contact.law].explanation(friction) + wall_sentence(study.scene)
     if study.reference_mu_s == friction.mu_s:
         return explained
     ratio, loss = (fixed(study, name, study.rigid.pulses[0][name], 5) for name in ("impulse_ratio", "friction_loss"))

@@ -316,3 +316,14 @@ def test_a_pulse_that_slides_throughout_comes_like_the_depth_of_the_patch():
         assert limit.known
         assert abs(limit.error) <= limit.uncertainty
     assert abs(study.limits["friction_loss"].error) < 0.5 * study.limits["friction_loss"].distance
+
+
+def test_a_massive_hoop_without_thickness_is_said_to_turn_otherwise_when_it_is_elastic():
+    """By (1 - R0^2/R^2)/2 of m_h R^2, of which J_N keeps its part at any stiffness."""
+    scene = Scene(Hoop(0.3, 1.0, 0.3), Coefficients(0.9, 0.9), Release(1.0))
+    study = stiffness_study(scene, Ladder("both", 1e9, 1e10, 2))
+    assert "turns with 2 % less inertia" in law_sentence(study)
+    off = [abs(rung.measure("normal_impulse") / study.rigid.pulses[0]["normal_impulse"] - 1) for rung in study.rungs]
+    assert off[0] == pytest.approx(off[1], rel=0.05)
+    assert off[1] > 1e-4
+    assert "inertia" not in law_sentence(stiffness_study(scene.replace(hoop={"r": 1.02}), Ladder("both", 1e9, 1e10, 2)))
