@@ -132,3 +132,13 @@ def test_a_slip_that_touches_0_is_one_phase_in_any_units(hoop, phi0, omega0):
     assert len({len(phases) for phases in lasting}) == 1
     for motion, phases in zip(motions, lasting, strict=True):
         assert min(p.t_end - p.t_start for p in phases) > 1e-3 * motion.scene.time_unit
+
+
+@pytest.mark.parametrize("mass_ratio", [0.0, 0.1])
+@pytest.mark.parametrize("mu_s", [0.0, 0.1, 0.3, 0.6, 9.0])
+def test_what_slides_on_no_friction_or_rolls_loses_nothing(mu_s, mass_ratio):
+    """Rolling held by mu_s, sliding on mu = 0: what rounding leaves of two energies is no loss, nor a gain."""
+    scene = Scene(Hoop(0.1, 1.02, mass_ratio), Friction(mu_s, 0.0), Release(pi / 18), Run(turns=2))
+    pulses = simulate(scene).pulses
+    assert len(pulses) == 2
+    assert [pulse.friction_loss for pulse in pulses] == [0.0, 0.0]

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import rigid
 from flexible import simulate, write_fields
 from flexible.output.fields import FIELDS
 from flexible.segment import peak
@@ -324,7 +325,15 @@ def test_a_killed_run_leaves_whole_frames(tmp_path):
         ({"times": [np.nan]}, "between 0 and"),
         ({"times": []}, "between 0 and"),
         ({"frames": 1}, "frames = 1"),
+        ({"frames": 2.5}, "frames = 2.5"),
+        ({"frames": float("nan")}, "frames = nan"),
+        ({"frames": "5"}, "frames = '5'"),
         ({"pulse": 7}, "the motion has 1"),
+        ({"pulse": "0"}, "pulse = '0'"),
+        ({"pulse": 0.5}, "pulse = 0.5"),
+        ({"fields": "displaced"}, "fields = displaced"),
+        ({"fields": None}, "fields = none"),
+        ({"fields": [1]}, "fields = 1"),
     ],
 )
 def test_bad_wishes_are_one_sentence(motion, tmp_path, wishes, words):
@@ -332,6 +341,11 @@ def test_bad_wishes_are_one_sentence(motion, tmp_path, wishes, words):
         write_fields(motion, tmp_path / "out", **wishes)
     assert "\n" not in str(caught.value)
     assert not (tmp_path / "out").exists()
+
+
+def test_a_rigid_motion_has_no_fields(tmp_path):
+    with pytest.raises(SeriesError, match="fields are of a flexible motion"):
+        write_fields(rigid.simulate("paper-3.1"), tmp_path)
 
 
 def test_a_motion_without_states_is_one_sentence(tmp_path):

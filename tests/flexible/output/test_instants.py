@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-import rigid
-from flexible import simulate, write_fields
+from flexible import simulate
 from flexible.output.instants import instants_at, times_of
-from meshes import SeriesError, frame_times
+from meshes import frame_times
 from rigid import load_scene
 
 
@@ -52,31 +51,6 @@ def test_frames_of_a_whole_motion_begin_and_end_with_it(frames):
     between = [t for t in frame_times(0.0, motion.t_end, frames, motion.history.t, motion.history.normal_force)
                if not any(a <= t <= b for a, b in spans)]  # fmt: skip
     assert set(between) <= set(when)
-
-
-@pytest.mark.parametrize(
-    ("wish", "words"),
-    [
-        ({"frames": 2.5}, "frames = 2.5"),
-        ({"frames": float("nan")}, "frames = nan"),
-        ({"frames": "5"}, "frames = '5'"),
-        ({"pulse": "0"}, "pulse = '0'"),
-        ({"pulse": 0.5}, "pulse = 0.5"),
-        ({"fields": "displaced"}, "fields = displaced"),
-        ({"fields": None}, "fields = none"),
-        ({"fields": [1]}, "fields = 1"),
-    ],
-)
-def test_wishes_that_cannot_be_are_one_sentence(thick, tmp_path, wish, words):
-    with pytest.raises(SeriesError, match=words) as caught:
-        write_fields(thick, tmp_path / "none", **wish)
-    assert "\n" not in str(caught.value)
-    assert not (tmp_path / "none").exists()
-
-
-def test_a_rigid_motion_has_no_fields(tmp_path):
-    with pytest.raises(SeriesError, match="fields are of a flexible motion"):
-        write_fields(rigid.simulate("paper-3.1"), tmp_path)
 
 
 def test_frames_span_what_was_asked(thick):

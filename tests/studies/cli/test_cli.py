@@ -254,6 +254,12 @@ def test_an_interruption_while_a_command_is_loaded_is_one_sentence():
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "hoop: Interrupted.\n")
 
 
+def test_a_mesh_into_no_folder_is_told_which(hoop, tmp_path):
+    status, out, err = hoop("mesh", "paper-3.3-light", tmp_path / "nodir" / "ring.msh")
+    assert (status, out) == (2, "")
+    assert f"there is no folder {tmp_path / 'nodir'}." in err
+
+
 @pytest.mark.parametrize("name", ["", ".", "/"])
 def test_a_mesh_by_the_name_of_a_folder_is_one_sentence(hoop, name):
     status, out, err = hoop("mesh", "paper-3.3-light", name)

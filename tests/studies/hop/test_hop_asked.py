@@ -85,6 +85,13 @@ def test_one_unit_alone_is_refused_where_the_scene_has_none(hoop, key):
     assert [getattr(line.hoop, key[-1]) for line in map_of(IN_UNITS, (f"{key}=3,4",)).scenes] == [3.0, 4.0]
 
 
+def test_a_key_without_its_part_is_said_to_lack_it(hoop):
+    status, out, err = hoop("study", "hop", "paper-3.3-heavier", "--over", "foo=1:2:3")
+    assert (status, out) == (2, "")
+    assert "foo is a part and its key, such as hoop.k" in err
+    assert is_one_sentence(err)
+
+
 def test_values_are_rolled_in_order_and_each_once():
     """Cells of a map lie between neighbours; in another order they would lie over each other."""
     asked = map_of(SCENE, ("hoop.k=0.3,0.1,0.2,0.1", f"{STIFFNESS}=10,1,10"))

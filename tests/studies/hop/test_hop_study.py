@@ -91,6 +91,8 @@ def test_a_bracket_lies_above_the_stiffest_hop():
     assert found.value == pytest.approx(8.0)
     assert bracket({1.0: False, 2.0: False}).value is None
     assert bracket({1.0: True}).high == inf
+    assert "not at every softer one" in found.told()
+    assert "softer" not in bracket({1.0: True, 16.0: False}).told()
 
 
 def test_a_roll_through_the_pulse_decides_what_it_has_passed():
