@@ -114,16 +114,20 @@ class Segment:
     def value(self, name: str, t: Array, side: Side = "right") -> Array:
         """A column at times ``t``: cubic where its rate is known too, linear otherwise.
 
-        An event left two records of one time, before and after it: ``side`` says which of them counts.
+        What friction took in a step it took as F times the slip velocity has it, which is known at its ends. An event
+        left two records of one time, before and after it: ``side`` says which of them counts.
         """
         if name == "x_C":  # the way that it rolls, and what the hoop slips beside it
             slid = self._between(self["x_C"] - self["phi"], None, t, side)
             return slid + self.value("phi", t, side)
+        if name == "friction_loss":
+            return self._between(self[name], None, t, side, np.abs(self["friction_force"] * self["slip_velocity"]))
         rate = RATES.get(name)
         return self._between(self[name], None if rate is None else self[rate], t, side)
 
-    def _between(self, y: Array, slope: Array | None, t: Array, side: Side) -> Array:
-        """What has the values ``y`` at the records, and the rates ``slope`` if they are known."""
+    def _between(self, y: Array, slope: Array | None, t: Array, side: Side, pace: Array | None = None) -> Array:
+        """What has the values ``y`` at the records, and the rates ``slope`` if they are known, or in a step rates in
+        proportion to ``pace``, which is linear there."""
         times = self["t"]
         i = np.clip(np.searchsorted(times, t, side) - 1, 0, len(times) - 2)
         if slope is not None:
@@ -131,6 +135,9 @@ class Segment:
         length = times[i + 1] - times[i]
         share = (t - times[i]) / np.where(length > 0, length, 1.0)
         share = np.where(length > 0, np.clip(share, 0.0, 1.0), 1.0 if side == "right" else 0.0)
+        if pace is not None:
+            first, mean = pace[i], (pace[i] + pace[i + 1]) / 2
+            share = np.where(mean > 0, share * (first + (mean - first) * share) / np.where(mean > 0, mean, 1.0), share)
         return (1 - share) * y[i] + share * y[i + 1]
 
     def states(self, t: Array, side: Side = "right") -> States:

@@ -42,6 +42,18 @@ def test_a_hoop_that_rolls_does_so_between_the_steps():
     assert segment.value("x_C", between) == pytest.approx(between * (2 - between), abs=1e-14)
 
 
+def test_friction_takes_energy_between_steps_as_the_hoop_slips():
+    """A slide that a constant F slows down, v = 1 - t: by t it has taken F (t - t^2/2)."""
+    t = np.array([0.0, 0.25, 0.25, 0.9, 1.0])
+    segment = turning(t, t, np.ones(5))
+    segment.columns |= {"friction_force": np.full(5, -0.3), "slip_velocity": 1 - t}
+    segment.columns["friction_loss"] = 0.3 * (t - t**2 / 2)
+    between = np.linspace(0, 1, 23)
+    for side in ("left", "right"):
+        read = segment.value("friction_loss", between, side)
+        assert read == pytest.approx(0.3 * (between - between**2 / 2), abs=1e-15)
+
+
 def test_restitutions_are_those_of_the_mass_centre():
     """By velocity and height that the ring's own states give G: N's impulse is M (change of ydot_G + time), and its
     work M (change of ydot_G^2/2 + y_G), both split where G turns up. Between steps of 1e-2 that is known to 1e-3.
