@@ -170,8 +170,10 @@ def solve_stage(
         if not np.isfinite(largest(update) + largest(update_u)):
             break
         damping = 0.5 if iteration > 0 and worst > last else 1.0
+        whole = damping
         damping, stood, way = before_bend(res, damping, goes(contact.way_by, update, update_u))
-        last, moved_before = worst, moves
+        # at a bend a misfit may be larger, and is not to be taken back from there
+        last, moved_before = worst if damping == whole else np.inf, moves
         stands, stuck = Foreseen(carries.res.normal, carries.res.friction), carries.res.stuck
         foreseen = between(stands, foresee(damper, moved, carries, update, update_u), damping)
         move(d, u, -damping, update, update_u)

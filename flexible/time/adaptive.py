@@ -193,6 +193,7 @@ def march(
             stood, behind = now, len(records)
         answer()
         if limits.stop():
+            why = PAUSED
             break
         now, written, why = _advanced(model, method.table, now, ends, aims, rows)
         records += _records(rows[:written])

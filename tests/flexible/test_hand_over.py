@@ -11,7 +11,8 @@ import rigid
 from flexible.handover import equilibrium, hand_over
 from flexible.models.chain import ChainHoop
 from flexible.models.reduced import ReducedHoop
-from flexible.time.adaptive import march
+from flexible.models.select import hoop_of
+from flexible.time.adaptive import attempt, march
 from flexible.time.course import Ends
 from rigid import Friction, Hoop, Kind, Release, Run, Scene
 
@@ -279,3 +280,20 @@ def test_behind_a_pulse_the_rigid_hoop_goes_on_from_where_it_is():
     assert motion.ledger.gravity == pytest.approx(M * (1 + HOOP.hoop.e * np.cos(end.phi)), rel=1e-9)
     assert motion.ledger.kinetic == pytest.approx(M * end.slip_velocity**2 / 2, rel=1e-9)
     assert motion.ledger.ring_strain == motion.ledger.contact_spring == 0
+
+
+@pytest.mark.parametrize("foundation", [1e3, 1e4])
+def test_a_roll_is_handed_over_with_the_slip_of_its_patch(foundation):
+    """Deep in a soft floor the rim is not where it rolls: the slip told is that with which the first step begins, to
+    what it changes in 1e-5.
+    """
+    scene = HOOP.replace(
+        hoop={"k": 0.25, "mass_ratio": 0.01}, ring={"bending_stiffness": 1e4}, run=Run(turns=1),
+        contact={"stiffness": foundation, "damping": 0.0}, solve={"rtol": 1e-5},
+    )  # fmt: skip
+    hoop, motion = hoop_of(scene), rigid.simulate(scene)
+    phase = motion.phases[0]
+    assert phase.kind == Kind.ROLL
+    state = hand_over(hoop, motion, phase.t_start + 0.8 * (phase.t_end - phase.t_start))
+    after = attempt(hoop, state, 1e-5)
+    assert after.slip_velocity == pytest.approx(state.slip_velocity, rel=5e-3)

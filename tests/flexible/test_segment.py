@@ -7,7 +7,7 @@ from scenes import HOOP
 from flexible import simulate
 from flexible.models.state import Record
 from flexible.output.body import whole
-from flexible.segment import Segment
+from flexible.segment import Segment, peak
 from rigid import Hoop
 
 
@@ -82,3 +82,10 @@ def test_energy_peaks_are_those_of_the_ring_and_of_the_floor():
     peaks = pulse.ring_energy_peak, pulse.contact_energy_peak
     assert peaks == pytest.approx((steps.ring_strain[inside].max(), steps.contact_spring[inside].max()), rel=1e-12)
     assert not 0.5 < peaks[0] / peaks[1] < 2
+
+
+@pytest.mark.parametrize("t", [[0.5, 0.8, 1.15, 1.2], [0.0, 0.3, 1.0, 1.2, 2.0]])
+def test_the_peak_of_a_parabola_is_its_own(t):
+    """Whatever the steps about it."""
+    t = np.array(t)
+    assert peak(t, 3 - 2 * (t - 0.93) ** 2) == pytest.approx(3.0, rel=1e-14)

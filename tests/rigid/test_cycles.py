@@ -137,6 +137,18 @@ def test_a_batch_comes_round_too():
         assert batch.turn_phi[i] == pytest.approx([turn.phi for turn in motion.turns], rel=1e-12)
 
 
+def test_the_pulses_of_a_whirl_are_a_round_further_each_time():
+    """Of a batch as of one motion."""
+    scene = Scene(Hoop(0.5), Friction(0, 0), Release(0.1, 1.0))
+    batch = simulate_batch([scene], t_end=300.0, pulses=200)
+    count = int(batch.pulse_count[0])
+    assert count > 50
+    for name in ("phi_start", "phi_stop"):
+        assert np.diff(getattr(batch, name)[0, :count]) == pytest.approx(2 * np.pi, abs=1e-11)
+    motion = simulate(scene.replace(run={"t_end": 300.0}))
+    assert batch.phi_start[0, :count] == pytest.approx([pulse.phi_start for pulse in motion.pulses], abs=1e-10)
+
+
 def test_hops_that_lose_energy_do_not_come_round():
     scene = Scene(Hoop(0.3), Friction(0, 0), Release(0.0, 3.0), Run(turns=2), Landing(0.5))
     motion = simulate(scene)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import acosh, asin, atan, cosh, inf, nan, pi, radians, sin, sqrt, tan
+from math import acosh, asin, atan, cos, cosh, inf, nan, pi, radians, sin, sqrt, tan
 
 import numpy as np
 import pytest
@@ -296,3 +296,25 @@ def test_a_rate_whose_square_is_no_number_is_no_rate(monkeypatch, omega0, phi0):
         if phi0:  # at the top it is the sign of the rate that says where it falls
             ends = np.array([[phase.t_end, phase.phi_end] for phase in hardly.phases])
             assert ends == pytest.approx(np.array([[phase.t_end, phase.phi_end] for phase in rest.phases]), rel=1e-12)
+
+
+@pytest.mark.parametrize(("phi0", "omega0"), [(1e-130, 0.5), (1e-130, -0.5), (-1e-130, 0.5), (1e-17, -0.5)])
+def test_a_smooth_slip_next_to_the_top_goes_where_the_disk_goes(phi0, omega0):
+    """The contact slips against the disk's turning."""
+    motion = simulate(Scene(Hoop(0.5), Friction(0, 0), Release(phi0, omega0), Run(t_end=0.5)))
+    assert motion.t_end == 0.5
+    assert motion.phases[0].kind == (Kind.SPIN if omega0 > 0 else Kind.SKID)
+    assert float(motion.at(0.01).slip_velocity) * omega0 < 0
+
+
+@pytest.mark.parametrize("phi0", [radians(110), radians(-110), radians(250), radians(470)])
+def test_a_point_mass_that_rolls_below_the_centre(phi0):
+    """sin(phi/2) = sin(phi0/2) cosh(t/2) + cos(phi0/2) omega0 sinh(t/2), and F = N tan(phi/2): no moment about C."""
+    omega0 = -0.4 if sin(phi0 / 2) * cos(phi0 / 2) > 0 else 0.4  # up again, where N grows
+    motion = simulate(Scene(Hoop(0.0), Friction(4, 4), Release(phi0, omega0), Run(t_end=0.3)))
+    t = np.linspace(0.01, motion.t_end, 7)
+    states = motion.at(t)
+    expected = sin(phi0 / 2) * np.cosh(t / 2) + cos(phi0 / 2) * omega0 * np.sinh(t / 2)
+    assert motion.phases[0].kind == Kind.ROLL
+    assert np.sin(states.phi / 2) == pytest.approx(expected, abs=1e-12)
+    assert states.friction_force == pytest.approx(states.normal_force * np.tan(states.phi / 2), rel=1e-10)

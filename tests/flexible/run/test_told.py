@@ -77,3 +77,15 @@ def test_a_motion_that_is_not_started_says_why_and_has_no_states():
     assert "of the weight of disk and hoop" in motion.ended
     times = float(re.search(r"a ring (\S+) times as stiff would carry it$", motion.ended)[1])
     assert simulate(scene.replace(ring={"bending_stiffness": 0.05 * times}, run={"t_end": 1e-3})).completed
+
+
+def test_a_stop_behind_an_event_is_as_asked():
+    """Wherever it is asked for: where a slip had just ended it was said that no step could be solved."""
+    scene = load_scene("paper-3.3-massless").replace(contact={"damping": 0.0}, run={"until": "pulse"})
+    whole, ends = simulate(scene), []
+    for most in range(1, 13):
+        asked = iter(range(most))
+        motion = simulate(scene, stop=lambda asked=asked: next(asked, None) is None)
+        ends.append(motion.ended)
+    assert all(end.endswith(" as asked") for end in ends), ends
+    assert simulate(scene, resume=motion) == whole

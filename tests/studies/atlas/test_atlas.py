@@ -15,7 +15,7 @@ from rigid.lists import phases_of
 from studies import Atlas, atlas_of
 from studies.atlas.figures import Drawn, fixed
 from studies.atlas.plane import NO_HOOP, SYMBOLS, Region, plane
-from studies.atlas.refine import WITHIN
+from studies.atlas.refine import WITHIN, Seen, refined
 from studies.atlas.study import SHADE
 from studies.atlas.summary import atlas_sheets
 
@@ -351,3 +351,13 @@ def test_the_help_names_every_key(hoop):
 def test_squares_that_cannot_be_counted(side):
     with pytest.raises(SceneError, match=r"side = .* whole number of squares"):
         atlas_of("paper-3.1", {"hoop.k": (0.1, 0.9), "friction.mu": (0.1, 1.0)}, side=side)
+
+
+def test_a_field_that_is_bilinear_is_known_from_corners_and_centres():
+    """To the last bit: no cell of it is divided, 5 x 5 corners and 4 x 4 centres are all runs."""
+
+    def run(u, v):
+        f, none = 3 * u - 2 * v + u * v, np.zeros(len(u), bool)
+        return Seen(np.full(len(u), 7), f, f, f, none, none)
+
+    assert refined(run, SIDE, 1e-3).runs == 5**2 + 4**2

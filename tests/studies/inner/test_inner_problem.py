@@ -450,3 +450,15 @@ def test_the_laws_of_the_scaled_problem_are_those_of_the_flexible_solver():
     assert {name: law.code for name, law in LAWS.items()} == codes
     for name, code in codes.items():
         assert passage(scene_of(0.1, law=name)).contact.law == code
+
+
+def test_bristles_and_damper_together_carry_the_friction():
+    """A patch 2a long that creeps with v: its damper drags with theta kappa 2a v, its bristles, stretched in proportion
+    to the way from the leading edge, pull with kappa v (2a)^2/(2 |omega|).
+    """
+    contact = passage(scene_of(0.25, damping=1.0)).contact
+    normal, friction, omega = 3.0, 0.4, -1.3
+    found, length = creep(contact, normal, friction, omega), 2 * half_width(normal)
+    assert found.drag == pytest.approx(-contact.theta * contact.kappa * length * found.slip, rel=1e-13)
+    pulled = -contact.kappa * found.slip * length**2 / (2 * abs(omega))
+    assert found.drag + pulled == pytest.approx(friction, rel=1e-13)
