@@ -12,8 +12,6 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from rigid import Scene, SceneError, scene_from_dict, scene_to_dict
 from rigid.allowed import shown
 from rigid.elastic import SECTION, UNITS
@@ -209,12 +207,14 @@ def _varied(
         if part == "run":
             tables["run"] = {}  # how far to run is said anew, not added to
         for key, value in table.items():
-            if isinstance(value, tuple | np.ndarray):  # of a dict in a program
-                value = value.tolist() if isinstance(value, np.ndarray) else list(value)
+            if isinstance(value, tuple | range) or getattr(value, "ndim", 0) > 0:  # of a dict in a program
+                value = value.tolist() if hasattr(value, "tolist") else list(value)
             if isinstance(value, list):
                 if not value:
                     raise SceneError(f"{part}.{key} = [] is not possible: a list needs a value.")
                 for one in value:
+                    if isinstance(one, list | tuple):
+                        raise SceneError(f"{part}.{key} = {one!r} is not possible: {part}.{key} is a list of lists.")
                     ensure_possible(part, key, one)
                 keys.append(f"{part}.{key}")
                 choices.append(tuple(dict.fromkeys(value)))

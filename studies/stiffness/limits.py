@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import stdtrit
 
-from .series import ascending, extrapolated, fewest, finite, inferred_series, narrowest, settled
+from .series import ascending, extrapolated, fewest, finite, inferred_series, narrowest, one_series, settled
 
 Array = NDArray[np.float64]
 
@@ -56,9 +56,8 @@ class Limit:
     value: float
     """Extrapolated limit L, found without knowing the rigid value; NaN where cases are too few for one."""
     uncertainty: float
-    """Half width of its interval at the level CONFIDENCE. With known exponents: terms not seen and numerical error;
-    with a fitted one: scatter about the fit, choice of the fitted points, numerical error of the cases, and the change
-    of the limit with ``SLOWEST`` for it."""
+    """Half width of its interval at the level CONFIDENCE. With known exponents: terms not seen, soft cases, numerical
+    error; fitted: scatter, choice of points, numerical error, and the change of the limit with ``SLOWEST`` for it."""
     exponents: tuple[float, ...]
     """The leading rates, slowest first."""
     known: bool
@@ -288,6 +287,7 @@ def fitted_series(
         return None
     stiff = np.asarray(s, float) >= holds
     x, v, e = (np.asarray(values, float)[stiff] for values in (s, y, error))
+    x, v, e = one_series(x, v, e, limit.exponents, CONFIDENCE)
     along = np.geomspace(x[0], x[-1], points)
     return along, inferred_series(x, v, e, limit.exponents, along)
 

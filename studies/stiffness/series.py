@@ -3,13 +3,15 @@
 A least-squares line through the first powers says nothing of those behind them, and where the rates are close (1/3 and
 2/5) those behind are what it is off by. So the whole series is fitted: its coefficients are unknowns of one common
 size at the softest case, a normal distribution of a width that is itself inferred; L is free. Soft cases then count for
-what they can tell, none has to be left out, and the interval holds what the terms not seen may still do.
+what they can tell, and the interval holds what the terms not seen may still do. Left out are soft cases of another
+kind, such as hoops that leave the floor: those that are not what stiffer ones foresee of them. What the limit owes to
+the softest that are left is part of its interval.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import inf, nan, sqrt
+from math import hypot, inf, nan, sqrt
 from typing import NamedTuple
 
 import numpy as np
@@ -25,6 +27,8 @@ FEWEST = 4
 """Cases for which an interval is stated: L, two powers, and one to hold them to; see :func:`fewest`."""
 
 _SIZES = np.geomspace(0.03, 30, 16)  # of a coefficient, over the span of the values
+_MISSED = 3.0  # half widths by which a case may miss what stiffer ones foresee of it
+_SOFTEST = 2  # cases whose part in the limit is part of its interval
 _LARGE = np.geomspace(1, 30, 8)  # the same where single powers are asked for: large ones of both signs look small
 _UNDERSTATED = (1, 2, 4, 8)  # by what the cases may understate their errors, each half as likely as the one before
 _ROUND_OFF = 3e-11  # of the largest size
@@ -108,7 +112,29 @@ def extrapolated(
     Extrapolated
         With fewer than ``FEWEST`` cases its uncertainty is infinite, and the value NaN.
     """
+    x, v, e = one_series(s, y, error, exponents, confidence)
+    found = _by_all(x, v, e, exponents, confidence, to)
+    fewer = range(1, min(_SOFTEST, v.size - fewest(exponents)) + 1)
+    moved = [abs(_by_all(x[n:], v[n:], e[n:], exponents, confidence, to).value - found.value) for n in fewer]
+    return found._replace(uncertainty=hypot(found.uncertainty, max(moved, default=0.0)))
+
+
+def one_series(
+    s: ArrayLike, y: ArrayLike, error: ArrayLike, exponents: Sequence[float], confidence: float
+) -> tuple[Array, Array, Array]:
+    """Stiffness, measure and error of the stiffest cases, down to the first that is not what they foresee of it."""
     x, v, e = finite(s, y, error)
+    first = max(v.size - fewest(exponents), 0)
+    while first > 0:
+        told = _by_all(x[first:], v[first:], e[first:], exponents, confidence, float(x[first - 1]))
+        if abs(v[first - 1] - told.value) > _MISSED * told.uncertainty + e[first - 1]:
+            break
+        first -= 1
+    return x[first:], v[first:], e[first:]
+
+
+def _by_all(x: Array, v: Array, e: Array, exponents: Sequence[float], confidence: float, to: float) -> Extrapolated:
+    """What all of the cases say of another."""
     if v.size < FEWEST:
         return Extrapolated(nan, inf)
     span = float(np.ptp(v))

@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from command_line import HANGS, SCENE, command, environment, is_one_sentence, process
 
@@ -526,6 +527,13 @@ def test_a_product_too_large_is_refused_before_it_is_made():
         sweep_from_dict(of_lists(7, 5), max_cases=2 * 7**5 - 1)
 
 
+def test_in_a_program_values_come_as_a_range_or_a_column_too():
+    base = {"sweep": {"scene": "paper-3.1"}}
+    degrees = [list(sweep_from_dict(base | {"release": {"phi0_deg": each}}).points) for each in (
+        [10, 20, 30], range(10, 40, 10), pd.Series([10, 20, 30]))]  # fmt: skip
+    assert degrees[0] == degrees[1] == degrees[2]
+
+
 @pytest.mark.parametrize("kind", [tuple, np.array])
 def test_in_a_program_values_come_as_an_array_too(kind):
     lists = {"sweep": {"scene": "paper-3.1"}, "hoop": {"k": [0.1, 0.2, 0.3]}, "friction": {"mu": [0.1, 0.2]}}
@@ -534,6 +542,8 @@ def test_in_a_program_values_come_as_an_array_too(kind):
     with pytest.raises(SceneError, match=r"hoop\.k = \[\] is not possible"):
         sweep_from_dict({"sweep": {"scene": "paper-3.1"}, "hoop": {"k": kind([])}})
     with pytest.raises(SceneError, match=r"hoop\.k = \[0\.1, 0\.2\] is not possible"):
+        sweep_from_dict({"sweep": {"scene": "paper-3.1"}, "hoop": {"k": kind([[0.1, 0.2]])}})
+    with pytest.raises(SceneError, match=r"hoop\.k is a list of lists"):
         sweep_from_dict({"sweep": {"scene": "paper-3.1"}, "hoop": {"k": kind([[0.1, 0.2]])}})
 
 

@@ -116,3 +116,15 @@ def test_the_limit_of_every_hoop(k, mass_ratio, law, mu_s):
     """
     with pool(cores()) as place:
         limits_hold(stiffness_study(scene_of(k, mass_ratio, law, mu_s), pool=place))
+
+
+@pytest.mark.slow
+def test_soft_rungs_that_leave_the_floor_do_not_decide_the_limit():
+    """A small disk in a thick wall, thrown: on the three softest of nine rungs the pulse is another one."""
+    scene = Scene(
+        Hoop(0.045, 1.12), Friction(0.226, 0.226), Release(radians(-53), -0.87), contact=Contact(law="regularised")
+    )
+    study = stiffness_study(scene)
+    assert [rung.measure("time_off_floor") > 0 for rung in study.rungs[:2]] == [True, True]
+    for name in ("impulse_ratio", "friction_loss", "normal_impulse"):
+        assert study.limits[name].rigid_inside, name
