@@ -104,12 +104,10 @@ def solve_stage(
     d, u, foreseen, tolerance, let_go = start.d.copy(), start.u.copy(), start.foreseen, start.tolerance, start.let_go
     nodes, rod, m = facing.nodes, chain.rod, facing.nodes.part.shape[0]
     keeps, place = kept_by(rod.theta.shape[0], nodes.part)
-    inner = FRAME + 3 * keeps.sum()
     update, update_u = np.zeros(d.shape[0]), np.zeros(2 * m)
-    iterations, damping, last, forces = -1, 1.0, np.inf, d
-    stood, way, stuck, halved = 0.0, np.nan, 0.0, 0
+    iterations, damping, last, forces, stood, way, stuck, halved = -1, 1.0, np.inf, d, 0.0, np.nan, 0.0, 0
     factors, stands, moved_before, stale = nothing_factored(), foreseen, False, True
-    chained = factors.core
+    chained, inner = factors.core, FRAME + 3 * keeps.sum()
     softest, damper, iteration = largest(facing.missing), pulling(damper, not let_go), -1
     guesses, asked = 0 if let_go else GUESSES, tolerance > 0  # a plain True would compile contact_forces once more
     while iteration < MOST_ITERATIONS:

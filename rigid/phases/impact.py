@@ -75,7 +75,6 @@ def strike(par, state, restitution):
             break
         gain = step * (un + 0.5 * un_rate * step)
         omega += spin_rate * step
-        un_before = un
         un += un_rate * step
         v += v_rate * step
         xdot += along_rate * step
@@ -91,8 +90,6 @@ def strike(par, state, restitution):
             work += gain
             if to_end <= to_stop:
                 un = 0.0
-        if un_before == un and step == 0.0 and to_stop > to_end and over:
-            break
     reverses = omega * state[OMEGA] < 0
     state[OMEGA], state[SLIP], state[UN], state[XDOT], state[YDOT] = omega, v, un, xdot, ydot
     return reverses
