@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Hoop, Kind, Phase, Side, States, Turn
+from rigid.output.sampling import share_taken
 
 from .models.state import Record
 from .motion import FlexiblePulse, History
@@ -136,8 +137,7 @@ class Segment:
         share = (t - times[i]) / np.where(length > 0, length, 1.0)
         share = np.where(length > 0, np.clip(share, 0.0, 1.0), 1.0 if side == "right" else 0.0)
         if pace is not None:
-            first, mean = pace[i], (pace[i] + pace[i + 1]) / 2
-            share = np.where(mean > 0, share * (first + (mean - first) * share) / np.where(mean > 0, mean, 1.0), share)
+            share = share_taken(share, pace[i], pace[i + 1])
         return (1 - share) * y[i] + share * y[i + 1]
 
     def states(self, t: Array, side: Side = "right") -> States:

@@ -31,6 +31,14 @@ def bottom(phi: Curve, start: float, end: float) -> float:
     return 0.5 * (early + late)
 
 
+def share_taken(share: Array, first: Array, last: Array) -> Array:
+    """What part of all that a step takes is taken in a share (n,) of its time, at a pace that goes evenly from
+    ``first`` to ``last``, both at least 0; where both are, at an even one.
+    """
+    mean = (first + last) / 2
+    return np.where(mean > 0, share * (first + (mean - first) * share) / np.where(mean > 0, mean, 1.0), share)
+
+
 MANY = 200
 """Pulses from which on the middle of each is taken for its lowest point, which takes long to find."""
 
@@ -102,6 +110,8 @@ def times(
     known = np.asarray(steps, dtype=float)
     known = known[(known >= start) & (known <= end)]
     grid += [jumps - nearest, jumps + nearest, known, known[1:][np.diff(known) <= nearest] - nearest]
+    distinct = np.unique(known)  # two jumps so close that the near side of the second would lie before the first
+    grid += [np.nextafter(distinct[1:][np.diff(distinct) <= nearest], -np.inf)]
     limit += known.size
     t = np.unique(np.clip(np.concatenate(grid), start, end))
     values = forces(t)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Motion, Pulse, Scene, States
+from rigid.output.sampling import share_taken
 from rigid.output.units import units_of
 
 Array = NDArray[np.float64]
@@ -35,6 +36,9 @@ def through(motion: Motion, pulse: Pulse) -> Columns:
             return {**columns, "normal_impulse": normal, "friction_impulse": friction}
     else:
         columns = {name: _between(own["t"], values, pulse.t_start, pulse.t_end) for name, values in own.items()}
+        if "friction_loss" in own:
+            pace = np.abs(own["friction_force"] * own["slip_velocity"])
+            columns["friction_loss"] = _between(own["t"], own["friction_loss"], pulse.t_start, pulse.t_end, pace)
         for name in getattr(getattr(motion, "history", None), "TOTALS", ()):
             columns[name] = columns[name] - columns[name][:1]
     for force, impulse in (("normal_force", "normal_impulse"), ("friction_force", "friction_impulse")):
@@ -47,11 +51,18 @@ def through(motion: Motion, pulse: Pulse) -> Columns:
     return columns
 
 
-def _between(t: Array, values: Array, start: float, end: float) -> Array:
-    """Values at the times from start to end, and at both of these, which need not be steps."""
-    low, high = max(start, t[0]), min(end, t[-1])
-    inside = values[(t > low) & (t < high)]
-    return np.concatenate([np.interp([low], t, values), inside, np.interp([high], t, values)])
+def _between(t: Array, values: Array, start: float, end: float, pace: Array | None = None) -> Array:
+    """Values at the times from start to end, and at both of these, which need not be steps: read in proportion to the
+    time there, or at a ``pace`` that is known at the steps."""
+    ends = np.array([max(start, t[0]), min(end, t[-1])])
+    inside = values[(t > ends[0]) & (t < ends[1])]
+    read = np.interp(ends, t, values)
+    if pace is not None:
+        i = np.clip(np.searchsorted(t, ends, "right") - 1, 0, t.size - 2)
+        length = t[i + 1] - t[i]
+        share = np.where(length > 0, (ends - t[i]) / np.where(length > 0, length, 1.0), 1.0)
+        read = values[i] + share_taken(share, pace[i], pace[i + 1]) * (values[i + 1] - values[i])
+    return np.concatenate([read[:1], inside, read[1:]])
 
 
 def whole(motion: Motion) -> Columns:
