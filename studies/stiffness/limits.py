@@ -73,7 +73,7 @@ class Limit:
     distance: float
     """Distance to the rigid value at the stiffest case: what is left without any extrapolation."""
     span: float
-    """How far apart the values are from which it was extrapolated, or their numerical error where that is more."""
+    """How far apart the values of all cases are, or their numerical error where that is more."""
 
     @property
     def extrapolated(self) -> bool:
