@@ -1,6 +1,7 @@
 """The documentation as one static site: ``python -m studies.site [FOLDER]``.
 
-A page for every package, made by pdoc from the docstrings of what its face has, with its theory (README.md).
+A page for every package, made by pdoc from the docstrings of what its face has, with its theory (README.md, and those
+of its rooms).
 The first page is the README of the project. Formulas become MathML, which a browser shows without a network. pdoc and
 latex2mathml are what the extra ``docs`` installs.
 """
@@ -19,7 +20,7 @@ import click
 
 ROOT = Path(__file__).parent.parent
 PACKAGES = ("rigid", "meshes", "flexible", "studies")
-TEXT_OF_ITS_OWN = re.compile(r"\]\((?:\.\./)?(rigid|meshes|flexible|studies)/README\.md(#[^)]*)?\)")
+THEORY = re.compile(r"\]\(([\w./]*)README\.md(#[^)]*)?\)")
 FILE = re.compile(r"\]\(([^):#]+)\)")
 PICTURES = re.compile(r"(\]\(|src=\")(?:\.\./)?\.images/")
 FORMULA_OR_CODE = re.compile(
@@ -44,9 +45,25 @@ def text_of(path: Path, formulas: dict[str, str]) -> str:
         formulas[name] = convert(block or found["inline"], display="block" if block else "inline")
         return f"\n\n{name}\n\n" if found["display"] else (found["indent"] or "") + name
 
-    text = path.read_text(encoding="utf-8")
-    text = TEXT_OF_ITS_OWN.sub(lambda found: f"]({found[1]}.html{found[2] or ''})", text)
+    def link(found: re.Match[str]) -> str:
+        """To the page of the package that has this theory, at the title of it where it is a room's."""
+        theory = (path.parent / found[1] / "README.md").resolve()
+        page, *rooms = theory.relative_to(ROOT).parts[:-1] or ("index",)
+        return f"]({page}.html{found[2] or (f'#{title_of(theory)}' if rooms else '')})"
+
+    text = THEORY.sub(link, path.read_text(encoding="utf-8"))
     return FORMULA_OR_CODE.sub(word, PICTURES.sub(r"\1images/", text))
+
+
+def title_of(path: Path) -> str:
+    """The anchor of a README's title."""
+    title = path.read_text(encoding="utf-8").partition("\n")[0]
+    return re.sub(r"\W+", "-", title.lstrip("# ").lower())
+
+
+def theories(package: str) -> list[Path]:
+    """The READMEs of a package and of its rooms, its own first."""
+    return sorted((ROOT / package).rglob("README.md"), key=lambda path: len(path.parts))
 
 
 def face_of(docstring: str) -> str:
@@ -74,10 +91,11 @@ def build(out: Path) -> Path:
 
     formulas: dict[str, str] = {}
     for package in PACKAGES:
-        module, theory = import_module(package), ROOT / package / "README.md"
+        module = import_module(package)
         vars(module).update({name: getattr(module, name) for name in module.__all__})  # faces load on demand
-        if theory.exists() and "<!-- theory -->" not in (module.__doc__ or ""):
-            module.__doc__ = f"{face_of(module.__doc__ or '')}\n\n<!-- theory -->\n\n{text_of(theory, formulas)}"
+        if "<!-- theory -->" not in (module.__doc__ or ""):
+            texts = [face_of(module.__doc__ or ""), *(text_of(path, formulas) for path in theories(package))]
+            module.__doc__ = "\n\n<!-- theory -->\n\n".join(texts)
     title, _, text = text_of(ROOT / "README.md", formulas).partition("\n")
     front = types.ModuleType(title.lstrip("# "), text)
     front.__all__ = []  # type: ignore[attr-defined]

@@ -54,17 +54,18 @@ def test_everything_of_a_face_is_there(site: Path, package: str) -> None:
     page = (site / f"{package}.html").read_text(encoding="utf-8")
     names = importlib.import_module(package).__all__
     assert not {name for name in names if f'id="{name}"' not in page}
-    theory = ROOT / package / "README.md"
-    if theory.exists():
+    for theory in (ROOT / package).rglob("README.md"):
         assert theory.read_text(encoding="utf-8").splitlines()[0].lstrip("# ") in page
 
 
 @slow
 def test_links_lead_somewhere(site: Path) -> None:
-    for page in site.glob("*.html"):
-        text = page.read_text(encoding="utf-8")
-        for target in re.findall(r'(?:src|href)="([^"#:$]+?)(?:#[^"]*)?"', text):
-            assert (site / target).exists(), (page.name, target)
+    texts = {page.name: page.read_text(encoding="utf-8") for page in site.glob("*.html")}
+    for name, text in texts.items():
+        for target, place in re.findall(r'(?:src|href)="([^"#:$]*?)(#[^"]*)?"', text):
+            assert (site / target).exists(), (name, target)
+            aim = texts.get(target or name)
+            assert not place or aim is None or f'id="{place[1:]}"' in aim, (name, target, place)
 
 
 @slow
@@ -72,7 +73,7 @@ def test_formulas_are_shown_without_a_network(site: Path) -> None:
     """As many as the theory has, as MathML; no page loads a program from elsewhere, no TeX is left, no word for one."""
     for package in ("rigid", "flexible", "studies"):
         page = (site / f"{package}.html").read_text(encoding="utf-8")
-        theory = (ROOT / package / "README.md").read_text(encoding="utf-8")
+        theory = "".join(path.read_text(encoding="utf-8") for path in (ROOT / package).rglob("README.md"))
         shown = len(re.findall(r"<math[^>]*display=\"block\"", page))
         assert shown == theory.count("```math") + theory.count("$$") // 2 > 0
         words = re.sub(r"<(pre|code).*?</\1>", "", page, flags=re.DOTALL)
