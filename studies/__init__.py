@@ -39,9 +39,9 @@ if TYPE_CHECKING:
     from .running.files import StudyError
     from .running.measures import MEASURES, Measure, Unit, measure, measures
     from .running.workers import pool
+    from .stiffness.extrapolation.limits import Limit, limit_of
     from .stiffness.found import Rung, StiffnessStudy
     from .stiffness.ladder import Ladder
-    from .stiffness.limits import Limit, limit_of
     from .stiffness.study import stiffness_study
     from .sweep import Table, run_sweep
     from .sweepfile import Sweep, load_sweep, sweep_from_dict
@@ -56,7 +56,7 @@ _HOMES = {
     "limit_study": "limit.study",
     "MEASURES": "running.measures",
     "Ladder": "stiffness.ladder",
-    "Limit": "stiffness.limits",
+    "Limit": "stiffness.extrapolation.limits",
     "Measure": "running.measures",
     "Rung": "stiffness.found",
     "StiffnessStudy": "stiffness.found",
@@ -64,7 +64,7 @@ _HOMES = {
     "Sweep": "sweepfile",
     "Table": "sweep",
     "Unit": "running.measures",
-    "limit_of": "stiffness.limits",
+    "limit_of": "stiffness.extrapolation.limits",
     "load_sweep": "sweepfile",
     "measure": "running.measures",
     "measures": "running.measures",

@@ -139,7 +139,7 @@ def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool, p
     """
     from ..machine.processes import WorkerDied
     from ..running.progress import bar
-    from ..stiffness.report import CAPTIONS, stiffness_report, write_figure
+    from ..stiffness.told.report import CAPTIONS, stiffness_report, write_figure
     from .shared.output import write_first_pulse
 
     begin_results(target)

@@ -2,8 +2,8 @@
 
 A distance over its leading power has the powers behind it in it too: 5 % of it at a foundation of 1e13 where a patch's
 next coefficient is a thousand times the first, 20 % at 1e11. What is asked is what the predicted powers alone come to.
-So the prediction is taken off the cases, and the whole series is inferred of what is left
-(:func:`studies.stiffness.series.leading_part`): its part in the predicted powers is by how much they miss.
+So the prediction is taken off the cases, and the whole series is inferred of what is left (:func:`leading_part`): its
+part in the predicted powers is by how much they miss.
 """
 
 from __future__ import annotations
@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .limits import CONFIDENCE
-from .series import FEWEST, leading_part, narrowest
+from .extrapolation.cases import CONFIDENCE, FEWEST
+from .extrapolation.fitted import narrowest
+from .extrapolation.series import leading_part
 
 if TYPE_CHECKING:
     from ..limit.prediction import Term

@@ -16,8 +16,8 @@ from ..running.case import SAME, SHARE, Outcome
 from ..running.history import rows_to_csv
 from ..running.measures import MEASURES, OF_THE_MEASURE, units_of_measures
 from .coefficient import Coefficient, coefficient
+from .extrapolation.limits import CONFIDENCE, Limit, fitted_series
 from .ladder import Ladder
-from .limits import CONFIDENCE, Limit, fitted_series
 
 if TYPE_CHECKING:
     import pandas

@@ -111,14 +111,3 @@ def spread(rungs: Sequence[T], most: int = 5) -> list[T]:
     if len(rungs) <= most:
         return list(rungs)
     return [rungs[round(i)] for i in np.linspace(0, len(rungs) - 1, most)]
-
-
-def wall_sentence(scene: Scene) -> str:
-    """Of a hoop that has a mass and no thickness, whose elastic ring has one: that they do not turn alike."""
-    if scene.hoop.r > 1 or scene.hoop.mass_ratio == 0:
-        return ""
-    lacks = 100 * (1 - (1 + (1 - scene.wall) ** 2) / 2)
-    return (
-        f" The hoop has r = 1 and a mass: its elastic wall, {scene.wall:g} R thick, turns with {lacks:.2g} % less"
-        " inertia than the rigid one without thickness, which no stiffness makes up; with r > 1 both have the wall."
-    )

@@ -24,9 +24,9 @@ from ..running.files import StudyError
 from ..running.runs import run_cases
 from ..running.solvers import ensure_accepts
 from ..running.workers import Here, Pool
+from .extrapolation.limits import limit_of
 from .found import LIMITS, Rung, StiffnessStudy
 from .ladder import Ladder
-from .limits import limit_of
 
 if TYPE_CHECKING:
     from ..limit.prediction import Prediction

@@ -15,18 +15,8 @@ from rigid import Motion, Scene, scene_from_dict
 
 from ...plots.sheet import Column, Sheet, number
 from ...running.measures import MEASURES, Unit, measures, phase_sequence, shortened
-from ...stiffness.summary import (
-    LIMIT_HEADING,
-    case_cells,
-    case_heading,
-    damping_sentence,
-    law_sentence,
-    limit_rows,
-    notes,
-    prediction_sentence,
-    rigid_cells,
-    verdict,
-)
+from ...stiffness.told.rows import LIMIT_HEADING, case_cells, case_heading, limit_rows, rigid_cells
+from ...stiffness.told.sentences import damping_sentence, law_sentence, notes, prediction_sentence, verdict
 from .account import HEADING, account, remarks
 from .letters import as_printed
 

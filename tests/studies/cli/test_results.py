@@ -177,7 +177,7 @@ def test_what_a_command_writes_is_known(hoop, tmp_path, scene):
 
 
 def test_figures_of_studies_are_among_what_is_known():
-    from studies.stiffness.report import CAPTIONS
+    from studies.stiffness.told.report import CAPTIONS
 
     assert {f"{name}.svg" for name in CAPTIONS} < set(results.WRITTEN["hoop study stiffness"])
 

@@ -14,7 +14,8 @@ from studies import MEASURES, Ladder, run_sweep, stiffness_study, sweep_from_dic
 from studies.cli.shared.tables import motion_tables, show, study_tables, sweep_tables
 from studies.plots.sheet import Column, Sheet
 from studies.running.workers import Here
-from studies.stiffness.summary import case_cells, law_sentence, limit_rows, rigid_cells, verdict
+from studies.stiffness.told.rows import case_cells, limit_rows, rigid_cells
+from studies.stiffness.told.sentences import law_sentence, verdict
 
 WIDTHS = (60, 80, 200)
 NUMBER = r"-|-?\d+(\.\d+)?(e[-+]\d+)?"

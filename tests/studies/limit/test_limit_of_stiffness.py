@@ -13,8 +13,8 @@ from rigid import Contact, Friction, Hoop, Release, Scene, scene_from_dict, simu
 from studies import Ladder, limit_of, pool, stiffness_study
 from studies.running.case import SHARE
 from studies.running.workers import cores
-from studies.stiffness.limits import CONFIDENCE
-from studies.stiffness.series import extrapolated
+from studies.stiffness.extrapolation.cases import CONFIDENCE
+from studies.stiffness.extrapolation.series import extrapolated
 
 LAWS = [("patch", 0.35), ("brush", 0.35), ("brush", 0.3)]
 ENOUGH = 1e-3  # of the impulse ratio, and of m g R

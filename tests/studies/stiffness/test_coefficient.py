@@ -7,7 +7,7 @@ import pytest
 
 from studies.limit.prediction import Term
 from studies.stiffness.coefficient import coefficient
-from studies.stiffness.series import terms
+from studies.stiffness.extrapolation.series import terms
 
 S = np.geomspace(1e8, 1e13, 6)
 SMALL = S ** (-1 / 3)

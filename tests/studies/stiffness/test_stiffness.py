@@ -15,7 +15,8 @@ from rigid import Friction as Coefficients
 from rigid import Hoop, Release, Scene, SceneError, load_scene, simulate
 from studies import Ladder, StudyError, stiffness_study
 from studies.running.case import SHARE
-from studies.stiffness.summary import LIMIT_HEADING, extrapolation_sentence, law_sentence, limit_rows
+from studies.stiffness.told.rows import LIMIT_HEADING, limit_rows
+from studies.stiffness.told.sentences import extrapolation_sentence, law_sentence
 
 THIRD = "third_solver:softened"
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from studies import limit_of
-from studies.stiffness.limits import CONFIDENCE, _t, observed_rate, richardson
-from studies.stiffness.series import extrapolated, terms
+from studies.stiffness.extrapolation.cases import CONFIDENCE
+from studies.stiffness.extrapolation.fitted import _t, observed_rate, richardson
+from studies.stiffness.extrapolation.series import extrapolated, terms
 
 S = np.geomspace(1e7, 1e13, 9)
 

@@ -1,35 +1,30 @@
-"""The limit of a sequence y(s) as s grows, and how fast it gets there.
-
-Where theory has the rates, the limit is that of their series (:mod:`studies.stiffness.series`). Where it has none, a
-law ``y = L + c s^-p`` is fitted, p too, and its uncertainty says how well it holds. L and c are never given.
-"""
+"""Rates of a sequence by lines through its logarithms, and its limit ``y = L + c s^-p`` with p fitted too."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from math import hypot, inf, isfinite, nan, sqrt
+from math import inf, isfinite, nan, sqrt
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import stdtrit
 
-from .series import ascending, extrapolated, fewest, finite, inferred_series, narrowest, one_series, settled
+from .cases import CONFIDENCE, finite
 
 Array = NDArray[np.float64]
-
-CONFIDENCE = 0.95
-"""Level of every interval here."""
 
 SLOWEST = 1 / 3
 """Rate with which a fitted one is compared: that of a patch's half-width, s^(-1/3), the slowest that the compliances of
 an elastic hoop have by themselves."""
 
+
 _RATES = (0.05, 3.0)
+
 
 _SPARE = 2
 """Cases that a fit must have beyond its unknowns before its scatter is taken for an interval: with one, the
 t-distribution is 12.7 wide at 95 % and its own shape unknown."""
+
 
 _MISFIT = 0.02
 """How much the distance to the limit may miss the law, relative to itself: sets the weight of soft against stiff points
@@ -49,58 +44,18 @@ class Rate:
     """Which points were used, by their place in the sequence."""
 
 
-@dataclass(frozen=True, slots=True)
-class Limit:
-    """The limit of a measure as stiffness grows, and whether the rigid value is it."""
+def narrowest(fits: dict[int, tuple[float, float]]) -> tuple[int, float]:
+    """Of fits ``{points: (value, half width)}`` the one of the narrowest interval, and half that interval's width.
 
-    value: float
-    """Extrapolated limit L, found without knowing the rigid value; NaN where cases are too few for one."""
-    uncertainty: float
-    """Half width of its interval at the level CONFIDENCE. With known exponents: terms not seen, soft cases, numerical
-    error; fitted: scatter, choice of points, numerical error, and the change of the limit with ``SLOWEST`` for it."""
-    exponents: tuple[float, ...]
-    """The leading rates, slowest first."""
-    known: bool
-    """Whether theory gave them; otherwise it is one, and fitted."""
-    rigid: float
-    """The value of the rigid hoop that this limit is expected to be."""
-    rate: float
-    """Observed rate at which the distance to the rigid value goes to zero; NaN where none is to be seen."""
-    rate_interval: tuple[float, float]
-    """Confidence interval of that rate."""
-    rate_cases: tuple[int, ...]
-    """Which cases that rate was fitted to, by their place among those given, softest first."""
-    distance: float
-    """Distance to the rigid value at the stiffest case: what is left without any extrapolation."""
-    span: float
-    """How far apart the values of all cases are, or their numerical error where that is more."""
-
-    @property
-    def extrapolated(self) -> bool:
-        """Whether there were cases enough for a limit."""
-        return isfinite(self.uncertainty)
-
-    @property
-    def rigid_inside(self) -> bool | None:
-        """Whether the rigid value lies within the uncertainty of the limit.
-
-        None where there is no interval to speak of: too few cases, or one wider than all that was measured, in which
-        nothing would be outside.
-        """
-        if not self.uncertainty <= self.span:
-            return None
-        return abs(self.value - self.rigid) <= self.uncertainty
-
-    @property
-    def error(self) -> float:
-        """Limit minus rigid value."""
-        return self.value - self.rigid
-
-    @property
-    def half_widths(self) -> float:
-        """How far the rigid value is from the limit, in half widths of its interval."""
-        off = abs(self.error)
-        return off / self.uncertainty if self.uncertainty else inf if off else 0.0
+    The value's change when up to two points more or fewer are fitted counts into the interval: softer points
+    follow the law less well, and the scatter about one fit does not show that.
+    """
+    halves = {}
+    for n, (value, half) in fits.items():
+        near = [abs(value - other) for m, (other, _) in fits.items() if 0 < abs(m - n) <= 2]
+        halves[n] = sqrt(half**2 + max(near, default=0.0) ** 2)
+    points = min(halves, key=lambda n: halves[n])
+    return points, halves[points]
 
 
 def observed_rate(s: ArrayLike, distance: ArrayLike, error: ArrayLike | None = None) -> Rate:
@@ -233,68 +188,3 @@ def _cost(solved: tuple[Array, Array, Array, Array]) -> Array:
 
 def _t(free: int) -> float:
     return float(stdtrit(free, 0.5 + CONFIDENCE / 2))
-
-
-def limit_of(
-    s: ArrayLike,
-    y: ArrayLike,
-    rigid: float,
-    error: ArrayLike | None = None,
-    exponents: Sequence[float] | None = None,
-    holds: float = 0.0,
-) -> Limit:
-    """The limit of a measure over a ladder of stiffness beside the rigid value it should have.
-
-    ``exponents``, slowest first, are the leading rates where theory knows them, ``holds`` the stiffness from which on
-    it does. With fewer than :func:`.series.fewest` cases there a rate is fitted, to all.
-    Cases come in any order of ``s``, which is above 0.
-    """
-    s, y, error = ascending(s, y, error, exponents)
-    (values, alike), stiff = settled(y, rigid), np.asarray(s, float) >= holds
-    known = exponents is not None and (holds == 0 or int(np.isfinite(values[stiff]).sum()) >= fewest(exponents))
-    if exponents is not None and known:
-        off = np.zeros_like(values) if error is None else np.asarray(error, float)
-        value, uncertainty = extrapolated(np.asarray(s)[stiff], values[stiff], off[stiff], exponents, CONFIDENCE)
-        rates = tuple(exponents)
-    else:
-        value, uncertainty, fitted = richardson(s, values, error)
-        # a rate fitted where two terms of opposite sign still compete is not that of the last one
-        uncertainty = hypot(uncertainty, value - richardson(s, values, error, SLOWEST)[0])
-        rates = (fitted,)
-    rate = observed_rate(s, np.where(np.abs(values - rigid) > alike, values - rigid, 0.0), error)
-    return Limit(
-        value,
-        max(uncertainty, alike),
-        rates,
-        known,
-        rigid,
-        rate.value,
-        rate.interval,
-        rate.cases,
-        float(abs(values[-1] - rigid)) if values.size else nan,
-        max(_span(values, error), alike),
-    )
-
-
-def fitted_series(
-    limit: Limit, s: ArrayLike, y: ArrayLike, error: ArrayLike, holds: float = 0.0, points: int = 120
-) -> tuple[Array, Array] | None:
-    """Stiffness and measure of the series that a limit was extrapolated with, over the cases that it was fitted to.
-
-    Parameters as of :func:`limit_of`; None where no exponents were known, or cases too few.
-    """
-    if not (limit.known and limit.extrapolated):
-        return None
-    stiff = np.asarray(s, float) >= holds
-    x, v, e = (np.asarray(values, float)[stiff] for values in (s, y, error))
-    x, v, e = one_series(x, v, e, limit.exponents, CONFIDENCE)
-    along = np.geomspace(x[0], x[-1], points)
-    return along, inferred_series(x, v, e, limit.exponents, along)
-
-
-def _span(values: Array, error: ArrayLike | None) -> float:
-    known = values[np.isfinite(values)]
-    if not known.size:
-        return 0.0
-    off = 0.0 if error is None else np.max(np.nan_to_num(np.abs(np.asarray(error, float))), initial=0.0)
-    return max(float(np.ptp(known)), float(off))

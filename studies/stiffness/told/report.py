@@ -8,28 +8,22 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..plots.page import write_page
-from .found import LIMITS
-from .ladder import spread
-from .summary import (
-    LIMIT_HEADING,
-    case_cells,
-    case_heading,
+from ...plots.page import write_page
+from ..found import LIMITS
+from ..ladder import spread
+from .rows import LIMIT_HEADING, case_cells, case_heading, limit_rows, rigid_cells, side_heading, side_rows
+from .sentences import (
     damping_sentence,
     extrapolation_sentence,
     ladder_sentence,
     law_sentence,
-    limit_rows,
     notes,
     prediction_sentence,
-    rigid_cells,
-    side_heading,
-    side_rows,
     verdict,
 )
 
 if TYPE_CHECKING:
-    from .found import StiffnessStudy
+    from ..found import StiffnessStudy
 
 CAPTIONS = {
     "pulse": """\
@@ -80,7 +74,7 @@ def write_figure(study: StiffnessStudy, name: str, folder: Path) -> Path | None:
     Path or None
         The SVG; none where the study has nothing to draw in it.
     """
-    from ..plots.style import save_both
+    from ...plots.style import save_both
     from .figures import FIGURES
 
     figure = FIGURES[name](study)

@@ -31,17 +31,12 @@ from studies.plots.difference import (
 )
 from studies.running import history
 from studies.running.workers import Here
-from studies.stiffness import report
-from studies.stiffness.figures import distances, impulse_space
-from studies.stiffness.limits import CONFIDENCE, fitted_series
-from studies.stiffness.summary import (
-    case_cells,
-    case_heading,
-    prediction_sentence,
-    rigid_cells,
-    side_heading,
-    verdict,
-)
+from studies.stiffness.extrapolation.cases import CONFIDENCE
+from studies.stiffness.extrapolation.limits import fitted_series
+from studies.stiffness.told import report
+from studies.stiffness.told.figures import distances, impulse_space
+from studies.stiffness.told.rows import case_cells, case_heading, rigid_cells, side_heading
+from studies.stiffness.told.sentences import prediction_sentence, verdict
 
 THIRD = "third_solver:softened"
 LINE = ("study", "stiffness", "paper-3.3-massless", "--solver", THIRD, "--workers", 1, "--count", 5)

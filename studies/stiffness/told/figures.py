@@ -9,12 +9,12 @@ from matplotlib.figure import Figure
 
 from rigid import Motion, Pulse, simulate
 
-from ..plots.difference import at_the_same_angle, at_the_same_normal_impulse, impulses_along, passage_of
-from ..plots.pulse import Curve, energy, impulses, pulse
-from ..plots.style import RIGID, STYLE, blank, colours, power_of_ten
-from ..running.history import dimensionless
-from .found import Rung, StiffnessStudy
-from .ladder import spread
+from ...plots.difference import at_the_same_angle, at_the_same_normal_impulse, impulses_along, passage_of
+from ...plots.pulse import Curve, energy, impulses, pulse
+from ...plots.style import RIGID, STYLE, blank, colours, power_of_ten
+from ...running.history import dimensionless
+from ..found import Rung, StiffnessStudy
+from ..ladder import spread
 
 
 def forces(study: StiffnessStudy) -> Figure:

@@ -1,0 +1,139 @@
+"""The limit of a sequence y(s) as s grows, and how fast it gets there.
+
+Where theory has the rates, the limit is that of their series (``series``). Where it has none, a law ``y = L + c s^-p``
+is fitted, p too (``fitted``), and its uncertainty says how well it holds. L and c are never given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import hypot, inf, isfinite, nan
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .cases import CONFIDENCE, ascending, settled
+from .fitted import SLOWEST, observed_rate, richardson
+from .series import extrapolated, fewest, inferred_series, one_series
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """The limit of a measure as stiffness grows, and whether the rigid value is it."""
+
+    value: float
+    """Extrapolated limit L, found without knowing the rigid value; NaN where cases are too few for one."""
+    uncertainty: float
+    """Half width of its interval at the level CONFIDENCE. With known exponents: terms not seen, soft cases, numerical
+    error; fitted: scatter, choice of points, numerical error, and the change of the limit with ``SLOWEST`` for it."""
+    exponents: tuple[float, ...]
+    """The leading rates, slowest first."""
+    known: bool
+    """Whether theory gave them; otherwise it is one, and fitted."""
+    rigid: float
+    """The value of the rigid hoop that this limit is expected to be."""
+    rate: float
+    """Observed rate at which the distance to the rigid value goes to zero; NaN where none is to be seen."""
+    rate_interval: tuple[float, float]
+    """Confidence interval of that rate."""
+    rate_cases: tuple[int, ...]
+    """Which cases that rate was fitted to, by their place among those given, softest first."""
+    distance: float
+    """Distance to the rigid value at the stiffest case: what is left without any extrapolation."""
+    span: float
+    """How far apart the values of all cases are, or their numerical error where that is more."""
+
+    @property
+    def extrapolated(self) -> bool:
+        """Whether there were cases enough for a limit."""
+        return isfinite(self.uncertainty)
+
+    @property
+    def rigid_inside(self) -> bool | None:
+        """Whether the rigid value lies within the uncertainty of the limit.
+
+        None where there is no interval to speak of: too few cases, or one wider than all that was measured, in which
+        nothing would be outside.
+        """
+        if not self.uncertainty <= self.span:
+            return None
+        return abs(self.value - self.rigid) <= self.uncertainty
+
+    @property
+    def error(self) -> float:
+        """Limit minus rigid value."""
+        return self.value - self.rigid
+
+    @property
+    def half_widths(self) -> float:
+        """How far the rigid value is from the limit, in half widths of its interval."""
+        off = abs(self.error)
+        return off / self.uncertainty if self.uncertainty else inf if off else 0.0
+
+
+def limit_of(
+    s: ArrayLike,
+    y: ArrayLike,
+    rigid: float,
+    error: ArrayLike | None = None,
+    exponents: Sequence[float] | None = None,
+    holds: float = 0.0,
+) -> Limit:
+    """The limit of a measure over a ladder of stiffness beside the rigid value it should have.
+
+    ``exponents``, slowest first, are the leading rates where theory knows them, ``holds`` the stiffness from which on
+    it does. With fewer than :func:`.series.fewest` cases there a rate is fitted, to all.
+    Cases come in any order of ``s``, which is above 0.
+    """
+    s, y, error = ascending(s, y, error, exponents)
+    (values, alike), stiff = settled(y, rigid), np.asarray(s, float) >= holds
+    known = exponents is not None and (holds == 0 or int(np.isfinite(values[stiff]).sum()) >= fewest(exponents))
+    if exponents is not None and known:
+        off = np.zeros_like(values) if error is None else np.asarray(error, float)
+        value, uncertainty = extrapolated(np.asarray(s)[stiff], values[stiff], off[stiff], exponents, CONFIDENCE)
+        rates = tuple(exponents)
+    else:
+        value, uncertainty, fitted = richardson(s, values, error)
+        # a rate fitted where two terms of opposite sign still compete is not that of the last one
+        uncertainty = hypot(uncertainty, value - richardson(s, values, error, SLOWEST)[0])
+        rates = (fitted,)
+    rate = observed_rate(s, np.where(np.abs(values - rigid) > alike, values - rigid, 0.0), error)
+    return Limit(
+        value,
+        max(uncertainty, alike),
+        rates,
+        known,
+        rigid,
+        rate.value,
+        rate.interval,
+        rate.cases,
+        float(abs(values[-1] - rigid)) if values.size else nan,
+        max(_span(values, error), alike),
+    )
+
+
+def fitted_series(
+    limit: Limit, s: ArrayLike, y: ArrayLike, error: ArrayLike, holds: float = 0.0, points: int = 120
+) -> tuple[Array, Array] | None:
+    """Stiffness and measure of the series that a limit was extrapolated with, over the cases that it was fitted to.
+
+    Parameters as of :func:`limit_of`; None where no exponents were known, or cases too few.
+    """
+    if not (limit.known and limit.extrapolated):
+        return None
+    stiff = np.asarray(s, float) >= holds
+    x, v, e = (np.asarray(values, float)[stiff] for values in (s, y, error))
+    x, v, e = one_series(x, v, e, limit.exponents, CONFIDENCE)
+    along = np.geomspace(x[0], x[-1], points)
+    return along, inferred_series(x, v, e, limit.exponents, along)
+
+
+def _span(values: Array, error: ArrayLike | None) -> float:
+    known = values[np.isfinite(values)]
+    if not known.size:
+        return 0.0
+    off = 0.0 if error is None else np.max(np.nan_to_num(np.abs(np.asarray(error, float))), initial=0.0)
+    return max(float(np.ptp(known)), float(off))
