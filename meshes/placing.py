@@ -62,11 +62,20 @@ def von_mises(stress: Array) -> Array:
     return np.sqrt(s1**2 - s1 * s2 + s2**2 + 3 * s12**2)
 
 
-def hoop_stress(ring: RingMesh, stress: Array) -> Array:
-    """Circumferential stress at the nodes, from components (11, 22, 12) in the disk's frame, (n_nodes, 3)."""
-    sin, cos = np.sin(ring.theta), np.cos(ring.theta)
+def around(ring: RingMesh) -> Array:
+    """(n_nodes, 2) Unit vectors along the circles about the centre on which the nodes lie."""
+    return np.column_stack([-np.sin(ring.theta), np.cos(ring.theta)])
+
+
+def hoop_stress(ring: RingMesh, stress: Array, along: Array | None = None) -> Array:
+    """Stress along the wall at the nodes, from components (11, 22, 12) in the disk's frame, (n_nodes, 3).
+
+    ``along``, (n_nodes, 2), are the unit vectors in which the circles of the nodes run now; by default, and so of small
+    displacements, those of the ring at rest.
+    """
+    a1, a2 = (around(ring) if along is None else along).T
     s1, s2, s12 = stress.T
-    return s1 * sin**2 + s2 * cos**2 - 2 * s12 * sin * cos
+    return s1 * a1**2 + s2 * a2**2 + 2 * s12 * a1 * a2
 
 
 def bending_stress(ring: RingMesh, hoop: Array) -> Array:

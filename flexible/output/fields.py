@@ -8,7 +8,8 @@
 Instants between two steps are not interpolated: the march takes one more, shorter step to each, so the ring is in
 equilibrium with the contact in every frame. Between the pulses the hoop is rigid, and frames there show it undeformed.
 
-``displacement``, ``velocity`` and ``stress`` (xx, yy, xy) are along the world's axes, x to the right and y up. On the
+``displacement``, ``velocity`` and ``stress`` (xx, yy, xy) are along the world's axes, x to the right and y up;
+``hoop_stress`` and ``bending_stress`` along the wall, as a ring that bends far (chain, exact) has turned it. On the
 block ``rim`` are ``pressure`` and ``traction``, the vertical and the horizontal force of the floor on the undeformed
 rim, and ``stick``: 1 where a point of the rim sticks, -1 where it slips, 0 where it is off the floor.
 
@@ -42,6 +43,7 @@ from meshes import (
 )
 from meshes.draw.scales import tidy
 from meshes.draw.style import SI_UNITS, UNITS, unit
+from meshes.placing import around
 from rigid import Scene
 
 from ..models.select import ring_for
@@ -185,7 +187,7 @@ class _Painter:
             after = [i.after for i in instants if i.after is not None]
             found["rate"] = interior.rate(states, before, after)
         if self.asked & {"stress", "von_mises", "hoop_stress", "bending_stress", "energy_density"}:
-            found["stress"], found["density"] = interior.stress(interior.strained(states))
+            found["stress"], found["density"], found["along"] = interior.stress(interior.strained(states))
             if "energy_density" in self.asked:
                 found["energy"] = interior.element_energy(u)
         for number in range(len(instants)):
@@ -196,6 +198,7 @@ class _Painter:
         count = len(mesh.points)
         if found is None:
             found = {"u": np.zeros((count, 2)), "rate": np.zeros((count, 2)), "stress": np.zeros((count, 3))}
+            found["along"] = around(mesh)
             found |= {"density": np.zeros(count), "energy": np.zeros(len(mesh.quad9))}
         points = R * place.points(mesh.points)
         nodal: dict[str, Array] = {}
@@ -205,7 +208,7 @@ class _Painter:
             moving = place.velocities(mesh.points, found["u"], found["rate"], instant.velocity_C, instant.omega)
             nodal["velocity"] = moving * self.scene.velocity_unit
         if "stress" in found:
-            nodal |= self._stresses(place, self.stress * found["stress"])
+            nodal |= self._stresses(place, self.stress * found["stress"], found["along"])
         ring = ring_block(mesh, points, **nodal)
         if "energy_density" in self.asked:
             ring = _with_energy(ring, self.stress * found["density"], self.scene.energy_unit * found["energy"])
@@ -222,14 +225,14 @@ class _Painter:
         blocks |= {"disk": disk_block(centre, R * radius, place.phi), "floor": self.floor}
         return Frame(instant.t, blocks)
 
-    def _stresses(self, place: Placement, stress: Array) -> dict[str, Array]:
+    def _stresses(self, place: Placement, stress: Array, along: Array) -> dict[str, Array]:
         made: dict[str, Array] = {}
         if "stress" in self.asked:
             made["stress"] = place.stress(stress)
         if "von_mises" in self.asked:
             made["von_mises"] = von_mises(stress)
         if self.asked & {"hoop_stress", "bending_stress"}:
-            hoop = hoop_stress(self.mesh, stress)
+            hoop = hoop_stress(self.mesh, stress, along)
             both = {"hoop_stress": hoop, "bending_stress": bending_stress(self.mesh, hoop)}
             made |= {name: value for name, value in both.items() if name in self.asked}
         return made

@@ -17,18 +17,31 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from meshes import gauss_gradient, nodal_gradient
+from meshes.placing import around
 
 from ..models.state import State
 from ..ring.fem import Ring
 from ..ring.reduction import ReducedRing
 
 Array = NDArray[np.float64]
+
+
+class Stressed(NamedTuple):
+    """What a displacement does to the ring at its nodes, in m g/R^2."""
+
+    stress: Array
+    """(n_nodes, 3, n_states) Cauchy's (11, 22, 12)."""
+    density: Array
+    """(n_nodes, n_states) Strain energy per undeformed volume."""
+    along: Array
+    """(n_nodes, 2, n_states) Unit vectors in which the circles of the nodes run; of a linear ring those at rest."""
 
 
 class Interior:
@@ -90,20 +103,13 @@ class Interior:
     def _at_gauss(self) -> tuple[sp.csr_matrix, sp.csr_matrix, Array]:
         return gauss_gradient(self.mesh)
 
-    def stress(self, u: Array) -> tuple[Array, Array]:
-        """Cauchy stress (11, 22, 12) and strain energy density at the nodes of displacements as above.
-
-        Returns
-        -------
-        stress : (n_nodes, 3, n_states) array
-            In m g/R^2.
-        density : (n_nodes, n_states) array
-            In m g/R^2, per undeformed volume.
-        """
+    def stress(self, u: Array) -> Stressed:
+        """Stress and strain energy density at the nodes of displacements as above."""
         gradient = _gradient(*self._at_nodes, u)
         strain = self._strain(gradient)
         stress = self._elastic(strain)
-        return self._cauchy(gradient, stress), (strain * stress).sum(axis=1) / 2
+        density = (strain * stress).sum(axis=1) / 2
+        return Stressed(self._cauchy(gradient, stress), density, self._along(gradient))
 
     def element_energy(self, u: Array) -> Array:
         """Strain energy of every element, (n_elements, n_states); the sum is the ledger's ring strain.
@@ -154,6 +160,10 @@ class Interior:
 
     def _cauchy(self, h: Array, stress: Array) -> Array:
         return stress
+
+    def _along(self, h: Array) -> Array:
+        along: Array = np.broadcast_to(around(self.mesh)[:, :, None], (len(h), 2, h.shape[-1]))
+        return along
 
 
 class ReducedInterior(Interior):
@@ -223,6 +233,12 @@ class ExactInterior(Interior):
         turned = np.einsum("niks,nkls,njls->nijs", f, tensor, f)
         turned /= (f[:, 0, 0] * f[:, 1, 1] - f[:, 0, 1] * f[:, 1, 0])[:, None, None]
         return np.stack([turned[:, 0, 0], turned[:, 1, 1], turned[:, 0, 1]], axis=1)
+
+    def _along(self, h: Array) -> Array:
+        at_rest = super()._along(h)
+        line = at_rest + np.einsum("nijs,njs->nis", h, at_rest)
+        along: Array = line / np.linalg.norm(line, axis=1, keepdims=True)
+        return along
 
 
 def _gradient(by_y1: sp.csr_matrix, by_y2: sp.csr_matrix, u: Array) -> Array:

@@ -33,7 +33,7 @@ def rotating(around, through, inner=1 / 1.2):
     free = np.setdiff1d(np.arange(ring.basis.N), held)
     u = np.zeros(ring.basis.N)
     u[free] = spsolve(ring.stiffness[free][:, free].tocsc(), load[free])
-    stress, density = Interior(ring, 1.0, 1.0).stress(u[mesh.node_dofs][..., None])
+    stress, density, _ = Interior(ring, 1.0, 1.0).stress(u[mesh.node_dofs][..., None])
     around_ = hoop_stress(mesh, stress[..., 0])
     return mesh, around_, stress[:, 0, 0] + stress[:, 1, 0] - around_, density[:, 0]
 
@@ -76,7 +76,7 @@ def test_energy_of_a_field_is_half_its_work():
     by_element = interior.element_energy(u[..., None])
     assert by_element.shape == (len(mesh.quad9), 1)
     assert by_element.sum() == pytest.approx(exact, rel=1e-12)
-    _, density = interior.stress(u[..., None])
+    density = interior.stress(u[..., None]).density
     weights = ring.mass @ np.ones(ring.basis.N) * ring.area
     assert weights[mesh.node_dofs[:, 0]] @ density[:, 0] == pytest.approx(quads, rel=2e-3)
 
@@ -94,10 +94,26 @@ def test_the_exact_ring_feels_no_rotation_and_stretches_as_it_should():
     # stretched by 1.1 along y1 while y2 contracts freely: E22 = -nu E11
     e11 = (1.1**2 - 1) / 2
     narrow = np.sqrt(1 - 2 * POISSON * e11)
-    stress, density = exact.stress((mesh.points * [0.1, narrow - 1])[..., None])
+    stress, density, _ = exact.stress((mesh.points * [0.1, narrow - 1])[..., None])
     np.testing.assert_allclose(stress[:, 0, 0], 5 * e11 * 1.1 / narrow, rtol=1e-10)
     np.testing.assert_allclose(stress[:, 1:, 0], 0, atol=1e-10)
     np.testing.assert_allclose(density[:, 0], 5 * e11**2 / 2, rtol=1e-10)
+
+
+def test_stress_along_a_wall_that_has_turned_is_what_it_was_before():
+    """A ring blown up by a twentieth, then turned by 0.7 about its centre, and so by all that a wall can."""
+    mesh = ring_mesh(0.9, 1.0, 40, 1, 0.2)
+    exact = ExactInterior(Ring(mesh, POISSON), 5.0, 1.0)
+    cos, sin = np.cos(0.7), np.sin(0.7)
+    blown = 0.05 * mesh.points
+    turned = (mesh.points + blown) @ np.array([[cos, sin], [-sin, cos]]) - mesh.points
+    shear = np.column_stack([0.1 * mesh.points[:, 1], 0 * mesh.points[:, 1]])  # no longer alike in all directions
+    for u, v in ((blown, turned), (shear, (mesh.points + shear) @ np.array([[cos, sin], [-sin, cos]]) - mesh.points)):
+        before, after = (exact.stress(field[..., None]) for field in (u, v))
+        hoop = [hoop_stress(mesh, found.stress[..., 0], found.along[..., 0]) for found in (before, after)]
+        np.testing.assert_allclose(hoop[1], hoop[0], rtol=0, atol=1e-11)
+        assert np.abs(hoop[0]).max() > 0.2
+    assert np.abs(hoop_stress(mesh, after.stress[..., 0]) - hoop[0]).max() > 0.1  # along the ring at rest
 
 
 CASES = {
