@@ -5,5 +5,5 @@
 ``march``     the equations in time                     ``creep``     what a patch in steady rolling must slip
 ``events``    the instants to look at                   ``layers``    their inner problems solved
 ``critical``  the damping below which the sequence of phases changes
-``separate``  the foundation from which on one layer is over before the next event comes
+``separate``  the foundation from which on one layer is over before the next event comes, and the ring is the stiffer
 """

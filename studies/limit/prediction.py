@@ -24,6 +24,7 @@ from ..inner.events import REVERSAL, START, Event, Passage, Stretch, passage
 from ..inner.layers import slip_behind
 from ..inner.march import BRUSH, REGULARISED
 from ..inner.scales import epsilon
+from ..running.files import StudyError
 from ..running.measures import OF_THE_MEASURE, units_of_measures
 from . import onset
 from .outer import Shift, delay_of_break, delay_of_stop, grown, passed, roll_along, slide_along
@@ -117,6 +118,14 @@ def predict(scene: Scene, rolls_to: float | None = None) -> Prediction:
     return _with_units(scene, way, powers(way))
 
 
+def foreseen(scene: Scene, law: str) -> Prediction | None:
+    """The same under another law of friction; None where its pulse has more in it than this scene's."""
+    try:
+        return predict(scene.replace(contact={"law": law}))
+    except StudyError:
+        return None
+
+
 def powers(way: Passage) -> dict[float, NDArray[np.float64]]:
     """Changes of J_F, J_N, energy and damping loss over a pulse, by the power of eps (or v_s); R = g = M = 1."""
     law, mu_s, mu = way.contact.law, way.contact.mu_s, way.contact.mu
@@ -206,7 +215,7 @@ def _through(way: Passage, event: Event, shift: Shift, creeps: bool) -> Shift:
 
 def units_told(scene: Scene) -> dict[str, str]:
     """What the numbers of a limit study are measured in, by name: measures in units of the scene, events never."""
-    pure = ("foundation", "separate", "exponent", "phi", "peak_ratio", "critical_damping", "damping", "decay")
+    pure = ("foundation", "separate", "stiff", "exponent", "phi", "peak_ratio", "critical_damping", "damping", "decay")
     of_measures = ("value", "numerical_error", "limit", "distance", "predicted", "coefficient")
     weight, tau = "(m + m_h) g", "eps sqrt(R/g)"
     return {

@@ -23,15 +23,14 @@ from ..inner.events import Event, passage
 from ..inner.layers import Layer, layer, outer_forces
 from ..inner.march import PATCH
 from ..inner.scales import damping_of
-from ..inner.separate import separate_from
+from ..inner.separate import separate_from, stiff_from
 from ..plots.sheet import power_of
 from ..running.case import Case
-from ..running.files import StudyError
 from ..running.measures import MEASURES
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
 from .compliant import Sight, at_foundation, go_through, seen_by_rigid_ring
-from .prediction import ROUND_OFF, Prediction, predict, units_told
+from .prediction import ROUND_OFF, Prediction, foreseen, predict, units_told
 
 if TYPE_CHECKING:
     import pandas
@@ -108,6 +107,8 @@ class LimitStudy(summary.Summarised):
     """What was observed."""
     others: tuple[Other, ...]
     """What the same hoop tends to under other compliances, this one's among them."""
+    stiff: float = 0.0
+    """Foundation from which on the ring, in the scene's proportion to it, gives way by less than the patch."""
 
     def _title(self) -> str:
         return f"Limit study: {len(self.events)} events, {len(self.sights)} runs beside them"
@@ -195,6 +196,7 @@ class LimitStudy(summary.Summarised):
             "complete": self.prediction.complete,
             "prediction": {name: term.to_dict() for name, term in self.prediction.terms.items()},
             "separate": self.separate,
+            "stiff": self.stiff,
             "others": [{"name": other.name, "impulse_ratio": list(other.impulse_ratio)} for other in self.others],
             "observed": observed,
         }
@@ -252,7 +254,7 @@ def limit_study(
     sights = [seen_by_rigid_ring(scene, foundation) for foundation in foundations]
     sights += _flexible(scene, prediction, flexible, pool or Here(), out, progress)
     separate = separate_from(way, [event.layer for event in found])
-    return LimitStudy(scene, tuple(found), prediction, separate, tuple(sights), _others(scene))
+    return LimitStudy(scene, tuple(found), prediction, separate, tuple(sights), _others(scene), stiff_from(way, scene))
 
 
 def _others(scene: Scene) -> tuple[Other, ...]:
@@ -261,7 +263,7 @@ def _others(scene: Scene) -> tuple[Other, ...]:
     for name, law in LAWS.items():
         pulses = simulate(scene.replace(friction={"mu_s": law.static_coefficient(scene.friction)})).pulses
         for pulse in [p for p in pulses if not p.cut][:1]:
-            found.append(Other(f"{name}, any damping", (pulse.impulse_ratio,) * 2, _foreseen(scene, name)))
+            found.append(Other(f"{name}, any damping", (pulse.impulse_ratio,) * 2, foreseen(scene, name)))
     ideal = next(name for name, law in LAWS.items() if law.code == PATCH)
     undamped = scene.replace(contact={"law": ideal, "damping": 0.0})
     limit = predict(undamped).terms["impulse_ratio"].limit
@@ -269,13 +271,6 @@ def _others(scene: Scene) -> tuple[Other, ...]:
     near = max(abs(seen[0] - limit) / 2, ROUND_OFF)  # it comes to a fifth, where it has a limit
     comes = abs(seen[-1] - limit) <= near
     return (*found, Other(f"{ideal}, no damping", (limit, limit) if comes else (min(seen), max(seen)), tends=comes))
-
-
-def _foreseen(scene: Scene, law: str) -> Prediction | None:
-    try:
-        return predict(scene.replace(contact={"law": law}))
-    except StudyError:  # its pulse has more in it than this scene's
-        return None
 
 
 def _flexible(

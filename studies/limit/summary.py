@@ -11,6 +11,9 @@ from ..running.measures import MEASURES
 from .damping import Spot
 from .study import FOUNDATIONS, OBSERVED, LimitStudy
 
+_LEAST = 1e6
+"""The softest foundation within the range of the model: what holds from there on holds."""
+
 
 def event_sheet(study: LimitStudy) -> Sheet:
     """Events, and what their layers do; forces before and behind, over the weight of the whole hoop."""
@@ -166,6 +169,11 @@ def damping_sentences(study: LimitStudy) -> list[str]:
                 f"Below a damping ratio of {number(largest, 4)} the transient breaks the patch again; this scene's "
                 f"{number(ratio, 4)} is {above} it."
             )
+    if study.stiff > max(study.separate, _LEAST):
+        said.append(
+            f"With a ring in the scene's proportion this holds from a foundation of {number(study.stiff, 2)} on: at"
+            " softer ones the ring gives way by more than the patch that should damp it."
+        )
     if study.separate == 0:
         pass
     elif isfinite(study.separate):

@@ -30,7 +30,7 @@ LIMITS = ("impulse_ratio", "friction_loss", "normal_impulse")
 
 _OF_MEASURES = ("value", "uncertainty", "rigid", "error", "last_distance", "limit", "coefficient", "observed")
 _RATES = ("rate", "rate_interval", "exponent", "exponents")
-_PURE = ("bending_stiffness", "contact_stiffness", "low", "high", "count", "separate", "mu_s", "rtol", *_RATES)
+_PURE = ("bending_stiffness", "contact_stiffness", "low", "high", "count", "separate", "stiff", "mu_s", "rtol", *_RATES)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,8 +101,14 @@ class StiffnessStudy(summary.Summarised):
     both stiffnesses are raised with the patch damped and run by the flexible solver, where the approach is told by more
     than the foundation (the regularised law), and where the pulse has more in it than rolling and sliding."""
     separate: float = 0.0
-    """Foundation from which on the prediction, and any series in powers of it, holds: each event is over before the
-    next one comes."""
+    """Foundation from which on a series in its powers holds: each event is over before the next one comes."""
+    stiff: float = 0.0
+    """That from which on the ring gives way by less than the patch where a slip ends or turns round."""
+
+    @property
+    def holds(self) -> float:
+        """Foundation from which on the prediction holds, whose rim is rigid."""
+        return max(self.separate, self.stiff)
 
     @property
     def failures(self) -> list[Rung]:
@@ -121,7 +127,7 @@ class StiffnessStudy(summary.Summarised):
 
     def expected(self, name: str, contact_stiffness: float) -> float:
         """Distance to the rigid value that is predicted at a foundation; 0 where none is."""
-        if self.prediction is None or not self.prediction.complete or contact_stiffness < self.separate:
+        if self.prediction is None or not self.prediction.complete or contact_stiffness < self.holds:
             return 0.0
         term = self.prediction.terms[name]
         return abs(float(term.at(contact_stiffness ** (-1 / 3))) - term.limit)
@@ -143,7 +149,7 @@ class StiffnessStudy(summary.Summarised):
         down to the creep's is predicted, and with too few rungs through."""
         if self.prediction is None or not self.prediction.complete:
             return None
-        rungs = [rung for rung in self.rungs_through if rung.contact_stiffness >= self.separate]
+        rungs = [rung for rung in self.rungs_through if rung.contact_stiffness >= self.holds]
         foundation, values, errors = (
             np.array(column)
             for column in (
@@ -164,7 +170,7 @@ class StiffnessStudy(summary.Summarised):
         values, errors = (np.array([of(rung, name) for rung in through]) for of in (Rung.measure, Rung.error))
         series = fitted_series(limit, stiffness, values, errors, self.separate)
         predicted = None
-        softest, stiffest = max(through[0].contact_stiffness, self.separate), through[-1].contact_stiffness
+        softest, stiffest = max(through[0].contact_stiffness, self.holds), through[-1].contact_stiffness
         if self.prediction is not None and self.prediction.complete and softest < stiffest:
             foundation = np.geomspace(softest, stiffest, 60)
             term = self.prediction.terms[name]
@@ -269,7 +275,7 @@ class StiffnessStudy(summary.Summarised):
                 "phases": self.reference.phases[0],
             },
             "cases": [rung.to_dict() for rung in self.rungs],
-            "limit": {name: _limit_to_dict(limit) for name, limit in self.limits.items()},
+            "limit": {name: limit.to_dict() for name, limit in self.limits.items()},
             "prediction": self._foreseen(),
         }
 
@@ -280,19 +286,4 @@ class StiffnessStudy(summary.Summarised):
         for name in LIMITS:
             seen = self.coefficient(name)
             told[name] = self.prediction.terms[name].to_dict() | ({} if seen is None else seen._asdict())
-        return {"complete": self.prediction.complete, "separate": self.separate, **told}
-
-
-def _limit_to_dict(limit: Limit) -> dict[str, Any]:
-    return {
-        "value": limit.value,
-        "uncertainty": limit.uncertainty,
-        "rate": limit.rate,
-        "rate_interval": list(limit.rate_interval),
-        "exponents": list(limit.exponents),
-        "exponents_known": limit.known,
-        "rigid": limit.rigid,
-        "error": limit.error,
-        "rigid_inside": limit.rigid_inside,
-        "last_distance": limit.distance,
-    }
+        return {"complete": self.prediction.complete, "separate": self.separate, "stiff": self.stiff} | told

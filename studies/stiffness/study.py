@@ -100,7 +100,7 @@ def stiffness_study(
             raise StudyError(f"The rigid hoop has no pulse to study here: {outcome.failure or outcome.ended}.")
 
     # 2. what is foreseen of the rungs
-    foreseen, separate = _prediction(scene, ladder, solver)
+    foreseen, separate, stiff = _prediction(scene, ladder, solver)
 
     import scipy.optimize  # noqa: F401  what the limits take, while other processes are still loading what cases take
 
@@ -109,7 +109,7 @@ def stiffness_study(
     pulse = reference.pulses[0]
     cases = [
         # of a run that stops behind the first pulse that one is a result
-        Case(solver, rung, _against(rung, pulse, foreseen, separate), histories=True, cut=all_pulses)
+        Case(solver, rung, _against(rung, pulse, foreseen, max(separate, stiff)), histories=True, cut=all_pulses)
         for rung in scenes
     ]
     outcomes = run_cases(cases[::-1], pool, out, progress)[::-1]  # the stiffest, which takes longest, first
@@ -136,34 +136,36 @@ def stiffness_study(
     if foreseen is not None and foreseen.parameter != "eps":
         foreseen = None  # it is told by the foundation alone
     return StiffnessStudy(
-        scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits, foreseen, separate
+        scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits, foreseen, separate, stiff
     )
 
 
 def _against(
-    rung: Scene, rigid: Mapping[str, float], foreseen: Prediction | None, separate: float
+    rung: Scene, rigid: Mapping[str, float], foreseen: Prediction | None, holds: float
 ) -> tuple[tuple[str, float, float], ...]:
     """What a rung is compared with, and the distance from that to expect of it."""
     tied = []
     for name in TIED:
         expected = 0.0
-        if foreseen is not None and foreseen.complete and rung.contact.stiffness >= separate:
+        if foreseen is not None and foreseen.complete and rung.contact.stiffness >= holds:
             term = foreseen.terms[name]
             expected = abs(float(term.at(rung.contact.stiffness ** (-1 / 3))) - term.limit)
         tied.append((name, rigid[name], expected))
     return tuple(tied)
 
 
-def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction | None, float]:
-    """The prediction, where it is that of the cases, and the foundation from which on it holds."""
+def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction | None, float, float]:
+    """The prediction, where it is that of the cases, and the foundations from which on the events are separate, and the
+    ring is the stiffer."""
     from ..inner.events import passage
-    from ..inner.separate import separate_from
+    from ..inner.separate import separate_from, stiff_from
     from ..limit.prediction import predict
 
     # a ring that is not stiffened keeps its own distance, an undamped patch rings at any stiffness
     if ladder.along != "both" or solver != "flexible" or scene.contact.damping == 0:
-        return None, 0.0
+        return None, 0.0, 0.0
     try:
-        return predict(scene), separate_from(passage(scene))
+        way = passage(scene)
+        return predict(scene), separate_from(way), stiff_from(way, ladder.rungs(scene)[0])
     except StudyError:
-        return None, 0.0
+        return None, 0.0, 0.0

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import hypot, inf, isfinite, nan
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -72,6 +73,21 @@ class Limit:
         """How far the rigid value is from the limit, in half widths of its interval."""
         off = abs(self.error)
         return off / self.uncertainty if self.uncertainty else inf if off else 0.0
+
+    def to_dict(self) -> dict[str, Any]:
+        """The limit as JSON prints it."""
+        return {
+            "value": self.value,
+            "uncertainty": self.uncertainty,
+            "rate": self.rate,
+            "rate_interval": list(self.rate_interval),
+            "exponents": list(self.exponents),
+            "exponents_known": self.known,
+            "rigid": self.rigid,
+            "error": self.error,
+            "rigid_inside": self.rigid_inside,
+            "last_distance": self.distance,
+        }
 
 
 def limit_of(

@@ -4,8 +4,9 @@ A least-squares line through the first powers says nothing of those behind them,
 2/5) those behind are what it is off by. So the whole series is fitted: its coefficients are unknowns of one common
 size at the softest case, a normal distribution of a width that is itself inferred; L is free. Soft cases then count for
 what they can tell, and the interval holds what the terms not seen may still do. Left out are soft cases of another
-kind, such as hoops that leave the floor: those that are not what stiffer ones foresee of them. What the limit owes to
-the softest that are left is part of its interval.
+kind, such as hoops that leave the floor or break a stick that stiffer ones keep: those that are not what stiffer ones
+foresee of them, or move the limit out of the interval that these have for it. (The first alone lets a jump pass where
+eight terms foresee all sorts of things.) What the limit owes to the softest that are left is part of its interval.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ TERMS = 8
 _SIZES = np.geomspace(0.03, 30, 16)  # of a coefficient, over the span of the values
 _LARGE = np.geomspace(1, 30, 8)  # the same where single powers are asked for: large ones of both signs look small
 _MISSED = 3.0  # half widths by which a case may miss what stiffer ones foresee of it
+_MOVED = 1.0  # half widths of the stiffer ones' limit by which it may move that
 _SOFTEST = 2  # cases whose part in the limit is part of its interval
 
 
@@ -83,14 +85,18 @@ def extrapolated(
 def one_series(
     s: ArrayLike, y: ArrayLike, error: ArrayLike, exponents: Sequence[float], confidence: float
 ) -> tuple[Array, Array, Array]:
-    """Stiffness, measure and error of the stiffest cases, down to the first that is not what they foresee of it."""
+    """Stiffness, measure and error of the stiffest cases, down to the first that is of another kind."""
     x, v, e = finite(s, y, error)
     first = max(v.size - fewest(exponents), 0)
+    limit = _by_all(x[first:], v[first:], e[first:], exponents, confidence, inf)
     while first > 0:
         told = _by_all(x[first:], v[first:], e[first:], exponents, confidence, float(x[first - 1]))
         if abs(v[first - 1] - told.value) > _MISSED * told.uncertainty + e[first - 1]:
             break
-        first -= 1
+        with_it = _by_all(x[first - 1 :], v[first - 1 :], e[first - 1 :], exponents, confidence, inf)
+        if abs(with_it.value - limit.value) > _MOVED * limit.uncertainty:
+            break
+        first, limit = first - 1, with_it
     return x[first:], v[first:], e[first:]
 
 

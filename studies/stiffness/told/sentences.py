@@ -181,6 +181,11 @@ def prediction_sentence(study: StiffnessStudy) -> str:
         said += " This is the leading power alone; those behind it are the larger ones at any stiffness within reach."
     if not isfinite(study.separate):
         said += " A patch of so little damping does not come to rest between the events, and it holds at none of these."
+    elif study.stiff > max(study.separate, study.ladder.low):
+        said += (
+            f" It holds from a foundation of {number(study.stiff, 2)} on: at softer ones the ring gives way by more"
+            " than the patch that should damp it, and may break a stick that a rigid rim has, or leave the floor."
+        )
     elif study.separate > study.ladder.low:
         said += (
             f" It holds from a foundation of {number(study.separate, 2)} on: at softer ones an event happens before the"

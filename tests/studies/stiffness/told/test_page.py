@@ -337,6 +337,19 @@ def test_a_coefficient_is_of_the_cases_for_which_theory_holds(study):
     assert replace(known, separate=1.01 * least).expected("impulse_ratio", least) == 0
 
 
+def test_what_is_foreseen_of_a_rigid_rim_is_held_against_rings_that_are_stiffer_than_the_patch(study):
+    known = foreseen(study)
+    least = known.rungs[3].contact_stiffness
+    stiff = replace(known, stiff=least)
+    assert stiff.coefficient("impulse_ratio") == replace(known, separate=least).coefficient("impulse_ratio")
+    assert replace(known, stiff=1.01 * least).expected("impulse_ratio", least) == 0
+    assert stiff.to_dict()["prediction"]["stiff"] == least
+    assert "at softer ones the ring gives way by more than the patch" in prediction_sentence(stiff)
+    later = replace(stiff, separate=2 * least)
+    assert "at softer ones an event happens before" in prediction_sentence(later)
+    assert later.holds == 2 * least
+
+
 def test_a_record_has_both_stiffnesses_under_their_names(study):
     for record, rung in zip(study.records(), study.rungs, strict=True):
         scene = scene_from_dict(rung.outcome.scene)
