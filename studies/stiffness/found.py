@@ -101,14 +101,11 @@ class StiffnessStudy(summary.Summarised):
     both stiffnesses are raised with the patch damped and run by the flexible solver, where the approach is told by more
     than the foundation (the regularised law), and where the pulse has more in it than rolling and sliding."""
     separate: float = 0.0
-    """Foundation from which on a series in its powers holds: each event is over before the next one comes."""
+    """Foundation from which on the prediction, and any series in powers of it, holds: each event is over before the
+    next one comes."""
     stiff: float = 0.0
-    """That from which on the ring gives way by less than the patch where a slip ends or turns round."""
-
-    @property
-    def holds(self) -> float:
-        """Foundation from which on the prediction holds, whose rim is rigid."""
-        return max(self.separate, self.stiff)
+    """That from which on the ring gives way by less than the patch where a slip ends or turns round; on softer ones it
+    may break a stick that the prediction's rigid rim keeps, or leave the floor."""
 
     @property
     def failures(self) -> list[Rung]:
@@ -121,13 +118,20 @@ class StiffnessStudy(summary.Summarised):
         return [rung for rung in self.rungs if rung.outcome.stopped]
 
     @property
+    def otherwise(self) -> list[Rung]:
+        """Those on which the ring gives way by more than the patch, and the contact does something else than that of
+        the rigid hoop."""
+        own = self.reference.phases[0]
+        return [r for r in self.rungs_through if r.contact_stiffness < self.stiff and r.outcome.phases[0] != own]
+
+    @property
     def rungs_through(self) -> list[Rung]:
         """The rungs that have one."""
         return [rung for rung in self.rungs if not rung.outcome.failure]
 
     def expected(self, name: str, contact_stiffness: float) -> float:
         """Distance to the rigid value that is predicted at a foundation; 0 where none is."""
-        if self.prediction is None or not self.prediction.complete or contact_stiffness < self.holds:
+        if self.prediction is None or not self.prediction.complete or contact_stiffness < self.separate:
             return 0.0
         term = self.prediction.terms[name]
         return abs(float(term.at(contact_stiffness ** (-1 / 3))) - term.limit)
@@ -149,7 +153,7 @@ class StiffnessStudy(summary.Summarised):
         down to the creep's is predicted, and with too few rungs through."""
         if self.prediction is None or not self.prediction.complete:
             return None
-        rungs = [rung for rung in self.rungs_through if rung.contact_stiffness >= self.holds]
+        rungs = [rung for rung in self.rungs_through if rung.contact_stiffness >= self.separate]
         foundation, values, errors = (
             np.array(column)
             for column in (
@@ -170,7 +174,7 @@ class StiffnessStudy(summary.Summarised):
         values, errors = (np.array([of(rung, name) for rung in through]) for of in (Rung.measure, Rung.error))
         series = fitted_series(limit, stiffness, values, errors, self.separate)
         predicted = None
-        softest, stiffest = max(through[0].contact_stiffness, self.holds), through[-1].contact_stiffness
+        softest, stiffest = max(through[0].contact_stiffness, self.separate), through[-1].contact_stiffness
         if self.prediction is not None and self.prediction.complete and softest < stiffest:
             foundation = np.geomspace(softest, stiffest, 60)
             term = self.prediction.terms[name]

@@ -109,7 +109,7 @@ def stiffness_study(
     pulse = reference.pulses[0]
     cases = [
         # of a run that stops behind the first pulse that one is a result
-        Case(solver, rung, _against(rung, pulse, foreseen, max(separate, stiff)), histories=True, cut=all_pulses)
+        Case(solver, rung, _against(rung, pulse, foreseen, separate), histories=True, cut=all_pulses)
         for rung in scenes
     ]
     outcomes = run_cases(cases[::-1], pool, out, progress)[::-1]  # the stiffest, which takes longest, first
@@ -141,13 +141,13 @@ def stiffness_study(
 
 
 def _against(
-    rung: Scene, rigid: Mapping[str, float], foreseen: Prediction | None, holds: float
+    rung: Scene, rigid: Mapping[str, float], foreseen: Prediction | None, separate: float
 ) -> tuple[tuple[str, float, float], ...]:
     """What a rung is compared with, and the distance from that to expect of it."""
     tied = []
     for name in TIED:
         expected = 0.0
-        if foreseen is not None and foreseen.complete and rung.contact.stiffness >= holds:
+        if foreseen is not None and foreseen.complete and rung.contact.stiffness >= separate:
             term = foreseen.terms[name]
             expected = abs(float(term.at(rung.contact.stiffness ** (-1 / 3))) - term.limit)
         tied.append((name, rigid[name], expected))

@@ -62,7 +62,7 @@ def captions(study: StiffnessStudy) -> dict[str, str]:
     if any(each.series is not None or isfinite(each.rate) for each in distances):
         told["distance"] += _FITTED
     if any(each.predicted is not None for each in distances):
-        told["distance"] += _FORESEEN + (_FROM if study.holds > 0 else _ONWARD)
+        told["distance"] += _FORESEEN + (_FROM if study.separate > 0 else _ONWARD)
     return told
 
 

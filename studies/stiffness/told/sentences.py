@@ -181,15 +181,16 @@ def prediction_sentence(study: StiffnessStudy) -> str:
         said += " This is the leading power alone; those behind it are the larger ones at any stiffness within reach."
     if not isfinite(study.separate):
         said += " A patch of so little damping does not come to rest between the events, and it holds at none of these."
-    elif study.stiff > max(study.separate, study.ladder.low):
-        said += (
-            f" It holds from a foundation of {number(study.stiff, 2)} on: at softer ones the ring gives way by more"
-            " than the patch that should damp it, and may break a stick that a rigid rim has, or leave the floor."
-        )
     elif study.separate > study.ladder.low:
         said += (
             f" It holds from a foundation of {number(study.separate, 2)} on: at softer ones an event happens before the"
             " patch has come to rest from the one before it, and no series in powers of ε describes these cases."
+        )
+    if study.otherwise:
+        said += (
+            f" It is of a rigid rim: below a foundation of {number(study.stiff, 2)} the ring gives way by more than the"
+            f" patch that should damp it, and at {len(study.otherwise)} of these cases the contact does something else"
+            " in the pulse than that of the rigid hoop, which it does not foresee."
         )
     return said
 

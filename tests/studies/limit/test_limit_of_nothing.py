@@ -8,7 +8,7 @@ from command_line import is_one_sentence
 from rigid import load_scene
 from studies import StudyError, limit_study
 from studies.limit.prediction import predict
-from studies.limit.summary import other_sentences, term_sheet, verdict
+from studies.limit.summary import damping_sentences, other_sentences, term_sheet, verdict
 
 
 @pytest.fixture(scope="module")
@@ -94,3 +94,12 @@ def test_without_damping_the_limit_is_that_of_the_least_of_it():
     assert "no limit seen" in other_sentences(study)[-1]
     damped = limit_study("paper-3.3-massless", foundations=())
     assert verdict(damped).startswith("Made ever stiffer, the hoop")
+
+
+def test_it_is_said_where_a_ring_is_softer_than_the_patch():
+    """The slip of the heavier hoop ends where its wall bends, that of the massless one over the weld."""
+    for name, told in (("paper-3.3-heavier", True), ("paper-3.3-massless", False)):
+        found = limit_study(name, foundations=())
+        said = [each for each in damping_sentences(found) if each.startswith("All this is of a rigid rim")]
+        assert bool(said) == told == (found.stiff > 1e6)
+        assert found.to_dict()["stiff"] == found.stiff
