@@ -7,9 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rigid import Scene
+
 from .ring import RingMesh
 
 Array = NDArray[np.float64]
+
+SEEN = 0.025
+"""Radius over R with which a disk is drawn at least: a point mass has to be seen too."""
 
 
 @dataclass(frozen=True)
@@ -54,6 +59,18 @@ class Placement:
         of_11, of_22 = (x1 * x1, y1 * y1, x1 * y1), (x2 * x2, y2 * y2, x2 * y2)
         of_12 = (2 * x1 * x2, 2 * y1 * y2, x1 * y2 + x2 * y1)
         return stress @ np.array([of_11, of_22, of_12])
+
+
+def disk_in(scene: Scene) -> tuple[float, float]:
+    """Distance of the disk's centre from the hoop's, and the radius with which it is drawn against the wall; over R.
+
+    The distance is that of the motion: where r = 1, and the wall is the elastic hoop's alone, a disk of k R would lie
+    in it, and is drawn with less. One too small to be seen is drawn larger, and farther in.
+    """
+    inner, distance = 1 - scene.wall, (1 - scene.hoop.k) / scene.hoop.r
+    if inner - distance < SEEN:
+        return inner - SEEN, SEEN
+    return distance, inner - distance
 
 
 def von_mises(stress: Array) -> Array:

@@ -43,7 +43,7 @@ from meshes import (
 )
 from meshes.draw.scales import tidy
 from meshes.draw.style import SI_UNITS, UNITS, unit
-from meshes.placing import around
+from meshes.placing import around, disk_in
 from rigid import Scene
 
 from ..models.select import ring_for
@@ -219,9 +219,8 @@ class _Painter:
             contact = None if kept is None or state is None else (kept.hoop, state)
             on_rim: dict[str, Array] = {n: nodal[n] for n in ("displacement", "velocity") if n in nodal}
             blocks["rim"] = rim_of(mesh, points, on_rim, contact, place, self.asked, self.stress, R)
-        inner = 1 - self.scene.wall
-        radius = max(self.scene.hoop.k * inner, 0.025)  # a point mass has to be seen too
-        centre = R * place.points(np.array([[inner - radius, 0.0]]))[0]
+        away, radius = disk_in(self.scene)
+        centre = R * place.points(np.array([[away, 0.0]]))[0]
         blocks |= {"disk": disk_block(centre, R * radius, place.phi), "floor": self.floor}
         return Frame(instant.t, blocks)
 

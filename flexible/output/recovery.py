@@ -115,10 +115,11 @@ class Interior:
         """Strain energy of every element, (n_elements, n_states); the sum is the ledger's ring strain.
 
         But for what is ``within`` (:class:`flexible.ring.fem.Ring`), which a wall that is not thin has here and not in
-        the ledger, 0.6 % at r = 1.2; and of a chain, whose mesh is carried along, with mass to 0.2 % from r = 1.007 to
-        1.1, 0.8 % at 1.2 and 3 % where quads are longer than five walls, as at 1.005. Without mass, where the contact
-        is within a wall of the weld, a chain's elements have up to 4 % less at r = 1.1 and E I = 10, and at r = 1.2 3 %
-        at E I = 35 and 9 % at 10 (flexible/chain/README, section 5).
+        the ledger, some 1 % at r = 1.2 and more without mass on a stiff floor; and of a chain, whose mesh is carried
+        along, with mass to 0.2 % from r = 1.007 to 1.1, 0.8 % at 1.2 and 3 % where quads are longer than five walls, as
+        at 1.005. Without mass, where the contact is within a wall of the weld, a chain's elements have up to 4 % less
+        at r = 1.1 and E I = 10, at r = 1.2 3 % at E I = 35 and 9 % at 10 (flexible/chain/README, section 5), and more
+        in thicker walls.
         What the corners of the weld yield besides is shared among their elements in proportion to what these have.
         """
         by_y1, by_y2, area = self._at_gauss

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from rigid import Motion
 
 from ..fields import AnyArray, Block, Frame, SeriesError, disk_block
+from ..placing import disk_in
 from ..ring import ring_mesh
 from ..series import Series, read
 from .style import SI_UNITS, UNITS
@@ -234,8 +235,8 @@ class MotionSource:
         R = scene.hoop.R
         inner = R * (1 - scene.wall)
         ring = ring_mesh(inner, R, around=180)
-        disk = max(scene.hoop.k * inner, 0.025 * R)  # a point mass has to be seen too
-        return ring.quad9, ring.points, disk, inner - disk
+        away, disk = disk_in(scene)
+        return ring.quad9, ring.points, R * disk, R * away
 
     def instant(self, time: float) -> float:
         """That time: a motion is known at any."""

@@ -171,8 +171,8 @@ def damping_sentences(study: LimitStudy) -> list[str]:
             )
     if study.stiff > max(study.separate, _LEAST):
         said.append(
-            f"All this is of a rigid rim: below a foundation of {number(study.stiff, 2)} a ring in the scene's"
-            " proportion gives way by more than the patch that should damp it, and may break a stick or leave the floor."
+            f"All this is of a rigid rim: below a foundation of {number(study.stiff, 2)} a ring in the"
+            " scene's proportion gives way by more than the patch that should damp it: a stick may break in it."
         )
     if study.separate == 0:
         pass
