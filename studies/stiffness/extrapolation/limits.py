@@ -16,9 +16,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from .cases import CONFIDENCE, ascending, settled
 from .fitted import SLOWEST, observed_rate, richardson
-from .series import extrapolated, fewest, inferred_series, one_series
+from .series import extrapolated, fewest, inferred_series, is_one_series, one_series
 
 Array = NDArray[np.float64]
+
+CLEAR = 2.0
+"""Half widths of its interval by which a limit must miss the rigid value before the answer is no: one in twenty misses
+it by one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +50,16 @@ class Limit:
     """Distance to the rigid value at the stiffest case: what is left without any extrapolation."""
     span: float
     """How far apart the values of all cases are, or their numerical error where that is more."""
+    fitted: tuple[float, float]
+    """Limit and half width with a rate that is fitted to all cases, whatever theory says."""
+
+    @property
+    def rigid_excluded(self) -> bool:
+        """Whether the rigid value is outside beyond doubt: by more than ``CLEAR`` half widths, and of a fitted rate's
+        interval too. Cases that are not yet those of theory may make a narrow interval of its powers anywhere."""
+        value, uncertainty = self.fitted
+        outside = not self.known or not abs(value - self.rigid) <= uncertainty
+        return self.rigid_inside is False and self.half_widths > CLEAR and outside
 
     @property
     def extrapolated(self) -> bool:
@@ -101,21 +115,22 @@ def limit_of(
     """The limit of a measure over a ladder of stiffness beside the rigid value it should have.
 
     ``exponents``, slowest first, are the leading rates where theory knows them, ``holds`` the stiffness from which on
-    it does. With fewer than :func:`.series.fewest` cases there a rate is fitted, to all.
+    it does. With fewer than :func:`.series.fewest` cases there, or too few of one kind
+    (:func:`.series.is_one_series`), a rate is fitted, to all.
     Cases come in any order of ``s``, which is above 0.
     """
     s, y, error = ascending(s, y, error, exponents)
     (values, alike), stiff = settled(y, rigid), np.asarray(s, float) >= holds
-    known = exponents is not None and (holds == 0 or int(np.isfinite(values[stiff]).sum()) >= fewest(exponents))
-    if exponents is not None and known:
-        off = np.zeros_like(values) if error is None else np.asarray(error, float)
-        value, uncertainty = extrapolated(np.asarray(s)[stiff], values[stiff], off[stiff], exponents, CONFIDENCE)
-        rates = tuple(exponents)
-    else:
-        value, uncertainty, fitted = richardson(s, values, error)
-        # a rate fitted where two terms of opposite sign still compete is not that of the last one
-        uncertainty = hypot(uncertainty, value - richardson(s, values, error, SLOWEST)[0])
-        rates = (fitted,)
+    off = np.zeros_like(values) if error is None else np.asarray(error, float)
+    own, own_uncertainty, own_rate = richardson(s, values, error)
+    # a rate fitted where two terms of opposite sign still compete is not that of the last one
+    fitted = own, hypot(own_uncertainty, own - richardson(s, values, error, SLOWEST)[0])
+    (value, uncertainty), known = fitted, False
+    rates: tuple[float, ...] = (own_rate,)
+    if exponents is not None and (holds == 0 or int(np.isfinite(values[stiff]).sum()) >= fewest(exponents)):
+        cases = np.asarray(s)[stiff], values[stiff], off[stiff], exponents, CONFIDENCE
+        if is_one_series(*cases):
+            (value, uncertainty), rates, known = extrapolated(*cases), tuple(exponents), True
     rate = observed_rate(s, np.where(np.abs(values - rigid) > alike, values - rigid, 0.0), error)
     return Limit(
         value,
@@ -128,6 +143,7 @@ def limit_of(
         rate.cases,
         float(abs(values[-1] - rigid)) if values.size else nan,
         max(_span(values, error), alike),
+        fitted,
     )
 
 

@@ -29,6 +29,7 @@ _SIZES = np.geomspace(0.03, 30, 16)  # of a coefficient, over the span of the va
 _LARGE = np.geomspace(1, 30, 8)  # the same where single powers are asked for: large ones of both signs look small
 _MISSED = 3.0  # half widths by which a case may miss what stiffer ones foresee of it
 _MOVED = 1.0  # half widths of the stiffer ones' limit by which it may move that
+_CONFIRM = 2  # cases beyond the fewest that a series has at least where softer ones are of another kind
 _SOFTEST = 2  # cases whose part in the limit is part of its interval
 
 
@@ -98,6 +99,17 @@ def one_series(
             break
         first, limit = first - 1, with_it
     return x[first:], v[first:], e[first:]
+
+
+def is_one_series(
+    s: ArrayLike, y: ArrayLike, error: ArrayLike, exponents: Sequence[float], confidence: float
+) -> bool:  # fmt: skip
+    """Whether the stiffest cases are known to be of one series: all are, or more than it takes to make one of them.
+
+    Where softer ones are of another kind, so may be one of the fewest, of which eight terms make a series always.
+    """
+    used, all_of_them = one_series(s, y, error, exponents, confidence)[0].size, finite(s, y, error)[0].size
+    return used == all_of_them or used >= fewest(exponents) + _CONFIRM
 
 
 def _by_all(x: Array, v: Array, e: Array, exponents: Sequence[float], confidence: float, to: float) -> Extrapolated:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ...plots.sheet import number, power_of
 from ...running.measures import MEASURES
+from ..extrapolation.limits import CLEAR
 from .rows import fixed
 
 if TYPE_CHECKING:
@@ -24,18 +25,13 @@ _MEANING = {
 _RAISED = {"both": "ring and floor are", "contact": "the floor is", "bending": "the ring is"}
 
 
-CLEAR = 2.0
-"""Half widths of its interval by which a limit must miss the rigid value before the answer is no: one in twenty misses
-it by one."""
-
-
 def verdict(study: StiffnessStudy) -> str:
     """The answer in words, and in the numbers that it stands on."""
     tied = {name: study.limits[name] for name in _MEANING}
     inside = [limit.rigid_inside for limit in tied.values()]
     hoop = "the rigid one" if study.reference_mu_s == study.scene.friction.mu_s else "a rigid one"
     question = f"as {_RAISED[study.ladder.along]} made stiffer, the flexible hoop"
-    if any(limit.rigid_inside is False and limit.half_widths > CLEAR for limit in tied.values()):
+    if any(limit.rigid_excluded for limit in tied.values()):
         answer = f"No: {question} does not become {hoop} within the uncertainty of its limit"
     elif not all(limit.extrapolated for limit in tied.values()):
         answer = f"Open: whether, {question} becomes {hoop}, too few rungs say"
@@ -67,8 +63,10 @@ def _told(study: StiffnessStudy, name: str, limit: Limit) -> str:
         where = "but this interval is wider than all that was measured: a longer ladder or a smaller rtol"
     elif limit.rigid_inside:
         where = "inside that interval"
-    elif limit.half_widths > CLEAR:
+    elif limit.rigid_excluded:
         where = f"outside that interval, {number(limit.half_widths, 3)} of its half widths off"
+    elif limit.half_widths > CLEAR:
+        where = f"outside that interval, {number(limit.half_widths, 3)} of its half widths off, not of a fitted rate's"
     else:
         where = f"at the edge of that interval, {number(limit.half_widths, 3)} of its half widths off"
     return f"{_MEANING[name]} {_tends(study, name, limit)}, {where}"

@@ -331,9 +331,10 @@ def test_a_massive_hoop_without_thickness_is_said_to_turn_otherwise_when_it_is_e
 
 
 @pytest.mark.slow
-def test_a_stick_that_soft_hoops_break_leaves_the_limit_to_the_stiff_ones():
+def test_a_stick_that_soft_hoops_break_is_no_part_of_the_limit_of_the_stiff_ones():
     """The slip ends 0.43 before the bottom, far from the weld: below 1.5e11 the ring gives way by more than its patch,
-    and below a foundation of some 1e11 that breaks the stick once more; J_F/J_N is a hundred times as far off there."""
+    and below a foundation of some 1e11 that breaks the stick once more; J_F/J_N is a hundred times as far off there.
+    Three rungs keep the stick, too few to say where they tend to: it was told to be elsewhere."""
     scene = Scene(
         Hoop(k=0.162, r=1.02),
         Coefficients(mu_s=0.855, mu=0.608),
@@ -341,8 +342,8 @@ def test_a_stick_that_soft_hoops_break_leaves_the_limit_to_the_stiff_ones():
         Run(until="pulse"),
     )
     study = stiffness_study(scene)
-    assert verdict(study).startswith("Yes")
-    assert all(limit.known and limit.rigid_inside for limit in study.limits.values())
+    assert not verdict(study).startswith("No")
+    assert not any(limit.known or limit.rigid_inside is False for limit in study.limits.values())
     assert study.otherwise
     assert max(rung.contact_stiffness for rung in study.otherwise) < study.stiff
     far, near = (abs(rung.measure("impulse_ratio") - study.limits["impulse_ratio"].rigid)
