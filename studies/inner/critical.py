@@ -6,6 +6,7 @@ from math import inf
 
 import numpy as np
 
+from ..running.files import StudyError
 from .body import Body
 from .creep import half_width
 from .events import Event
@@ -20,7 +21,8 @@ _ACCURACY = 1e-5
 def critical_theta(body: Body, contact: ScaledContact, event: Event) -> float | None:
     """Largest relaxation time, on the tau clock, below which the patch does not follow the rigid hoop's phases alone.
 
-    0 where it does so without a damper, infinite where no damper is enough, None for a law that has no phases.
+    0 where it does so without a damper, infinite where none that can be followed is enough, None for a law that has no
+    phases.
     """
     if contact.law != PATCH:
         return None
@@ -28,15 +30,22 @@ def critical_theta(body: Body, contact: ScaledContact, event: Event) -> float | 
     half = half_width(outer_forces(body, event, True)[0])
     duration = 5 * period + 4 * half / abs(event.omega)  # overshoot comes in the first swings and passages
 
-    def follows(theta: float) -> bool:
-        return layer(body, contact._replace(theta=theta), event, duration).faithful
+    scale = period / (2 * np.pi)
+
+    def follows(theta: float) -> bool | None:
+        try:
+            return layer(body, contact._replace(theta=theta), event, duration).faithful
+        except StudyError:  # a damper too fast to be followed
+            return None
 
     if follows(0.0):
         return 0.0
-    scale = period / (2 * np.pi)
     low, high = 0.0, inf
     for theta in scale * (_THETAS if follows(_THETAS[0] * scale) else _STRONGER):
-        if not follows(theta):
+        faithful = follows(theta)
+        if faithful is None and high == inf:
+            continue  # nothing is known of one as strong
+        if not faithful:
             low = theta
             break
         high = theta

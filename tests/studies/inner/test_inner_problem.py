@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rigid import Contact, Friction, Hoop, Release, Run, Scene, simulate
+from studies import StudyError
 from studies.inner.body import Body, accelerations, arms, body_of, contact_mobility, sliding_force
 from studies.inner.bristles import bristles, brush_pull, set_stretch
 from studies.inner.creep import creep, half_width, sticking_part
@@ -462,3 +463,22 @@ def test_bristles_and_damper_together_carry_the_friction():
     assert found.drag == pytest.approx(-contact.theta * contact.kappa * length * found.slip, rel=1e-13)
     pulled = -contact.kappa * found.slip * length**2 / (2 * abs(omega))
     assert found.drag + pulled == pytest.approx(friction, rel=1e-13)
+
+
+def test_a_slip_that_ends_near_a_jam_wants_a_damper_that_the_strongest_are_too_fast_for():
+    """N falls from thousands to 14: what is ever stronger is followed only up to some strength, and needed far below.
+
+    A study of this hoop was refused, for the strongest damper of all that are tried.
+    """
+    scene = scene_of(0.0695, 0.0).replace(
+        hoop={"r": 1.2452}, friction={"mu_s": 0.7542, "mu": 0.5936}, release={"phi0_deg": 12.157}
+    )
+    way = passage(scene)
+    event = way.events[0]
+    before, behind = (outer_forces(way.body, event, side)[0] for side in (False, True))
+    assert before > 100 * behind
+    theta = critical_theta(way.body, way.contact, event)
+    assert layer(way.body, way.contact._replace(theta=1.01 * theta), event).faithful
+    assert not layer(way.body, way.contact._replace(theta=0.99 * theta), event).faithful
+    with pytest.raises(StudyError, match="far faster than its patch"):
+        layer(way.body, way.contact._replace(theta=1000 * theta), event)
