@@ -13,11 +13,12 @@ damper the patch is no longer: what sticks may break loose anew, or leave the fl
 from __future__ import annotations
 
 import itertools
-from math import cos, inf, pi, sin
+from math import inf, pi
 
 import numpy as np
 from numpy.typing import NDArray
 
+from meshes import Placement
 from rigid import Scene
 
 from .events import START, Passage
@@ -27,7 +28,7 @@ Array = NDArray[np.float64]
 
 LONGER = 8.0  # of the times in which a vibration falls by e: a force that has doubled falls below 2 %, and more
 PERIODS = 1000  # for which a layer is followed at most
-_POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(40)
+_COARSE = {"level": "reduced", "elements": 240, "rtol": 1e-3}  # a compliance to some percent is enough
 
 
 def separate_from(way: Passage, layers: list[Layer] | None = None) -> float:
@@ -56,21 +57,18 @@ def separate_from(way: Passage, layers: list[Layer] | None = None) -> float:
 def compliance(scene: Scene, phi: float) -> Array:
     """(2, 2) By how much the rim moves at the floor, right and up, under a force to the right and one up.
 
-    In R per m g, times E I/(m g R^2), at the angle ``phi``. Of a wall that does nothing but bend: two arms of its
-    centre line, clamped at the ends of the weld and joined at the floor; over the weld it does not give way.
+    In R per m g, times E I/(m g R^2), at the angle ``phi``: of the quads' node that is nearest to the floor.
     """
-    held, radius = scene.ring.weld_half_angle, 1 - scene.wall / 2
-    theta = (pi - phi) % (2 * pi)
-    if not held < theta < 2 * pi - held:
-        return np.zeros((2, 2))
-    stiffness = np.zeros((3, 3))
-    for end in (held, 2 * pi - held):
-        at = (theta + end) / 2 + (theta - end) / 2 * _POINTS
-        # about the sections, under a force along y1, one along y2 and a moment on the rim at the floor
-        moments = np.array([radius * np.sin(at) - sin(theta), cos(theta) - radius * np.cos(at), np.ones_like(at)])
-        stiffness += np.linalg.inv(moments * (_WEIGHTS * radius * abs(theta - end) / 2) @ moments.T)
-    moved = np.linalg.inv(stiffness)[:2, :2]
-    axes = np.array([[sin(phi), cos(phi)], [cos(phi), -sin(phi)]])  # of y1 and y2 in the world
+    from flexible.models.select import ring_for  # finite elements, by whoever asks
+    from flexible.ring.fem import membrane_stiffness
+
+    linear = scene.to_dimensionless().replace(ring={"bending_stiffness": 1e4}, solve=_COARSE)
+    ring = ring_for(linear)
+    rim = ring.mesh.theta[ring.mesh.rim_nodes]
+    at = int(np.argmin(np.abs(np.angle(np.exp(1j * (rim - (pi - phi)))))))
+    columns = np.array([2 * at, 2 * at + 1])
+    moved = ring.pressed(columns)[columns] * linear.ring.bending_stiffness / membrane_stiffness(linear)
+    axes = Placement(phi, 0.0, 0.0).axes
     found: Array = axes.T @ moved @ axes
     return found
 

@@ -105,7 +105,7 @@ class StiffnessStudy(summary.Summarised):
     next one comes."""
     stiff: float = 0.0
     """That from which on the ring gives way by less than the patch where a slip ends or turns round; on softer ones it
-    may break a stick that the prediction's rigid rim keeps, or leave the floor."""
+    may break a stick that the prediction's rigid rim keeps, or leave the floor. 0 too where no case does otherwise."""
 
     @property
     def failures(self) -> list[Rung]:

@@ -81,6 +81,9 @@ def stiffness_study(
     """
     from flexible import rigid_limit
 
+    from ..inner.events import passage
+    from ..inner.separate import stiff_from
+
     if exponent is not None and not 0 < exponent < inf:
         raise StudyError(f"exponent = {exponent!r} is not possible: a rate is finite and above 0.")
     scene = as_scene(scene)
@@ -100,7 +103,7 @@ def stiffness_study(
             raise StudyError(f"The rigid hoop has no pulse to study here: {outcome.failure or outcome.ended}.")
 
     # 2. what is foreseen of the rungs
-    foreseen, separate, stiff = _prediction(scene, ladder, solver)
+    foreseen, separate = _prediction(scene, ladder, solver)
 
     import scipy.optimize  # noqa: F401  what the limits take, while other processes are still loading what cases take
 
@@ -133,6 +136,9 @@ def stiffness_study(
     for name in LIMITS:
         values, errors = [r.measure(name) for r in through], [r.error(name) for r in through]
         limits[name] = limit_of([r.stiffness for r in through], values, pulse[name], errors, rates, holds)
+    stiff = 0.0
+    if foreseen is not None and any(rung.outcome.phases[0] != reference.phases[0] for rung in through):
+        stiff = stiff_from(passage(scene), scenes[0])
     if foreseen is not None and foreseen.parameter != "eps":
         foreseen = None  # it is told by the foundation alone
     return StiffnessStudy(
@@ -154,18 +160,16 @@ def _against(
     return tuple(tied)
 
 
-def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction | None, float, float]:
-    """The prediction, where it is that of the cases, and the foundations from which on the events are separate, and the
-    ring is the stiffer."""
+def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction | None, float]:
+    """The prediction, where it is that of the cases, and the foundation from which on it holds."""
     from ..inner.events import passage
-    from ..inner.separate import separate_from, stiff_from
+    from ..inner.separate import separate_from
     from ..limit.prediction import predict
 
     # a ring that is not stiffened keeps its own distance, an undamped patch rings at any stiffness
     if ladder.along != "both" or solver != "flexible" or scene.contact.damping == 0:
-        return None, 0.0, 0.0
+        return None, 0.0
     try:
-        way = passage(scene)
-        return predict(scene), separate_from(way), stiff_from(way, ladder.rungs(scene)[0])
+        return predict(scene), separate_from(passage(scene))
     except StudyError:
-        return None, 0.0, 0.0
+        return None, 0.0
