@@ -58,7 +58,7 @@ class Limit:
         """Whether the rigid value is outside beyond doubt: by more than ``CLEAR`` half widths, and of a fitted rate's
         interval too. Cases that are not yet those of theory may make a narrow interval of its powers anywhere."""
         value, uncertainty = self.fitted
-        outside = not self.known or not abs(value - self.rigid) <= uncertainty
+        outside = not self.known or abs(value - self.rigid) > uncertainty
         return self.rigid_inside is False and self.half_widths > CLEAR and outside
 
     @property

@@ -184,6 +184,9 @@ def test_a_limit_is_excluded_beyond_doubt_by_both_ways_to_find_it():
     assert nearby.rigid_inside is False
     assert nearby.half_widths > 2
     assert not nearby.rigid_excluded
+    few = limit_of(S[-4:], y[-4:], 0.0, error[-4:], rates)  # of four there is no fitted rate
+    assert few.rigid_inside is False
+    assert not few.rigid_excluded
 
 
 @pytest.mark.parametrize("understated", [4, 8])
