@@ -43,14 +43,14 @@ class Ledger:
     leave the patch stretched), ``damping_loss``, that of the contact's damper, and ``landing_loss``, of landings of the
     rigid hoop between pulses. ``numerical_loss`` is what the integrator's error takes (gives, where negative), step by
     step from the work of the floor on frame and ring; it tends to zero with ``solve.rtol``, about in proportion, and
-    like the root of the steps' length where a soft ring lands and rings faster than they follow.
+    like the root of the steps' length where a ring lands and rings faster than they follow.
     ``hand_over`` is what went out (came in, where negative) where the rigid hoop was replaced by a flexible one, sagged
     and with a patch, and where it was put back: it tends to zero with growing stiffness. ``residual`` is all that the
     others leave unexplained: the work of a patch's points beyond that of the patch as a whole, which is summed by
     trapezoids over the steps. It falls more slowly than ``numerical_loss``, like rtol^(1/2) or so: below a tenth of
     ``solve.rtol`` of the initial energy down to 1e-5 in thin walls that are not soft, but as much as ``solve.rtol`` in
-    thick soft ones, and some times that in soft ones that land (README.md, section 4). It is a limit of the books, and
-    no part of the motion.
+    thick soft ones, and some times that in hoops that land (README.md, section 4). It is a limit of the books, and no
+    part of the motion.
     """
 
     initial: Energy[float]

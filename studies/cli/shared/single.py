@@ -67,12 +67,12 @@ def one_flexible(
             f"--continue {earlier} is not possible: the run there ends at t = {resume.t_end:g}, behind"
             f" {motion.t_end:g} where {name} ends; --out DIR writes the shorter one elsewhere."
         )
-    if resume is not None and motion == resume and target == earlier and wishes is None:
-        return _told(motion, None, as_json, None)  # nothing was left to do: what is there stays
-    had = resume is not None and target is not None and (target / "fields.pvd").exists()
     cut = target is not None and stop()
-    status = _told(motion, target, as_json, None if cut else wishes)
-    if had and wishes is None:
+    stays = resume is not None and motion == resume and target == earlier and (cut or wishes is None)
+    had = resume is not None and target is not None and (target / "fields.pvd").exists()
+    # nothing was left to do, or nothing done yet: what is there stays
+    status = _told(motion, None, as_json, None) if stays else _told(motion, target, as_json, None if cut else wishes)
+    if had and wishes is None and not stays:
         click.echo(f"hoop: The fields in {target} were of the motion before, and are gone; --fields makes new ones.",
                    err=True)  # fmt: skip
     if cut:

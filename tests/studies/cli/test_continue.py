@@ -6,7 +6,7 @@ import json
 import shlex
 import signal
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 
 import pytest
 from command_line import SCENE, is_one_sentence
@@ -59,6 +59,22 @@ def test_ctrl_c_keeps_what_there_is_and_continue_goes_on(hoop, tmp_path, monkeyp
     assert rest == whole
     for name in ("motion.json", "history.csv"):
         assert (out / name).read_text() == (tmp_path / "whole" / name).read_text()
+
+
+def test_ctrl_c_before_the_first_step_of_what_goes_on_leaves_what_is_there(hoop, tmp_path, monkeypatch):
+    """While the motion is rebuilt: the status is that of an interrupt, and the way on is told."""
+    scene, out = tmp_path / "scene.toml", tmp_path / "out"
+    scene.write_text(MOTION.format(run="turns = 2"), encoding="utf-8")
+    with monkeypatch.context() as patched:
+        patched.setattr(single, "bar", interrupting)
+        hoop("flexible", scene, "--json", "--out", out)
+    there = {path.name: path.read_bytes() for path in out.iterdir()}
+    with monkeypatch.context() as patched:
+        patched.setattr(single, "_interrupts", lambda caught: nullcontext(lambda: True))
+        status, _, err = hoop("flexible", scene, "--json", "--continue", out)
+    assert status == 130
+    assert f"--continue {shlex.quote(str(out))} goes on" in err
+    assert {path.name: path.read_bytes() for path in out.iterdir()} == there
 
 
 def test_fields_are_left_to_what_goes_on(hoop, tmp_path, monkeypatch):
