@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .cases import CONFIDENCE, ascending, settled
+from .cases import CONFIDENCE, ascending, finite, settled
 from .fitted import SLOWEST, observed_rate, richardson
-from .series import extrapolated, fewest, inferred_series, is_one_series, one_series
+from .series import fewest, inferred_series, is_confirmed, of_one_series, one_series
 
 Array = NDArray[np.float64]
 
@@ -101,6 +101,7 @@ class Limit:
             "error": self.error,
             "rigid_inside": self.rigid_inside,
             "last_distance": self.distance,
+            "fitted": {"value": self.fitted[0], "uncertainty": self.fitted[1]},
         }
 
 
@@ -116,7 +117,7 @@ def limit_of(
 
     ``exponents``, slowest first, are the leading rates where theory knows them, ``holds`` the stiffness from which on
     it does. With fewer than :func:`.series.fewest` cases there, or too few of one kind
-    (:func:`.series.is_one_series`), a rate is fitted, to all.
+    (:func:`.series.is_confirmed`), a rate is fitted, to all.
     Cases come in any order of ``s``, which is above 0.
     """
     s, y, error = ascending(s, y, error, exponents)
@@ -127,10 +128,11 @@ def limit_of(
     fitted = own, hypot(own_uncertainty, own - richardson(s, values, error, SLOWEST)[0])
     (value, uncertainty), known = fitted, False
     rates: tuple[float, ...] = (own_rate,)
-    if exponents is not None and (holds == 0 or int(np.isfinite(values[stiff]).sum()) >= fewest(exponents)):
-        cases = np.asarray(s)[stiff], values[stiff], off[stiff], exponents, CONFIDENCE
-        if is_one_series(*cases):
-            (value, uncertainty), rates, known = extrapolated(*cases), tuple(exponents), True
+    cases = finite(np.asarray(s)[stiff], values[stiff], off[stiff])
+    if exponents is not None and (holds == 0 or cases[0].size >= fewest(exponents)):
+        series = one_series(*cases, exponents, CONFIDENCE)
+        if is_confirmed(series[0].size, cases[0].size, exponents):
+            (value, uncertainty), rates, known = of_one_series(series, exponents, CONFIDENCE), tuple(exponents), True
     rate = observed_rate(s, np.where(np.abs(values - rigid) > alike, values - rigid, 0.0), error)
     return Limit(
         value,

@@ -76,7 +76,14 @@ def extrapolated(
     Extrapolated
         With fewer than ``FEWEST`` cases its uncertainty is infinite, and the value NaN.
     """
-    x, v, e = one_series(s, y, error, exponents, confidence)
+    return of_one_series(one_series(s, y, error, exponents, confidence), exponents, confidence, to)
+
+
+def of_one_series(
+    cases: tuple[Array, Array, Array], exponents: Sequence[float], confidence: float, to: float = inf
+) -> Extrapolated:
+    """The same of cases that :func:`one_series` has found."""
+    x, v, e = cases
     found = _by_all(x, v, e, exponents, confidence, to)
     fewer = range(1, min(_SOFTEST, v.size - fewest(exponents)) + 1)
     moved = [abs(_by_all(x[n:], v[n:], e[n:], exponents, confidence, to).value - found.value) for n in fewer]
@@ -101,15 +108,12 @@ def one_series(
     return x[first:], v[first:], e[first:]
 
 
-def is_one_series(
-    s: ArrayLike, y: ArrayLike, error: ArrayLike, exponents: Sequence[float], confidence: float
-) -> bool:  # fmt: skip
-    """Whether the stiffest cases are known to be of one series: all are, or more than it takes to make one of them.
+def is_confirmed(used: int, known: int, exponents: Sequence[float]) -> bool:
+    """Whether so many of the ``known`` cases are of one series: all are, or more than it takes to make one of them.
 
     Where softer ones are of another kind, so may be one of the fewest, of which eight terms make a series always.
     """
-    used, all_of_them = one_series(s, y, error, exponents, confidence)[0].size, finite(s, y, error)[0].size
-    return used == all_of_them or used >= fewest(exponents) + _CONFIRM
+    return used == known or used >= fewest(exponents) + _CONFIRM
 
 
 def _by_all(x: Array, v: Array, e: Array, exponents: Sequence[float], confidence: float, to: float) -> Extrapolated:

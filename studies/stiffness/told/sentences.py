@@ -107,27 +107,32 @@ def notes(study: StiffnessStudy) -> list[str]:
 
 def extrapolation_sentence(study: StiffnessStudy) -> str:
     """How the limits were found."""
-    found = [limit for limit in study.limits.values() if limit.extrapolated]
+    found = {name: limit for name, limit in study.limits.items() if limit.extrapolated}
     if not found:
         return "Too few rungs: no limit was extrapolated."
-    limit = found[0]
+    known = [limit for limit in found.values() if limit.known]
+    others = [MEASURES[name].symbol for name, limit in found.items() if not limit.known]
     s = f"s the {study.ladder.label}"
-    if limit.known:
+    said = []
+    if known:
         powers = " + ".join(
-            f"c{i + 1} s^-{p:.3g}" + (" log s" if p in limit.exponents[:i] else "")
-            for i, p in enumerate(limit.exponents)
+            f"c{i + 1} s^-{p:.3g}" + (" log s" if p in known[0].exponents[:i] else "")
+            for i, p in enumerate(known[0].exponents)
         )
         since = f" from the cases above {number(study.separate, 2)}" if study.separate > study.ladder.low else ""
-        return (
+        said.append(
             f"The limit is L in L + {powers} + ..., {s}, its exponents known and L and all c inferred{since} "
             "without knowing the rigid value. Its uncertainty ± holds what the terms not seen and the cases' numerical "
             "error may do."
         )
-    return (
-        f"The limit is L in L + c s^-p, {s}, fitted to the stiffest cases without knowing the rigid value, p for each "
-        "measure. Its uncertainty ± covers the scatter about that fit, the choice of the fitted cases and their "
-        "numerical error."
-    )
+    if others:
+        whose = f"That of {', '.join(others)}, of which too few cases are of one series," if known else "The limit"
+        said.append(
+            f"{whose} is L in L + c s^-p, {s}, fitted to the stiffest cases without knowing the rigid value, p for "
+            "each measure. Its uncertainty ± covers the scatter about that fit, the choice of the fitted cases and "
+            "their numerical error."
+        )
+    return " ".join(said)
 
 
 def law_sentence(study: StiffnessStudy) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -174,6 +175,17 @@ def test_where_no_limit_was_extrapolated_the_page_does_not_say_how():
     assert extrapolation_sentence(found) == "Too few rungs: no limit was extrapolated."
     assert all((row[1], row[4]) == ("-", "-") for row in limit_rows(found))
     assert "nan" not in str(found)
+
+
+def test_limits_that_are_found_in_two_ways_are_told_in_both(study):
+    """Of a measure a rate is fitted where too few of its cases are of one series; of the others theory has it."""
+    loss = replace(study.limits["friction_loss"], known=False, exponents=(0.4,))
+    known = {name: replace(limit, known=True, exponents=(1 / 3, 2 / 3)) for name, limit in study.limits.items()}
+    said = extrapolation_sentence(replace(study, limits=known | {"friction_loss": loss}))
+    assert said.startswith("The limit is L in L + c1 s^-0.333 + c2 s^-0.667 + ..., ")
+    assert "That of friction loss, of which too few cases are of one series, is L in L + c s^-p, " in said
+    assert "That of" not in extrapolation_sentence(replace(study, limits=known))
+    assert extrapolation_sentence(study).startswith("The limit is L in L + c s^-p, ")  # of this solver theory has none
 
 
 @pytest.mark.parametrize("how", ["failing", "unfinished"])
