@@ -47,6 +47,25 @@ def test_a_flight_goes_on_through_both_hand_overs(level, t):
         assert getattr(on, name) == pytest.approx(getattr(before, name), abs=5e-5)
 
 
+@pytest.mark.parametrize("t", [0.5, 2.0, 2.7])
+def test_what_a_law_is_told_of_a_rolling_hoop_is_its_ratio_of_forces(monkeypatch, t):
+    """|F|/N of the rigid hoop that rolls, turning fast too, which says to the law without bristles whether it does.
+
+    But for the momentum of the ring's sag and of the hoop's creep, S^(-1/3) of the limit: some 1e-4 here.
+    """
+    scene = Scene(
+        Hoop(0.2, 1.1, 0.5), Friction(0.95, 0.95), Release(radians(60)), Run(until="pulse"), ring=Ring(1e7),
+        contact=Contact(stiffness=1e11),
+    )  # fmt: skip
+    motion = rigid.simulate(scene)
+    assert motion.phase_at(t).kind is Kind.ROLL
+    hoop, told = ReducedHoop(scene), []
+    monkeypatch.setattr(type(hoop.law), "rolls", lambda law, state, omega, share: told.extend((omega, share)) or True)
+    taken_over(hoop, hand_over(hoop, motion, t))
+    at = motion.at(t)
+    assert told == pytest.approx([float(at.omega), abs(float(at.friction_force / at.normal_force))], rel=3e-4)
+
+
 def test_a_hoop_in_flight_lands_by_itself():
     """The flexible part begins in flight, with next to no energy lost, and lands when the rigid hoop does."""
     motion = flexible.simulate(THROWN.replace(run={"until": None, "t_end": 1.68}), history=True)
