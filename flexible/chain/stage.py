@@ -193,7 +193,7 @@ def _followed(
             law.law, law.spacing, law.eps_n / softer, law.eps_t / softer, law.mu_s, law.mu, law.slip_scale, law.known,
         )  # fmt: skip
         held = Bristles(bristles.number, times(softer, bristles.stretch), bristles.pull, bristles.sliding)
-        since = Before(before.pose, before.u, held, before.first, before.dent)
+        since = Before(before.pose, before.u, held, before.first, before.dent, before.length)
         start = Begin(d, u, foreseen, tolerance if softer <= 1 else ROUGHLY, let_go)
         answer = solve_stage(arrays.chain, facing, by, mode, since, damper, predictor, start)
         if answer.iterations < 0 or softer <= 1:

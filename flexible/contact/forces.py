@@ -35,6 +35,7 @@ from .points.data import (
     Bristles,
     Contact,
     Damper,
+    Halves,
     Load,
     Parameters,
     Resultants,
@@ -43,12 +44,24 @@ from .points.data import (
 )
 from .points.dent import dent_at, displaced, next_dent
 from .points.detection import find, place
-from .points.normal import force_by_gaps, press, sum_by_gaps
-from .points.rim import gap_at, lift, sideways, upward, vertex_angle
-from .room import PULL, SCRATCH, Room, carried_in, forces_in, foundation_in, keep, points_in, room_for
+from .points.normal import force_by_gaps, press
+from .points.rim import lift
+from .room import (
+    PULL,
+    SCRATCH,
+    SHARING,
+    SPREADING,
+    WAY,
+    Room,
+    carried_in,
+    forces_in,
+    foundation_in,
+    keep,
+    points_in,
+    room_for,
+)
 from .vectors import add, dot, total
-
-SHARING, SPREADING, WAY = 3, 4, 5  # of the unknowns: what goes like eta, what spreads like the pressure, the way's
+from .way import differentiate_way, way_over_the_floor, weigh_slip
 
 
 @loop
@@ -62,24 +75,6 @@ def _load(foundation: Any, damper: Damper) -> Load:
         if eta < 0 and not damper.pulls:
             eta, eta_rate = 0.0, 0.0
     return Load(elastic, eta, eta_rate)
-
-
-@loop
-def _way_over_the_floor(pose: Any, u: Any, rim: Rim, before: Before) -> float:
-    """Way in the step of the rim's node that comes nearest to the floor, where none touches: with it a patch begins."""
-    old, u_old = before.pose, before.u
-    s, c, s_old, c_old = sin(pose[2]), cos(pose[2]), sin(old[2]), cos(old[2])
-    least, way = np.inf, pose[0] - old[0]
-    for i in range(u.shape[0]):
-        psi = pose[2] - pi + vertex_angle(rim.vertex, rim.first + i // 2)
-        if i % 2 == 1:
-            psi = (psi + pose[2] - pi + vertex_angle(rim.vertex, rim.first + i // 2 + 1)) / 2
-        gap = gap_at(pose[1], psi, upward(u[i, 0], u[i, 1], s, c))
-        if gap < least:
-            least = gap
-            moved = sideways(u[i, 0], u[i, 1], s, c) - sideways(u_old[i, 0], u_old[i, 1], s_old, c_old)
-            way = pose[0] - old[0] + moved + (pose[2] - old[2]) * lift(psi)
-    return way
 
 
 @loop
@@ -152,7 +147,7 @@ def _work_of_those_that_left(
 
 
 @loop
-def _differentiate(room: Room, shared: Any, load: Load, s: float, c: float, dphi: float, way: float) -> None:
+def _differentiate(room: Room, shared: Any, load: Load, s: float, c: float, dphi: float, halves: Halves) -> None:
     """Fill in the tangent of forces that are known."""
     points, foundation, forces, tangent = points_in(room), foundation_in(room, 0.0, 0.0), forces_in(room), room.tangent
     along, up, bases, unknowns, by_bases = room.fives[0], room.fives[1], room.bases, room.unknowns, room.by_bases
@@ -174,15 +169,7 @@ def _differentiate(room: Room, shared: Any, load: Load, s: float, c: float, dphi
     if shared.acts:
         gather(points, foundation.force, 1 / load.elastic, along, bases[3])
         spread(bases[3], X, s, c, spreading)
-        add(slip_by, 1.0, spreading)
-        slip_by[2] += (dphi * dot(foundation.force, points.sine) + dot(foundation.force, points.bend)) / load.elastic
-        # through the normal forces, which weigh the mean slip
-        factors, by_gap = room.rows[SCRATCH], room.rows[SCRATCH + 1]
-        for i in range(factors.shape[0]):
-            factors[i] = (points.shift[i] + dphi * points.lifted[i] + points.carried[i] - way) / load.elastic
-        sum_by_gaps(factors, foundation, by_gap)
-        gather(points, by_gap, 1.0, up, bases[4])
-        spread(bases[4], Y, s, c, slip_by)
+        differentiate_way(room, load.elastic, s, c, dphi, halves)
         add_outer(tangent, shared.by_way, spreading, slip_by)
         add_outer(tangent, shared.by_elastic - shared.force / load.elastic, spreading, elastic_by)
     _add_turning(tangent, force, points, load.eta, foundation.force, forces.force)
@@ -195,18 +182,19 @@ def _touch(
     """Forces of points that touch, into the room; the patch as a whole, :class:`Contact.outside`, bristles kept."""
     phi = pose[2]
     points, forces, carried = points_in(room), forces_in(room), carried_in(room)
-    outside = place(points, room.ranges, room.ranged, pose, u, rim, law.spacing, before)
+    outside, halves = place(points, room.ranges, room.ranged, pose, u, rim, law.spacing, before)
     energy, length = press(points.gap, points.last, law.eps_n, law.spacing, foundation_in(room, 0.0, 0.0))
     foundation = foundation_in(room, energy, length)
     load = _load(foundation, damper)
     elastic, eta = load.elastic, load.eta
-    dphi = phi - before.pose[2]
-    moved = 0.0
+    dphi, moved = phi - before.pose[2], 0.0
     if elastic == 0:
-        way = _way_over_the_floor(pose, u, rim, before)
+        way = way_over_the_floor(pose, u, rim, before)
     else:
-        moved = dot(foundation.force, points.shift) / elastic
-        way = moved + (dphi * dot(foundation.force, points.lifted) + dot(foundation.force, points.carried)) / elastic
+        weigh_slip(room, law, elastic, halves.share)
+        weights = room.rows[SCRATCH]
+        moved = dot(weights, points.shift)
+        way = moved + dphi * dot(weights, points.lifted) + dot(weights, points.carried)
     velocity = damper.velocity_0 + damper.rate * (way - damper.way_0)
     slip = Slip(way, damper.way_0, velocity, damper.rate, damper.drag, damper.held)
     carry(carried, points, before, rim, dphi, damper, slip, moved)
@@ -226,7 +214,7 @@ def _touch(
     spread(room.bases[1], X, s, c, force)
     add(force, eta, pushes)
     if room.tangent.shape[0] > 0:
-        _differentiate(room, shared, load, s, c, dphi, way)
+        _differentiate(room, shared, load, s, c, dphi, halves)
 
     low, high = _ends(points)
     stuck = min(answer.stuck / length, 1.0) if length > 0 else 0.0  # of weights that miss the length by 1e-4
@@ -248,7 +236,7 @@ def example() -> tuple[tuple[Any, ...], Contact]:
     bristles = Bristles(count, row, row, np.empty(0, np.int8))
     law = Parameters(number, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     contact = Contact(row, table, table, NOTHING, bristles, False, row, row, row)
-    before = Before(row, table, bristles, number, table)
+    before = Before(row, table, bristles, number, table, 0.0)
     return (row, table, Rim(number, row), law, number, before, UNDAMPED, False), contact
 
 
@@ -280,7 +268,7 @@ def contact_forces(
     if count > 0:
         res, outside, kept = _touch(pose, u, rim, law, mode, before, damper, room)
     else:
-        way = _way_over_the_floor(pose, u, rim, before)
+        way = way_over_the_floor(pose, u, rim, before)
         res = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, way, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, np.inf, 0.0)
         outside, kept = False, 0
     bristles = Bristles(np.empty(kept, np.int64), np.empty(kept), np.empty(kept), np.empty(kept, np.int8))

@@ -18,8 +18,9 @@ from .points.data import Bristles, PointForces
 from .points.detection import Points
 from .points.normal import Foundation
 
-POINTS, FOUNDATION, CARRIED, FORCES, PULL, SCRATCH, ROWS = 0, 14, 17, 24, 29, 30, 32  # where they begin in the rows
-BASES, UNKNOWNS = 5, 6
+POINTS, FOUNDATION, EARLIER, CARRIED, FORCES, PULL, SCRATCH, ROWS = 0, 16, 19, 22, 29, 34, 35, 37  # in the rows
+BASES, UNKNOWNS = 6, 6
+SHARING, SPREADING, WAY = 3, 4, 5  # of the unknowns: what goes like eta, what spreads like the pressure, the way's
 
 
 class Room(NamedTuple):
@@ -29,7 +30,7 @@ class Room(NamedTuple):
     ranged: int  # how many there are
     rows: Any  # (ROWS, n)
     fives: Any  # (4, n, 5) what moves abscissas, gaps; derivatives of forces and of weights by five gaps
-    shape: Any  # (n, 3)
+    shape: Any  # (2, n, 3)
     whole: Any  # (2, n) int64: numbers, first nodes
     flags: Any  # (4, n) int8: last of a range, touched, sliding, kept
     bases: Any  # (BASES, 2 + nodes) see :mod:`flexible.contact.assembly`
@@ -44,8 +45,8 @@ def points_in(room: Room) -> Any:
     """Where points are described."""
     rows, whole = room.rows, room.whole
     return Points(
-        whole[0], room.flags[0], whole[1], room.shape, rows[0], rows[1], rows[2], rows[3], rows[4], rows[5], rows[6],
-        rows[7], rows[8], rows[9], rows[10], rows[11], rows[12], rows[13],
+        whole[0], room.flags[0], whole[1], room.shape[0], room.shape[1], rows[0], rows[1], rows[2], rows[3], rows[4],
+        rows[5], rows[6], rows[7], rows[8], rows[9], rows[10], rows[11], rows[12], rows[13], rows[14], rows[15],
     )  # fmt: skip
 
 
@@ -54,6 +55,13 @@ def foundation_in(room: Room, energy: float, length: float) -> Any:
     """The foundation under them."""
     rows = room.rows
     return Foundation(rows[FOUNDATION], rows[FOUNDATION + 1], rows[FOUNDATION + 2], energy, length)
+
+
+@loop
+def earlier_in(room: Room) -> Any:
+    """The foundation where they are now as the step began, under other points of the rim."""
+    rows = room.rows
+    return Foundation(rows[EARLIER], rows[EARLIER + 1], rows[EARLIER + 2], 0.0, 0.0)
 
 
 @loop
@@ -94,7 +102,7 @@ def room_for(total: int, nodes: int, ranges: Any, ranged: int, differentiates: b
     basis, unknowns = 2 + nodes, 3 + 2 * nodes
     size = unknowns if differentiates else 0
     return Room(
-        ranges, ranged, np.zeros((ROWS, total)), np.zeros((4, total, 5)), np.empty((total, 3)),
+        ranges, ranged, np.zeros((ROWS, total)), np.zeros((4, total, 5)), np.zeros((2, total, 3)),
         np.empty((2, total), np.int64), np.zeros((4, total), np.int8), np.zeros((BASES, basis)),
         np.zeros((UNKNOWNS, unknowns)), np.zeros((3, basis, basis)), np.zeros((3, 5, 5)), np.zeros((size, size)),
     )  # fmt: skip

@@ -53,13 +53,14 @@ class Before(NamedTuple):
     bristles: Bristles
     first: int = 0  # rim element at which the nodes near the floor began then, and
     dent: Any = NO_DENT  # their displacement, (2 count + 1, 2); of no length off the floor
+    length: float = 0.0  # of the patch
 
 
 @part
 def at_start(old: Any, u: Any) -> Before:
     """The contact at the beginning of a step from a state, whose rim has the displacement ``u`` in another window."""
     touches = old.res.elastic > 0
-    return Before(old.pos[:3], u, old.bristles, old.window[0], old.u if touches else old.u[:0])
+    return Before(old.pos[:3], u, old.bristles, old.window[0], old.u if touches else old.u[:0], old.res.length)
 
 
 MOST_ITERATIONS = 40  # of Newton in a stage
@@ -91,6 +92,14 @@ class Damper(NamedTuple):
 
 
 UNDAMPED = Damper(0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+
+
+class Halves(NamedTuple):
+    """How the way of a patch in a step is made up of what its dent and its pressure are at the end and were at the
+    beginning: see :func:`flexible.contact.points.dent.halves_of`."""
+
+    share: float  # of one, up to 1/2
+    by_turn: float  # its derivative by the turn
 
 
 class Load(NamedTuple):

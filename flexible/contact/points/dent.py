@@ -1,4 +1,4 @@
-"""The dent: how far sideways the rim was displaced when a step began, as a function of the angle.
+"""The dent: how far the rim was displaced when a step began, sideways and upward, as functions of the angle.
 
 In rolling material points go through a dent that stands still, so that what moves one is how far it goes along it.
 """
@@ -10,13 +10,13 @@ from typing import NamedTuple
 
 from rigid.kernel.compile import loop
 
-from .data import Before, Rim
-from .rim import element_at, sideways, vertex_angle
+from .data import Before, Halves, Rim
+from .rim import element_at, sideways, upward, vertex_angle
 
 
 class Dent(NamedTuple):
     """An element of the rim as it was when the step began: at a material angle theta its sideways displacement is
-    x + rise d + bend d^2, d = theta - origin.
+    x + rise d + bend d^2, d = theta - origin, and that upward y + climb d + bow d^2.
     """
 
     start: float  # material angles
@@ -25,6 +25,12 @@ class Dent(NamedTuple):
     x: float
     rise: float
     bend: float
+    y: float
+    climb: float
+    bow: float
+
+
+NO_ELEMENT = Dent(inf, -inf, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)  # holds no angle
 
 
 @loop
@@ -35,23 +41,30 @@ def dent_at(before: Before, rim: Rim, theta: float) -> Dent:
     """
     u, first = before.dent, before.first
     if u.shape[0] == 0:
-        return Dent(-inf, inf, 0.0, 0.0, 0.0, 0.0)
+        return Dent(-inf, inf, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     s, c = sin(before.pose[2]), cos(before.pose[2])
     element = element_at(rim.vertex, theta)
     if rim.first <= element < rim.first + (before.u.shape[0] - 1) // 2:  # what is near the floor now was known as well
         u, first = before.u, rim.first
     last = first + (u.shape[0] - 1) // 2
     if element < first:
-        return Dent(-inf, vertex_angle(rim.vertex, first), 0.0, sideways(u[0, 0], u[0, 1], s, c), 0.0, 0.0)
+        x, y = sideways(u[0, 0], u[0, 1], s, c), upward(u[0, 0], u[0, 1], s, c)
+        return Dent(-inf, vertex_angle(rim.vertex, first), 0.0, x, 0.0, 0.0, y, 0.0, 0.0)
     if element >= last:
-        return Dent(vertex_angle(rim.vertex, last), inf, 0.0, sideways(u[-1, 0], u[-1, 1], s, c), 0.0, 0.0)
+        x, y = sideways(u[-1, 0], u[-1, 1], s, c), upward(u[-1, 0], u[-1, 1], s, c)
+        return Dent(vertex_angle(rim.vertex, last), inf, 0.0, x, 0.0, 0.0, y, 0.0, 0.0)
     k = 2 * (element - first)
     x0 = sideways(u[k, 0], u[k, 1], s, c)
     x1 = sideways(u[k + 1, 0], u[k + 1, 1], s, c)
     x2 = sideways(u[k + 2, 0], u[k + 2, 1], s, c)
+    y0 = upward(u[k, 0], u[k, 1], s, c)
+    y1 = upward(u[k + 1, 0], u[k + 1, 1], s, c)
+    y2 = upward(u[k + 2, 0], u[k + 2, 1], s, c)
     start, end = vertex_angle(rim.vertex, element), vertex_angle(rim.vertex, element + 1)
     width = end - start
-    return Dent(start, end, start, x0, (4 * x1 - 3 * x0 - x2) / width, (2 * (x0 + x2) - 4 * x1) / width**2)
+    rise, bend = (4 * x1 - 3 * x0 - x2) / width, (2 * (x0 + x2) - 4 * x1) / width**2
+    climb, bow = (4 * y1 - 3 * y0 - y2) / width, (2 * (y0 + y2) - 4 * y1) / width**2
+    return Dent(start, end, start, x0, rise, bend, y0, climb, bow)
 
 
 @loop
@@ -59,6 +72,13 @@ def displaced(dent: Dent, theta: float) -> tuple[float, float]:
     """Sideways displacement at a material angle in the element, and its derivative by that."""
     d = theta - dent.origin
     return dent.x + d * (dent.rise + d * dent.bend), dent.rise + 2 * d * dent.bend
+
+
+@loop
+def raised(dent: Dent, theta: float) -> tuple[float, float]:
+    """The same upward."""
+    d = theta - dent.origin
+    return dent.y + d * (dent.climb + d * dent.bow), dent.climb + 2 * d * dent.bow
 
 
 @loop
@@ -71,17 +91,36 @@ def through_dent(
     Of a turn longer than the points' distance the dent's slope over that, about the angle, stands for all of the way:
     a mean, as the slope itself jumps from element to element.
     """
-    if abs(dphi) <= spacing:
-        return displaced(dent, theta)[0] - displaced(next_dent(dent, before, rim, theta - dphi), theta - dphi)[0], 0.0
-    part = spacing if dphi > 0 else -spacing
-    ahead = theta + part / 2 * (1 - part / dphi)
+    part = min(max(dphi, -spacing), spacing)
+    ahead = theta + part / 2
     x, x_by = displaced(next_dent(dent, before, rim, ahead), ahead)
     y, y_by = displaced(next_dent(dent, before, rim, ahead - part), ahead - part)
-    moves = 1 + part**2 / (2 * dphi**2)
-    return (x - y) * dphi / part, (x - y + (x_by - y_by) * moves * dphi) / part - displaced(dent, theta)[1]
+    slope = displaced(dent, theta)[1]
+    if part == dphi:
+        return x - y, 1.5 * x_by - 0.5 * y_by - slope
+    return (x - y) * dphi / part, (x - y + (x_by - y_by) * dphi) / part - slope
 
 
 @loop
 def next_dent(dent: Dent, before: Before, rim: Rim, theta: float) -> Dent:
     """The same element where it still holds the angle, another one where it does not."""
     return dent if dent.start <= theta < dent.end else dent_at(before, rim, theta)
+
+
+@loop
+def halves_of(dphi: float, length: float) -> Halves:
+    """How much of the way of a patch goes by the dent as it is at the end of a step, and by the pressure at its start.
+
+    The slip velocity is the rate of the way. If that went along the dent as it was at the start, weighed by the
+    pressure as it is at the end, it would miss what the dent's slope has changed by since, times the rate of the turn,
+    and have too much by the rate of the pressure, times how far each point has gone beyond the others: errors like the
+    step, where the wall bends over a wide patch. By halves both are gone but for the step's square. In a turn as long
+    as the patch the dent has come and gone with the nodes of the rim: the one at the end tells no more of the way then.
+    """
+    turned = 2 * abs(dphi) / length - 1 if length > 0 else 1.0
+    if turned >= 1:
+        return Halves(0.0, 0.0)
+    if turned <= 0:
+        return Halves(0.5, 0.0)
+    by_turn = 6 * turned * (turned - 1) / length
+    return Halves((1 - turned**2 * (3 - 2 * turned)) / 2, by_turn if dphi > 0 else -by_turn)

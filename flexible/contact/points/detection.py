@@ -6,16 +6,16 @@ A point's angle from the bottom is ``psi = phi + theta - pi``; its displacement 
 
 from __future__ import annotations
 
-from math import ceil, cos, floor, inf, pi, sin, sqrt
+from math import ceil, cos, floor, pi, sin, sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from rigid.kernel.compile import loop
 
-from .data import Before, Rim
-from .dent import Dent, displaced, next_dent, through_dent
-from .rim import element_at, gap_at, lift, shape_functions, sideways, upward, vertex_angle
+from .data import Before, Halves, Rim
+from .dent import NO_ELEMENT, displaced, halves_of, next_dent, raised, through_dent
+from .rim import element_at, gap_at, lift, shape_functions, shape_slopes, sideways, upward, vertex_angle
 
 TURNED_ON = 8  # points to one whose sine and cosine are computed: as many roundings
 
@@ -150,6 +150,7 @@ class Points(NamedTuple):
     last: Any  # whether the next point in the list is not its neighbour
     local: Any  # first node of its element in the window
     shape: Any  # (n, 3) interpolation on the element's nodes
+    onward: Any  # (n, 3) what of ``carried`` the displacements of these nodes have now
     arm_x: Any  # derivative of the gap by phi
     arm_y: Any  # derivative of the abscissa by phi
     gap: Any  # over the floor, negative in contact
@@ -161,24 +162,27 @@ class Points(NamedTuple):
     lifted: Any  # height of the undeformed circle there over its lowest point
     dented: Any  # sideways displacement of the rim there when the step began: of another point of it
     slope: Any  # its derivative by psi
-    carried: Any  # way along that dent that stands for the point's in the step, and
-    bend: Any  # its derivative by phi, the slope left out
-    shift: Any  # what of ``move`` is not the way along that dent
+    carried: Any  # way along that dent, and along the rim as it is now, that stands for the point's in the step,
+    bend: Any  # and its derivative by phi, the slope of the dent left out
+    shift: Any  # what of ``move`` is not the way through that dent
+    then: Any  # gap at this angle from the bottom when the step began: of another point of the rim
+    slant: Any  # its derivative by psi
 
 
 @loop
 def place(
     points: Points, ranges: Any, ranged: int, pose: Any, u: Any, rim: Rim, spacing: float, before: Before
-) -> bool:  # fmt: skip
-    """Fill in the points of so many ranges; whether the window of rim elements is too short for them."""
-    number, last, local, shape, arm_x, arm_y, gap, gap_old, move, rolled, angle, sines, lifted = points[:13]
-    dents, slope, carried, bend, shift = points[13:]
+) -> tuple[bool, Halves]:  # fmt: skip
+    """Fill in the points of so many ranges; whether the window of rim elements is too short for them, and how much of
+    their way through the dent is along the rim as it is now."""
+    number, last, local, shape, onward, arm_x, arm_y, gap, gap_old, move, rolled, angle, sines, lifted = points[:14]
+    dents, slope, carried, bend, shift, then, slant = points[14:]
     first, vertex, count = rim.first, rim.vertex, (u.shape[0] - 1) // 2
     old_pose, u_old = before.pose, before.u
     height, phi, phi_old = pose[1], pose[2], old_pose[2]
     s, c, s_old, c_old = sin(phi), cos(phi), sin(phi_old), cos(phi_old)
     dv, dphi = pose[0] - old_pose[0], phi - phi_old
-    outside, dent = False, Dent(inf, -inf, 0.0, 0.0, 0.0, 0.0)
+    outside, dent, halves = False, NO_ELEMENT, halves_of(dphi, before.length)
     # sines and cosines of psi/2 give all others; as they are what a point costs, most are turned on from the last ones
     s_turn, c_turn, s_half, c_half = sin(dphi / 2), cos(dphi / 2), sin(dphi / 4), cos(dphi / 4)
     s_next, c_next, sine, cosine = sin(spacing / 2), cos(spacing / 2), 0.0, 1.0
@@ -221,7 +225,20 @@ def place(
                 dent = next_dent(dent, before, rim, there)
                 dents[m], slope[m] = displaced(dent, there)
                 carried[m], bend[m] = through_dent(dent, before, rim, there, dphi, spacing)
+                if halves.share > 0:
+                    d0, d1, d2 = shape_slopes(xi, end - start)
+                    s1 = d0 * u[k, 0] + d1 * u[k + 1, 0] + d2 * u[k + 2, 0]
+                    s2 = d0 * u[k, 1] + d1 * u[k + 1, 1] + d2 * u[k + 2, 1]
+                    by_turn = sideways(s1, s2, s, c)
+                    more = dphi * by_turn - carried[m]
+                    by_turn += dphi * upward(s1, s2, s, c) - bend[m] - slope[m]
+                    carried[m] += halves.share * more
+                    bend[m] += halves.share * by_turn + halves.by_turn * more
+                    share = halves.share * dphi
+                    onward[m, 0], onward[m, 1], onward[m, 2] = share * d0, share * d1, share * d2
+                    high, climb = raised(dent, there)
+                    then[m], slant[m] = old_pose[1] + lifted[m] + high, sines[m] + climb
                 shift[m] = dv + ux - dents[m]
             m += 1
         last[m - 1] = 1
-    return outside
+    return outside, halves

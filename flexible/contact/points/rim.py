@@ -20,6 +20,12 @@ def shape_functions(xi: Any) -> tuple[Any, Any, Any]:
 
 
 @loop
+def shape_slopes(xi: Any, width: Any) -> tuple[Any, Any, Any]:
+    """Their derivatives by the angle, in an element of that ``width``."""
+    return (4 * xi - 3) / width, (4 - 8 * xi) / width, (4 * xi - 1) / width
+
+
+@loop
 def lift(psi: Any) -> Any:
     """Height of the undeformed circle over its lowest point, at the angle ``psi`` from there."""
     return 2 * np.sin(psi / 2) ** 2
