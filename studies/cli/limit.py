@@ -17,7 +17,7 @@ from .shared.results import begin_results, results_folder
 @click.command()
 @scene_argument
 @as_json
-@out_folder("Write limit.json, figures and report.html here.")
+@out_folder("Write limit.json and limit.csv with their units, figures and report.html here.")
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--damping",

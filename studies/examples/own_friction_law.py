@@ -1,4 +1,4 @@
-"""A friction law in a file of its own, in a copy of the packages: what stands in ``tanh_law.py``, and three lines."""
+"""A friction law in a file of its own, in a copy of the packages: what stands in ``tanh_law.py``, and a few lines."""
 
 import subprocess
 import sys
