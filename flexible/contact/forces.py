@@ -218,10 +218,12 @@ def _touch(
 
     low, high = _ends(points)
     stuck = min(answer.stuck / length, 1.0) if length > 0 else 0.0  # of weights that miss the length by 1e-4
-    beyond = _work_of_those_that_left(points, before, rim, slip, moved, dphi, law, answer.stuck)
-    kept = 0
+    beyond, kept = 0.0, 0
+    if not answer.like_pressure:
+        beyond = _work_of_those_that_left(points, before, rim, slip, moved, dphi, law, answer.stuck)
     for i in range(pull.shape[0]):
-        beyond += (carried.pull[i] + pull[i]) * (carried.way[i] - carried.mean[i]) / 2
+        if not answer.like_pressure:
+            beyond += (carried.pull[i] + pull[i]) * (carried.way[i] - carried.mean[i]) / 2
         kept += 1 if forces.keeps[i] != 0 else 0
     res = Resultants(
         force[1], force[0], energy, answer.energy, length, stuck, way, low, high, elastic, eta, shared.damping, beyond,

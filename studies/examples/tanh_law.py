@@ -25,7 +25,7 @@ def tractions(forces, points, foundation, carried, mode, load, slip, law):  # ty
         0.0,
         sqrt(slip.velocity**2 + law.slip_scale**2) / slip.rate,  # how far Newton may go at once
     )
-    return Tractions(shared, 0.0, 0.0, 0.0)
+    return Tractions(shared, 0.0, 0.0, 0.0, True)
 
 
 class Tanh(Law):

@@ -40,12 +40,13 @@ def tractions(
     # a brush pulls nothing at its edges, and is held to the pressure, which ends on a straight gap
     weigh(forces, points, carried, law.spacing, False, False)
     keep_touching(forces.keeps, points.gap)
-    energy, stuck = 0.0, 0.0
+    energy, stuck, side, slides = 0.0, 0.0, 0, True
     for i in range(stretch.shape[0]):
         weight = forces.weight[i]
         if weight == 0:
             continue
         pressure = -law.eps_n * min(points.gap[i], 0.0)
+        was = sliding[i]
         limit = (law.mu if sliding[i] != 0 else law.mu_s) * load.eta * pressure
         if abs(law.eps_t * stretch[i]) > limit:
             sliding[i] = 1 if stretch[i] < 0 else -1
@@ -57,9 +58,11 @@ def tractions(
             sliding[i] = 0
             traction = cling(forces, carried, i, law.eps_t)
             stuck += weight
+        slides = slides and sliding[i] != 0 and was == sliding[i] and (side == 0 or side == was)
+        side = was
         add_pull(forces, i, traction)
         energy += weight * traction**2 / (2 * law.eps_t)
-    return Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, stuck, 0.0)
+    return Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, stuck, 0.0, slides)
 
 
 @loop

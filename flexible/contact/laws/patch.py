@@ -49,7 +49,7 @@ def _stick(forces: Any, points: Any, carried: Any, load: Any, slip: Any, law: An
     dragging = load.elastic > 0 and (slip.drag > 0 or slip.held != 0)
     drag = slip.held - slip.drag * (slip.way - slip.way_0) if dragging else 0.0
     shared = Shared(dragging, drag, -slip.drag if dragging else 0.0, 0.0, drag, np.inf)
-    return Tractions(shared, energy, stuck, 0.0)
+    return Tractions(shared, energy, stuck, 0.0, False)
 
 
 @loop
@@ -74,7 +74,7 @@ def _slide(forces: Any, points: Any, foundation: Any, carried: Any, mode: int, l
         pulled -= weight[i] * law.eps_t * carried.stretch[i]
         energy += weight[i] * law.eps_t * carried.stretch[i] ** 2 / 2
     feet = (pulled - held) / (law.eps_t * foundation.length) if foundation.length > 0 else 0.0
-    return Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0, feet)
+    return Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, np.inf), energy, 0.0, feet, True)
 
 
 @loop

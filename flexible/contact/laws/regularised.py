@@ -46,7 +46,7 @@ def tractions(
         speed / slip.rate if slip.rate > 0 and load.eta > 0 else inf,
     )
     stuck = foundation.length if abs(slip.velocity) < law.slip_scale else 0.0
-    return Tractions(shared, 0.0, stuck, 0.0)
+    return Tractions(shared, 0.0, stuck, 0.0, True)
 
 
 class Regularised(Law):

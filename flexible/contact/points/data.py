@@ -152,6 +152,7 @@ class Tractions(NamedTuple):
     energy: float  # stored
     stuck: float  # length of the patch that sticks
     feet: float  # how far the feet of the bristles slid in the step, where all slide
+    like_pressure: bool  # whether all of it is shared so: its work is then that along the mean way
 
 
 class Resultants(NamedTuple):
