@@ -193,7 +193,7 @@ def _followed(
             law.law, law.spacing, law.eps_n / softer, law.eps_t / softer, law.mu_s, law.mu, law.slip_scale, law.known,
         )  # fmt: skip
         held = Bristles(bristles.number, times(softer, bristles.stretch), bristles.pull, bristles.sliding)
-        since = Before(before.pose, before.u, held, before.first, before.dent, before.length)
+        since = Before(before.pose, before.u, held, before.first, before.dent, before.halves)
         start = Begin(d, u, foreseen, tolerance if softer <= 1 else ROUGHLY, let_go)
         answer = solve_stage(arrays.chain, facing, by, mode, since, damper, predictor, start)
         if answer.iterations < 0 or softer <= 1:
@@ -223,7 +223,7 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         u_old, beyond = moved(arrays, old, window)
         number, nodes = near_floor(arrays, window)
         facing = Facing(Rim(window[0], vertex), nodes, lacking(arrays.missing, number, number))
-        before = at_start(old, u_old)
+        before = at_start(old, u_old, predictor.beta)
         u = follow(arrays.chain.rod, sections(expected), nodes)[0]
         move(expected, u, 1.0, nothing, beyond.ravel())
         foreseen, free = Foreseen(old.res.normal, old.res.friction), is_let_go(old.res)

@@ -35,7 +35,6 @@ from .points.data import (
     Bristles,
     Contact,
     Damper,
-    Halves,
     Load,
     Parameters,
     Resultants,
@@ -147,7 +146,7 @@ def _work_of_those_that_left(
 
 
 @loop
-def _differentiate(room: Room, shared: Any, load: Load, s: float, c: float, dphi: float, halves: Halves) -> None:
+def _differentiate(room: Room, shared: Any, load: Load, s: float, c: float, dphi: float, halves: float) -> None:
     """Fill in the tangent of forces that are known."""
     points, foundation, forces, tangent = points_in(room), foundation_in(room, 0.0, 0.0), forces_in(room), room.tangent
     along, up, bases, unknowns, by_bases = room.fives[0], room.fives[1], room.bases, room.unknowns, room.by_bases
@@ -182,7 +181,7 @@ def _touch(
     """Forces of points that touch, into the room; the patch as a whole, :class:`Contact.outside`, bristles kept."""
     phi = pose[2]
     points, forces, carried = points_in(room), forces_in(room), carried_in(room)
-    outside, halves = place(points, room.ranges, room.ranged, pose, u, rim, law.spacing, before)
+    outside = place(points, room.ranges, room.ranged, pose, u, rim, law.spacing, before)
     energy, length = press(points.gap, points.last, law.eps_n, law.spacing, foundation_in(room, 0.0, 0.0))
     foundation = foundation_in(room, energy, length)
     load = _load(foundation, damper)
@@ -191,7 +190,7 @@ def _touch(
     if elastic == 0:
         way = way_over_the_floor(pose, u, rim, before)
     else:
-        weigh_slip(room, law, elastic, halves.share)
+        weigh_slip(room, law, elastic, before.halves)
         weights = room.rows[SCRATCH]
         moved = dot(weights, points.shift)
         way = moved + dphi * dot(weights, points.lifted) + dot(weights, points.carried)
@@ -214,7 +213,7 @@ def _touch(
     spread(room.bases[1], X, s, c, force)
     add(force, eta, pushes)
     if room.tangent.shape[0] > 0:
-        _differentiate(room, shared, load, s, c, dphi, halves)
+        _differentiate(room, shared, load, s, c, dphi, before.halves)
 
     low, high = _ends(points)
     stuck = min(answer.stuck / length, 1.0) if length > 0 else 0.0  # of weights that miss the length by 1e-4

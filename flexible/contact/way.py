@@ -10,7 +10,7 @@ import numpy as np
 from rigid.kernel.compile import loop
 
 from .assembly import X, Y, gather, spread
-from .points.data import Before, Halves, Parameters, Rim
+from .points.data import Before, Parameters, Rim
 from .points.normal import press, sum_by_gaps
 from .points.rim import gap_at, lift, sideways, upward, vertex_angle
 from .room import SCRATCH, WAY, Room, earlier_in, foundation_in, points_in
@@ -36,26 +36,26 @@ def way_over_the_floor(pose: Any, u: Any, rim: Rim, before: Before) -> float:
 
 
 @loop
-def weigh_slip(room: Room, law: Parameters, elastic: float, share: float) -> None:
+def weigh_slip(room: Room, law: Parameters, elastic: float, halves: float) -> None:
     """Fill in the weights of the points in the mean way of the patch, and the foundation where they are as it was."""
     points, foundation, earlier = points_in(room), foundation_in(room, 0.0, 0.0), earlier_in(room)
     weights, was = room.rows[SCRATCH], 0.0
-    if share > 0:
+    if halves > 0:
         press(points.then, points.last, law.eps_n, law.spacing, earlier)
         was = total(earlier.force)
     for i in range(weights.shape[0]):
         weights[i] = foundation.force[i] / elastic
         if was > 0:
-            weights[i] += share * (earlier.force[i] / was - weights[i])
+            weights[i] += halves * (earlier.force[i] / was - weights[i])
 
 
 @loop
-def differentiate_way(room: Room, elastic: float, s: float, c: float, dphi: float, halves: Halves) -> None:
+def differentiate_way(room: Room, elastic: float, s: float, c: float, dphi: float, halves: float) -> None:
     """Fill in the derivative of the mean way, whose weights are known."""
     points, foundation, earlier = points_in(room), foundation_in(room, 0.0, 0.0), earlier_in(room)
     bases, slip_by, weights, by_gap = room.bases, room.unknowns[WAY], room.rows[SCRATCH], room.rows[SCRATCH + 1]
     gather(points, weights, 1.0, room.fives[0], bases[5])
-    if halves.share > 0:
+    if halves > 0:
         for i in range(weights.shape[0]):
             for q in range(3):  # along the rim as it is now
                 bases[5, 2 + points.local[i] + q] += weights[i] * points.onward[i, q]
@@ -67,7 +67,7 @@ def differentiate_way(room: Room, elastic: float, s: float, c: float, dphi: floa
         weights[i] = points.shift[i] + dphi * points.lifted[i] + points.carried[i]
         now += foundation.force[i] * weights[i] / elastic
         then += earlier.force[i] * weights[i]
-    share = halves.share if was > 0 else 0.0
+    share = halves if was > 0 else 0.0
     for i in range(weights.shape[0]):
         weights[i] = (1 - share) * (weights[i] - now) / elastic
     sum_by_gaps(weights, foundation, by_gap)
@@ -77,4 +77,4 @@ def differentiate_way(room: Room, elastic: float, s: float, c: float, dphi: floa
         for i in range(weights.shape[0]):
             weights[i] = share * (weights[i] * elastic / (1 - share) + now - then / was) / was
         sum_by_gaps(weights, earlier, by_gap)
-        slip_by[2] += dot(by_gap, points.slant) + halves.by_turn * (then / was - now)
+        slip_by[2] += dot(by_gap, points.slant)

@@ -173,7 +173,7 @@ class FullHoop(RimContact):
         pos_pred, vel_pred, beta, guess = predictor
         law, dofs = self.law.parameters, self.ring.dofs(*window)
         rim = Rim(window[0], self.vertex)
-        before = at_start(old, self.displacement(old, window))
+        before = at_start(old, self.displacement(old, window), predictor.beta)
         d = guess.copy()
         last = np.inf
         way, ok = nan, False

@@ -115,7 +115,7 @@ def _solved(
                 False, expected, expected, expected, found.matrix, window, old.u, old.nodal, old.res, old.bristles
             )  # fmt: skip
         u_old = _moved(arrays, old, window)
-        before = at_start(old, u_old)
+        before = at_start(old, u_old, predictor.beta)
         u = near.u if near.window == window else u_old
         facing, guessed = _near_floor(arrays, window), FORESEEN if near.elastic > 0 else RAISED
         # a depth foreseen to a thousandth may make a short step's damper pull: under no pressure no bristle sticks. And

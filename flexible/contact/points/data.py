@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import jit, part
+from rigid.kernel.compile import jit, loop, part
 
 
 class Parameters(NamedTuple):
@@ -53,14 +53,30 @@ class Before(NamedTuple):
     bristles: Bristles
     first: int = 0  # rim element at which the nodes near the floor began then, and
     dent: Any = NO_DENT  # their displacement, (2 count + 1, 2); of no length off the floor
-    length: float = 0.0  # of the patch
+    halves: float = 0.0  # what of a point's way goes by the dent as it is at the end, of its weight by this pressure
+
+
+@loop
+def _halves(turn: float, length: float) -> float:
+    """How much of the way of a patch goes by the dent as it is at the end of a step, and by the pressure at its start.
+
+    The slip velocity is the rate of the way. If that went along the dent as it was at the start, weighed by the
+    pressure as it is at the end, it would miss what the dent's slope has changed by since, times the rate of the turn,
+    and have too much by the rate of the pressure, times how far each point has gone beyond the others: errors like the
+    step, where the wall bends over a wide patch. By halves both are gone but for the step's square. In a step that
+    turns the hoop by more than its patch is long, the ``turn`` of a stage by more than a half of that, the dent has
+    come and gone with the nodes of the rim: the one at the end tells no more of the way then.
+    """
+    beyond = min(max(4 * abs(turn) / length - 1, 0.0), 1.0) if length > 0 else 1.0
+    return (1 - beyond**2 * (3 - 2 * beyond)) / 2
 
 
 @part
-def at_start(old: Any, u: Any) -> Before:
-    """The contact at the beginning of a step from a state, whose rim has the displacement ``u`` in another window."""
-    touches = old.res.elastic > 0
-    return Before(old.pos[:3], u, old.bristles, old.window[0], old.u if touches else old.u[:0], old.res.length)
+def at_start(old: Any, u: Any, beta: float) -> Before:
+    """The contact at the beginning of a step from a state, whose rim has the displacement ``u`` in another window;
+    ``beta`` is that of its stages (:class:`flexible.contact.stage.Predictor`)."""
+    touches, halves = old.res.elastic > 0, _halves(old.vel[2] * beta, old.res.length)
+    return Before(old.pos[:3], u, old.bristles, old.window[0], old.u if touches else old.u[:0], halves)
 
 
 MOST_ITERATIONS = 40  # of Newton in a stage
@@ -92,14 +108,6 @@ class Damper(NamedTuple):
 
 
 UNDAMPED = Damper(0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
-
-
-class Halves(NamedTuple):
-    """How the way of a patch in a step is made up of what its dent and its pressure are at the end and were at the
-    beginning: see :func:`flexible.contact.points.dent.halves_of`."""
-
-    share: float  # of one, up to 1/2
-    by_turn: float  # its derivative by the turn
 
 
 class Load(NamedTuple):

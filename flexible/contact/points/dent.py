@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from rigid.kernel.compile import loop
 
-from .data import Before, Halves, Rim
+from .data import Before, Rim
 from .rim import element_at, sideways, upward, vertex_angle
 
 
@@ -105,22 +105,3 @@ def through_dent(
 def next_dent(dent: Dent, before: Before, rim: Rim, theta: float) -> Dent:
     """The same element where it still holds the angle, another one where it does not."""
     return dent if dent.start <= theta < dent.end else dent_at(before, rim, theta)
-
-
-@loop
-def halves_of(dphi: float, length: float) -> Halves:
-    """How much of the way of a patch goes by the dent as it is at the end of a step, and by the pressure at its start.
-
-    The slip velocity is the rate of the way. If that went along the dent as it was at the start, weighed by the
-    pressure as it is at the end, it would miss what the dent's slope has changed by since, times the rate of the turn,
-    and have too much by the rate of the pressure, times how far each point has gone beyond the others: errors like the
-    step, where the wall bends over a wide patch. By halves both are gone but for the step's square. In a turn as long
-    as the patch the dent has come and gone with the nodes of the rim: the one at the end tells no more of the way then.
-    """
-    turned = 2 * abs(dphi) / length - 1 if length > 0 else 1.0
-    if turned >= 1:
-        return Halves(0.0, 0.0)
-    if turned <= 0:
-        return Halves(0.5, 0.0)
-    by_turn = 6 * turned * (turned - 1) / length
-    return Halves((1 - turned**2 * (3 - 2 * turned)) / 2, by_turn if dphi > 0 else -by_turn)

@@ -13,8 +13,8 @@ import numpy as np
 
 from rigid.kernel.compile import loop
 
-from .data import Before, Halves, Rim
-from .dent import NO_ELEMENT, displaced, halves_of, next_dent, raised, through_dent
+from .data import Before, Rim
+from .dent import NO_ELEMENT, displaced, next_dent, raised, through_dent
 from .rim import element_at, gap_at, lift, shape_functions, shape_slopes, sideways, upward, vertex_angle
 
 TURNED_ON = 8  # points to one whose sine and cosine are computed: as many roundings
@@ -172,9 +172,8 @@ class Points(NamedTuple):
 @loop
 def place(
     points: Points, ranges: Any, ranged: int, pose: Any, u: Any, rim: Rim, spacing: float, before: Before
-) -> tuple[bool, Halves]:  # fmt: skip
-    """Fill in the points of so many ranges; whether the window of rim elements is too short for them, and how much of
-    their way through the dent is along the rim as it is now."""
+) -> bool:  # fmt: skip
+    """Fill in the points of so many ranges; whether the window of rim elements is too short for them."""
     number, last, local, shape, onward, arm_x, arm_y, gap, gap_old, move, rolled, angle, sines, lifted = points[:14]
     dents, slope, carried, bend, shift, then, slant = points[14:]
     first, vertex, count = rim.first, rim.vertex, (u.shape[0] - 1) // 2
@@ -182,7 +181,7 @@ def place(
     height, phi, phi_old = pose[1], pose[2], old_pose[2]
     s, c, s_old, c_old = sin(phi), cos(phi), sin(phi_old), cos(phi_old)
     dv, dphi = pose[0] - old_pose[0], phi - phi_old
-    outside, dent, halves = False, NO_ELEMENT, halves_of(dphi, before.length)
+    outside, dent = False, NO_ELEMENT
     # sines and cosines of psi/2 give all others; as they are what a point costs, most are turned on from the last ones
     s_turn, c_turn, s_half, c_half = sin(dphi / 2), cos(dphi / 2), sin(dphi / 4), cos(dphi / 4)
     s_next, c_next, sine, cosine = sin(spacing / 2), cos(spacing / 2), 0.0, 1.0
@@ -225,20 +224,20 @@ def place(
                 dent = next_dent(dent, before, rim, there)
                 dents[m], slope[m] = displaced(dent, there)
                 carried[m], bend[m] = through_dent(dent, before, rim, there, dphi, spacing)
-                if halves.share > 0:
+                if before.halves > 0:
                     d0, d1, d2 = shape_slopes(xi, end - start)
                     s1 = d0 * u[k, 0] + d1 * u[k + 1, 0] + d2 * u[k + 2, 0]
                     s2 = d0 * u[k, 1] + d1 * u[k + 1, 1] + d2 * u[k + 2, 1]
                     by_turn = sideways(s1, s2, s, c)
                     more = dphi * by_turn - carried[m]
                     by_turn += dphi * upward(s1, s2, s, c) - bend[m] - slope[m]
-                    carried[m] += halves.share * more
-                    bend[m] += halves.share * by_turn + halves.by_turn * more
-                    share = halves.share * dphi
+                    carried[m] += before.halves * more
+                    bend[m] += before.halves * by_turn
+                    share = before.halves * dphi
                     onward[m, 0], onward[m, 1], onward[m, 2] = share * d0, share * d1, share * d2
                     high, climb = raised(dent, there)
                     then[m], slant[m] = old_pose[1] + lifted[m] + high, sines[m] + climb
                 shift[m] = dv + ux - dents[m]
             m += 1
         last[m - 1] = 1
-    return outside, halves
+    return outside

@@ -100,12 +100,11 @@ MODES = [("patch", STICK), ("patch", SLIDE_RIGHT), ("patch", SLIDE_LEFT), ("brus
 
 @pytest.mark.parametrize(("name", "mode"), MODES)
 @pytest.mark.parametrize("damping", [{}, {"relaxation": 2.0, "elastic_0": 0.95, "drag": 1e5, "way_0": 1e-6}])
-@pytest.mark.parametrize("length", [0.0, 0.006, 0.023])
-def test_tangent_of_the_contact(name, mode, damping, length):
+@pytest.mark.parametrize("halves", [0.0, 0.2, 0.5])
+def test_tangent_of_the_contact(name, mode, damping, halves):
     """Against central differences of the forces, 1e-6 of the largest entry; and normal forces from their energy.
 
-    In a turn of 0.004 the way of a patch of these lengths is along the dent as it was, more so than as it is, and by
-    halves. So is the derivative of the way that smoothed friction goes by.
+    So is the derivative of the way that smoothed friction goes by.
     """
     rng = np.random.default_rng(0)
     # slip velocities of this step are of the size of the scale that smooths the friction
@@ -117,7 +116,7 @@ def test_tangent_of_the_contact(name, mode, damping, length):
     old = np.array([0.0, -depth, phi])
     start = contact_forces(old, flat, rim, law, mode, Before(old, flat, no_bristles()), damper, True)
     bristles = start.bristles._replace(stretch=-1e-6 * rng.random(len(start.bristles.stretch)))
-    before = Before(old, flat, bristles, rim.first, 1e-6 * rng.standard_normal(flat.shape), length)
+    before = Before(old, flat, bristles, rim.first, 1e-6 * rng.standard_normal(flat.shape), halves)
     x = np.concatenate([[-2e-6, -1.05 * depth, phi + 0.004], 1e-7 * rng.standard_normal(18)])
 
     def contact(x):

@@ -34,9 +34,7 @@ def step(t):
     nodes = np.column_stack([VERTEX, middles]).ravel()[2 * RIM.first :][:NODES]
     first, last = (FIRST @ powers(nodes)).T, ((FIRST + RATES * t) @ powers(nodes)).T
     law = parameters("patch", 2e-5, EPS, 0.8 * EPS)
-    before = Before(pose(0), first, no_bristles())
-    length = contact_forces(pose(0), first, RIM, law, STICK, before, UNDAMPED, False).res.length
-    before = Before(pose(0), first, no_bristles(), RIM.first, first, length)
+    before = Before(pose(0), first, no_bristles(), RIM.first, first, 0.5)
     return contact_forces(pose(t), last, RIM, law, STICK, before, UNDAMPED, False).res
 
 

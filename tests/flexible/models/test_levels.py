@@ -262,11 +262,12 @@ def test_a_thick_pulse_against_all_nodes():
     """A wall of a tenth of R, linear, on one mesh: a percent of the largest force, a thousandth of J_N.
 
     The mesh is coarse, and leaves the same to both. The largest force of all nodes is known no better: with twice as
-    many elements 0.6 % of it changes from rtol 3e-4 to 1e-4, and 0.7 % with 4 through the wall.
+    many elements 0.6 % of it changes from rtol 3e-4 to 1e-4, and 0.7 % with 4 through the wall. At these tolerances
+    either ring may go another way, J_F 1.6 % off or 7e-4 of J_N, by where its steps lie; from 4e-5 down both go this.
     """
     scene = HOOP.replace(
         hoop={"k": 0.2, "r": 1.1}, ring={"bending_stiffness": 20.0}, contact={"stiffness": 1e7, "damping": 1.0},
-        solve={"rtol": 3e-4, "elements": 120},
+        solve={"rtol": 3e-5, "elements": 120},
     )  # fmt: skip
     reduced, full = (flexible.simulate(scene.replace(solve={"level": kind})).pulses[0] for kind in ("reduced", "full"))
     assert reduced.normal_impulse == pytest.approx(full.normal_impulse, rel=1e-3)
