@@ -22,7 +22,7 @@ ROOT = Path(__file__).parent.parent
 PACKAGES = ("rigid", "meshes", "flexible", "studies")
 THEORY = re.compile(r"\]\(([\w./]*)README\.md(#[^)]*)?\)")
 FILE = re.compile(r"\]\(([^):#]+)\)")
-PICTURES = re.compile(r"(\]\(|src=\")(?:\.\./)?\.images/")
+PICTURES = re.compile(r"(\]\(|src=\")(?:\.\./)*\.images/")
 FORMULA_OR_CODE = re.compile(
     r"^(?P<indent> *)```math\n(?P<fenced>.+?)\n *```|(?P<code>^ *```.*?^ *```|`[^`]*`)"
     r"|\$\$(?P<display>.+?)\$\$|\$(?P<inline>[^$\s](?:[^$]*[^$\s])?)\$",

@@ -8,4 +8,6 @@
 ``truth``              what is taken for true: forty digits, all nodes in the limit
 ``peers``              the same scenes by other tools, and what those tend to
 ``shown``              tables and figures of it
+
+What all of it printed is on the page beside this file (README.md).
 """

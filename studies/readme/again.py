@@ -18,6 +18,8 @@ from .stated import Picture, Stated
 
 ROOT = Path(__file__).parents[2]
 IMAGES = ROOT / ".images"
+PAGES = ("README.md", "studies/bench/README.md")
+"""Where numbers are stated; of words on both the first counts."""
 
 
 class Bench:
@@ -57,14 +59,19 @@ def make(pictures: Sequence[Picture], bench: Bench, into: Path = IMAGES) -> None
         click.echo(f"{picture.name}: made")
 
 
-def check(numbers: Sequence[Stated], bench: Bench, readme: str) -> int:
-    """Print each number of the README beside today's; how many differ or are no longer there."""
+def stated_text() -> str:
+    """All that states numbers, one page after the other."""
+    return "\n".join((ROOT / page).read_text(encoding="utf-8") for page in PAGES)
+
+
+def check(numbers: Sequence[Stated], bench: Bench, pages: str) -> int:
+    """Print each number of the pages beside today's; how many differ or are no longer there."""
     wrong = 0
     for stated in numbers:
-        written = stated.written(readme)
+        written = stated.written(pages)
         if written is None:
             wrong += 1
-            click.echo(f"{stated.table}: the README has nothing like {stated.words}")
+            click.echo(f"{stated.table}: no page has anything like {stated.words}")
             continue
         try:
             now = stated.value(json.loads(bench.printed(stated.command)))

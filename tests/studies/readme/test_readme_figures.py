@@ -14,12 +14,12 @@ from studies.readme import __main__ as command
 from studies.readme import again
 from studies.readme import stated as readme
 
-TEXT = (again.ROOT / "README.md").read_text(encoding="utf-8")
+TEXT = again.stated_text()
 
 
 def test_every_picture_has_its_command_and_none_is_unused():
     pages = TEXT + (again.ROOT / "studies" / "README.md").read_text(encoding="utf-8")
-    shown = set(re.findall(r"\]\((?:\.\./)?\.images/([^)]+)\)", pages))
+    shown = set(re.findall(r"\]\((?:\.\./)*\.images/([^)]+)\)", pages))
     assert shown == {picture.name for picture in readme.PICTURES}
     assert shown == {path.name for path in again.IMAGES.iterdir()}
 
