@@ -12,7 +12,7 @@ import dataclasses
 import sys
 import tomllib
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from importlib.resources import files
 from math import degrees, inf, isclose, nextafter, radians
@@ -22,6 +22,7 @@ from typing import Any
 
 from .allowed import SceneError, in_radians, plain, shown, unknown
 from .elastic import SECTION, UNITS, require_section, ring_of_section
+from .output.units import Unit, units_of
 from .scene import PARTS, Scene
 
 SceneLike = Scene | str | PathLike[str] | Mapping[str, Any]
@@ -32,6 +33,8 @@ _AGREEABLE = {"hoop": {"k": 0.5}, "friction": {"mu_s": 1e9, "mu": 0.0}, "release
 """What every possible value of another key of the table can stand beside."""
 
 _IN_DEGREES = {"phi0": "phi0_deg", "weld_half_angle": "weld_half_angle_deg"}
+_IN_SI = {"hoop.R": "m", "hoop.m": "kg", "hoop.g": "m/s²", "ring.youngs_modulus": "Pa", "ring.density": "kg/m³"}
+_IN_SI |= {f"ring.{key}": "m" for key in SECTION if f"ring.{key}" not in _IN_SI}
 
 
 def _file_keys(part: str) -> dict[str, str]:
@@ -228,6 +231,25 @@ def load_scene(source: str | PathLike[str]) -> Scene:
         No such scene, not TOML, or a scene that cannot be.
     """
     return scene_from_dict(scene_tables(source))
+
+
+def units_of_keys(keys: Iterable[str], scene: Scene) -> dict[str, str]:
+    """What a number that stands at a key of a scene's file is in, by key; "1" for a pure number.
+
+    Parameters
+    ----------
+    keys : iterable of str
+        With their tables, "hoop.k".
+    scene : Scene
+        In whose units numbers with a dimension are read.
+    """
+    found = {}
+    for name in keys:
+        part, _, key = name.partition(".")
+        said = units_of(PARTS[part]).get(key, Unit.NUMBER) if part in ("release", "run") else Unit.NUMBER
+        in_file = "°" if key in _IN_DEGREES.values() else said.label(scene) or "1"
+        found[name] = in_file if scene.dimensionless else _IN_SI.get(name, in_file)
+    return found
 
 
 def scene_tables(source: str | PathLike[str]) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from rigid import SceneError, scene_from_dict
 from rigid.elastic import UNITS
+from rigid.scenefile import units_of_keys
 
 from .running.case import Case, Outcome
 from .running.history import rows_to_csv
@@ -49,11 +50,16 @@ class Table:
 
     @property
     def units(self) -> dict[str, str]:
-        """What the measures are in, by column: SI units where any of the scenes is; keys that vary are as in a file."""
+        """What the numbers are in, by column: SI units where any of the scenes is; of keys that vary, as in a file."""
         scenes = [row.outcome.scene for row in self.rows if row.outcome.scene]
         in_si = (scene for scene in scenes if any(scene["hoop"].get(name, 1.0) != 1.0 for name in UNITS))
         scene = next(in_si, scenes[0] if scenes else None)
-        return {} if scene is None else {"pulse": "1", **units_of_measures(scene_from_dict(scene))}
+        if scene is None:
+            return {}
+        one = scene_from_dict(scene)
+        varied = {key for row in self.rows for key, value in row.values.items() if not isinstance(value, (str, bool))}
+        keys = [key for key in self.rows[0].values if key in varied]
+        return {**units_of_keys(keys, one), "pulse": "1", **units_of_measures(one)}
 
     def records(self) -> list[dict[str, Any]]:
         """One flat record for each pulse of each row, or one for a row without any."""

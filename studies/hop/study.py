@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from rigid import Scene, scene_to_dict
 from rigid.output import summary
 from rigid.output.units import unit_names
+from rigid.scenefile import units_of_keys
 
 from ..running.case import Case, Outcome
 from ..running.runs import run_cases
@@ -46,8 +47,7 @@ class HopStudy(summary.Summarised):
     @property
     def cases(self) -> list[HopCase]:
         """All rolls of map and bisection, line by line, softest first."""
-        stiffness = attrgetter("bending_stiffness")
-        return [case for line in self.lines for case in sorted((*line.mapped, *line.between), key=stiffness)]
+        return [case for line in self.lines for case in _rolls(line)]
 
     @property
     def rolled(self) -> Scene:
@@ -65,18 +65,32 @@ class HopStudy(summary.Summarised):
         pure = dict.fromkeys((*_COLUMNS[:-1], *_THRESHOLD, "rtol", "hops"), "1")
         energies = unit_names(self.rolled, HopEnergies)
         parts = {f"energies.{name}": unit for name, unit in energies.items()}
-        return {**pure, **unit_names(self.rolled, Flight, Scales), "energy": energies["stored_in_ring"], **parts}
+        second = {} if self.second is None else units_of_keys([self.second], self.rolled)
+        return {
+            **second,
+            **pure,
+            **unit_names(self.rolled, Flight, Scales),
+            "energy": energies["stored_in_ring"],
+            **parts,
+        }
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A row for each hop, and one without a hop for each roll that has none."""
         import pandas
 
         rows: list[dict[str, Any]] = []
-        for case in self.cases:
-            told = case.to_dict()
-            kept = {key: told[key] for key in _COLUMNS}
+        for told in self._told():
+            kept = {key: told[key] for key in ([] if self.second is None else [self.second]) + list(_COLUMNS)}
             rows += [kept | {key: hop[key] for key in (*TOLD, "energy")} for hop in told["hops"]] or [kept]
         return pandas.DataFrame(rows)
+
+    def _told(self) -> list[dict[str, Any]]:
+        """Each roll as JSON prints it, with its value of the second key."""
+        return [
+            ({} if self.second is None else {self.second: line.value}) | case.to_dict()
+            for line in self.lines
+            for case in _rolls(line)
+        ]
 
     def plot(self) -> Figure:
         """The map where there is a second key, else where each hop begins."""
@@ -122,9 +136,14 @@ class HopStudy(summary.Summarised):
             "as_run": scene_to_dict(self.rolled),
             "over": [STIFFNESS, *([self.second] if self.second else [])],
             "rtol": self.lines[0].scene.solve.rtol,
-            "cases": [case.to_dict() for case in self.cases],
+            "cases": self._told(),
             "threshold": threshold,
         }
+
+
+def _rolls(line: Line) -> list[HopCase]:
+    """Those of map and bisection, softest first."""
+    return sorted((*line.mapped, *line.between), key=attrgetter("bending_stiffness"))
 
 
 def hop_study(

@@ -174,6 +174,18 @@ def test_the_table_has_all_hops_and_the_repr_is_short():
 
 
 @pytest.mark.usefixtures("leaping")
+def test_the_table_says_which_roll_is_of_which_value():
+    """Of keys without a column of their own it did not."""
+    asked = map_of(load_scene(SCENE), ("release.phi0_deg=10,20", "ring.bending_stiffness=1,100"))
+    study = hop_study(asked)
+    frame = study.to_dataframe()
+    assert set(frame["release.phi0_deg"]) == {10, 20}
+    assert study.units["release.phi0_deg"] == "°"
+    of = {(case["release.phi0_deg"], case["bending_stiffness"]) for case in study.to_dict()["cases"]}
+    assert of >= {(10, 1), (10, 100), (20, 1), (20, 100)}
+
+
+@pytest.mark.usefixtures("leaping")
 def test_json_is_the_contract(hoop):
     status, out, err = hoop(
         "study", "hop", SCENE, "--over", "ring.bending_stiffness=0.5:100:5", "--over", "hoop.k=0.1,0.2", "--bisections",

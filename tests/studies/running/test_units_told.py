@@ -9,6 +9,7 @@ import pytest
 import flexible
 import rigid
 from rigid import load_scene
+from rigid.scenefile import units_of_keys
 from studies import HopStudy, Ladder, hop_study, limit_study, run_sweep, stiffness_study
 from studies.cli.hop import map_of
 from studies.running import history
@@ -134,7 +135,30 @@ def test_a_sweep_tells_its_units():
     }  # fmt: skip
     plain = run_sweep(lists)
     heavy = run_sweep({**lists, "hoop": {"k": 0.1, "R": 0.5, "m": 2.0, "g": 9.81}})
-    pure = {**heavy.units, "release.phi0_deg": "1"}
-    same(plain.records(), heavy.records(), pure)
+    assert heavy.units["release.phi0_deg"] == "°"
+    same(plain.records(), heavy.records(), {**heavy.units, "release.phi0_deg": "1"})
     assert plain.units["duration"] == "sqrt(R/g)"
-    assert run_sweep({**lists, "hoop": {"k": 0.1, "R": [1.0, 0.5], "m": 1.0, "g": 1.0}}).units == heavy.units
+    assert run_sweep({**lists, "hoop": {"k": 0.1, "R": [1.0, 0.5], "m": 1.0, "g": 1.0}}).units == {
+        "hoop.R": "m",
+        **heavy.units,
+    }
+
+
+def test_keys_that_vary_have_their_units():
+    """Those of a scene's file, in SI where the scene is; a word has none."""
+    varied = {
+        "hoop": {"k": 0.1, "R": 0.5, "m": 2.0, "g": [9.81, 1.62]}, "friction": {"mu_s": 0.35, "mu": [0.3, 0.2]},
+        "release": {"phi0_deg": 10.0, "omega0": [0.0, 0.1], "slip0": [0.0, 0.1]}, "run": {"t_end": [1.0, 2.0]},
+        "contact": {"law": ["patch", "brush"]}, "sweep": {"solvers": ["rigid"]},
+    }  # fmt: skip
+    heavy = run_sweep(varied)
+    wanted = {"hoop.g": "m/s²", "friction.mu": "1", "release.omega0": "1/s", "release.slip0": "m/s", "run.t_end": "s"}
+    assert {key: heavy.units.get(key) for key in wanted} == wanted
+    assert "contact.law" not in heavy.units
+    columns = {name for name, value in heavy.records()[0].items() if not isinstance(value, str)}
+    assert columns <= set(heavy.units)
+    plain = run_sweep({**varied, "hoop": {"k": 0.1}})
+    wanted = {"release.omega0": "sqrt(g/R)", "release.slip0": "sqrt(gR)", "run.t_end": "sqrt(R/g)"}
+    assert {key: plain.units.get(key) for key in wanted} == wanted
+    section = units_of_keys(["ring.youngs_modulus", "ring.density", "ring.tube_wall", "ring.poisson"], HEAVY)
+    assert list(section.values()) == ["Pa", "kg/m³", "m", "1"]
