@@ -20,11 +20,12 @@ from .figures import FIGURE_10, FIGURE_11
 from .panels import Panel, Part
 from .sampling import line
 
-HOOPS = {
-    "point mass": (Hoop(0.0), "dotted"),
-    "k = 0.1": (Hoop(0.1), "dashed"),
-    "k = 0.1, r = 1.02, $m_h/m$ = 0.1": (Hoop(0.1, 1.02, 0.1), "solid"),
-    "k = 0.25": (Hoop(0.25), "dashdot"),
+WIDE: dict[str, Any] = {"color": "0.65", "linewidth": 3.5, "zorder": 1.5}  # shows beneath a line that it all but is
+HOOPS: dict[str, tuple[Hoop, dict[str, Any]]] = {
+    "point mass": (Hoop(0.0), {"linestyle": "dotted"}),
+    "k = 0.1": (Hoop(0.1), {"linestyle": "dashed"}),
+    "k = 0.1, r = 1.02, $m_h/m$ = 0.1": (Hoop(0.1, 1.02, 0.1), {"linestyle": "solid"}),
+    "k = 0.25": (Hoop(0.25), WIDE),
 }
 CAPTIONS = {
     "extra-inception": r"smallest $\mu_s$ with which a hoop rolls from rest, (9); on the right near 10 degrees",
@@ -41,7 +42,7 @@ def _write_inception(out: Path, formats: Sequence[str]) -> None:
             rows: list[tuple[Any, ...]] = []
             for label, (hoop, style) in HOOPS.items():
                 needed = [inception_mu_s(hoop, radians(angle)) for angle in angles]
-                axes.plot(angles, needed, color="black", linestyle=style, label=label)
+                axes.plot(angles, needed, **{"color": "black", **style}, label=label)
                 rows += [(label.replace("$", ""), *pair) for pair in zip(angles.tolist(), needed, strict=True)]
             axes.set(xlabel=r"$\varphi_0$, degrees", ylabel=r"$\mu_s$ at inception", xlim=(0, last), ylim=(0, top))
             axes.legend(handlelength=3.2)
