@@ -22,6 +22,7 @@ from ..contact.stage import Near, Predictor, Stage
 from ..contact.vectors import largest
 from ..ring.choice import ring_of
 from ..ring.fem import Ring
+from ..ring.frame import disk_energies
 from ..ring.nodal import Inertia, NodalRing, factored, inertia, turned
 from .equilibrium import RestingNodes
 from .rim_contact import SLOW, RimContact
@@ -239,16 +240,13 @@ class FullHoop(RimContact):
     def held(self, pos: Array, vel: Array) -> tuple[float, float, float]:
         """See :class:`flexible.models.state.Model`."""
         ring, body = self.ring, self.ring.body
-        offset, mass = body.offset, body.ring_mass
-        s, c = sin(pos[2]), cos(pos[2])
-        w, u, v = vel[2], pos[3:], vel[3:]
-        vx, vy = vel[0] + w, vel[1]
-        dx, dy = vx + offset * w * c, vy - offset * w * s
-        kinetic = (dx * dx + dy * dy + body.disk_inertia * w * w) / 2
-        gravity = 1 + pos[1] + offset * c
+        mass, u, v = body.ring_mass, pos[3:], vel[3:]
+        kinetic, gravity = disk_energies(body, pos, vel)
         if not ring.massless:
             m_u, m_v = ring.mass @ u, ring.mass @ v
             (s1, s1_v), (s2, s2_v) = ((l @ u, l @ v) for l in ring.along)
+            s, c, w = sin(pos[2]), cos(pos[2]), vel[2]
+            vx, vy = vel[0] + w, vel[1]
             v1, v2 = vx * s + vy * c, vx * c - vy * s
             moment = body.ring_inertia + (2 * ring.stretching + m_u) @ u
             kinetic += mass * (vx * vx + vy * vy) / 2 + v1 * (s1_v - w * s2) + v2 * (s2_v + w * s1)

@@ -37,7 +37,7 @@ class Frame(NamedTuple):
     gyro: Any  # (n, n) Phi_i^T M J Phi_j, antisymmetric
 
 
-class _Instant(NamedTuple):
+class Instant(NamedTuple):
     """What all forces of an instant share."""
 
     s: float  # sin phi
@@ -68,25 +68,47 @@ class _Sums(NamedTuple):
 
 
 @loop
-def _disk(body: Body, instant: _Instant, force: Any, tangent: Any) -> None:
-    """Forces of the disk, and their tangent."""
+def instant_of(pos: Any, vel: Any, acc: Any, beta: float) -> Instant:
+    """Of a frame, (V, h, phi) and rates first in each array; ``beta`` as :func:`inertia` takes it."""
+    return Instant(sin(pos[2]), cos(pos[2]), vel[2], acc[2], acc[0] + acc[2], acc[1] + 1.0, 1 / beta, 1 / beta**2)
+
+
+@loop
+def disk_force(body: Any, instant: Instant, force: Any) -> None:
+    """Add inertia and gravity of the disk to the forces on the frame; of ``body`` the disk's place and moment."""
+    s, c, w, alpha, ax, ay, _, _ = instant
+    dx = ax + body.offset * (alpha * c - w * w * s)
+    dy = ay - body.offset * (alpha * s + w * w * c)
+    force[0] += dx
+    force[1] += dy
+    force[2] += dx * (1 + body.offset * c) - dy * body.offset * s + body.disk_inertia * alpha
+
+
+@loop
+def disk_tangent(body: Any, instant: Instant, tangent: Any) -> None:
+    """Add the derivatives of :func:`disk_force` by the frame."""
     s, c, w, alpha, ax, ay, r1, r2 = instant
-    offset, disk_inertia = body.offset, body.disk_inertia
+    offset = body.offset
     dx = ax + offset * (alpha * c - w * w * s)
     dy = ay - offset * (alpha * s + w * w * c)
     dx_phi = offset * (-alpha * s - w * w * c - 2 * w * s * r1 + c * r2) + r2
     dy_phi = -offset * (alpha * c - w * w * s + 2 * w * c * r1 + s * r2)
     lever = 1 + offset * c
-    force[0] = dx
-    force[1] = dy
-    force[2] = dx * lever - dy * offset * s + disk_inertia * alpha
-    tangent[0, 0] = r2
-    tangent[0, 2] = dx_phi
-    tangent[1, 1] = r2
-    tangent[1, 2] = dy_phi
-    tangent[2, 0] = lever * r2
-    tangent[2, 1] = -offset * s * r2
-    tangent[2, 2] = dx_phi * lever - dx * offset * s - dy_phi * offset * s - dy * offset * c + disk_inertia * r2
+    tangent[0, 0] += r2
+    tangent[0, 2] += dx_phi
+    tangent[1, 1] += r2
+    tangent[1, 2] += dy_phi
+    tangent[2, 0] += lever * r2
+    tangent[2, 1] -= offset * s * r2
+    tangent[2, 2] += dx_phi * lever - dx * offset * s - dy_phi * offset * s - dy * offset * c + body.disk_inertia * r2
+
+
+@loop
+def disk_energies(body: Any, pos: Any, vel: Any) -> tuple[float, float]:
+    """Kinetic energy of the disk, and its gravity (0 with the hoop's centre at the floor)."""
+    s, c, w = sin(pos[2]), cos(pos[2]), vel[2]
+    dx, dy = vel[0] + w + body.offset * w * c, vel[1] - body.offset * w * s
+    return (dx * dx + dy * dy + body.disk_inertia * w * w) / 2, 1 + pos[1] + body.offset * c
 
 
 @part
@@ -123,7 +145,7 @@ def _add_up(frame: Frame, pos: Any, vel: Any, acc: Any, to: Any) -> Any:
 
 
 @loop
-def _ring_by_pose(frame: Frame, instant: _Instant, sums: _Sums, force: Any, tangent: Any) -> None:
+def _ring_by_pose(frame: Frame, instant: Instant, sums: _Sums, force: Any, tangent: Any) -> None:
     """What the ring adds to the forces on (V, h, phi), and the tangent of these and of the modes' by them."""
     s, c, w, alpha, ax, ay, r1, r2 = instant
     s1, s2, s1_v, s2_v = sums.s1, sums.s2, sums.s1_v, sums.s2_v
@@ -155,7 +177,7 @@ def _ring_by_pose(frame: Frame, instant: _Instant, sums: _Sums, force: Any, tang
 
 @loop
 def _ring_by_modes(
-    frame: Frame, instant: _Instant, sums: _Sums, pos: Any, vel: Any, acc: Any, force: Any, tangent: Any
+    frame: Frame, instant: Instant, sums: _Sums, pos: Any, vel: Any, acc: Any, force: Any, tangent: Any
 ) -> None:
     """Forces on the modes, and the tangent of all forces by the modes and of theirs by phi."""
     s, c, w, alpha, ax, ay, r1, r2 = instant
@@ -211,8 +233,9 @@ def inertia(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     """
     n = frame.modal.shape[0]
     force, tangent = np.zeros(3 + n), np.zeros((3 + n, 3 + n))
-    instant = _Instant(sin(pos[2]), cos(pos[2]), vel[2], acc[2], acc[0] + acc[2], acc[1] + 1.0, 1 / beta, 1 / beta**2)
-    _disk(frame.body, instant, force, tangent)
+    instant = instant_of(pos, vel, acc, beta)
+    disk_force(frame.body, instant, force)
+    disk_tangent(frame.body, instant, tangent)
     if frame.body.ring_mass > 0:
         sums = _ring_sums(frame, pos, vel, acc)
         _ring_by_pose(frame, instant, sums, force, tangent)
@@ -225,15 +248,11 @@ def energies(frame: Frame, pos: Any, vel: Any) -> tuple[float, float, float]:
     """Kinetic energy, gravity (0 with the hoop's centre at the floor) and strain energy of the modes."""
     body, modal, gyro = frame.body, frame.modal, frame.gyro
     n = modal.shape[0]
-    s, c = sin(pos[2]), cos(pos[2])
-    w = vel[2]
-    vx, vy = vel[0] + w, vel[1]
-    offset = body.offset
-    dx, dy = vx + offset * w * c, vy - offset * w * s
-    kinetic = (dx * dx + dy * dy + body.disk_inertia * w * w) / 2
-    gravity = 1 + pos[1] + offset * c
+    kinetic, gravity = disk_energies(body, pos, vel)
     strain = 0.0
     if body.ring_mass > 0:
+        s, c, w = sin(pos[2]), cos(pos[2]), vel[2]
+        vx, vy = vel[0] + w, vel[1]
         v1, v2 = vx * s + vy * c, vx * c - vy * s
         s1, s2, s1_v, s2_v = 0.0, 0.0, 0.0, 0.0
         moment, spin, own = body.ring_inertia, 0.0, 0.0

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import cos, sin
 from typing import Any, cast
 
 import numpy as np
@@ -24,6 +23,7 @@ from scipy.sparse.linalg import splu
 from rigid import Scene
 
 from .fem import Ring, membrane_stiffness
+from .frame import disk_force, disk_tangent, instant_of
 from .reduction import body_of
 
 Array = NDArray[np.float64]
@@ -129,23 +129,12 @@ class Inertia:
 def inertia(ring: NodalRing, pos: Array, vel: Array, acc: Array, beta: float) -> Inertia:
     """Inertial, gravitational and elastic forces of frame and ring; see :func:`flexible.ring.frame.inertia`."""
     body = ring.body
-    offset, mass = body.offset, body.ring_mass
-    s, c = sin(pos[2]), cos(pos[2])
-    w, alpha = vel[2], acc[2]
-    ax, ay = acc[0] + alpha, acc[1] + 1.0
-    r1, r2 = 1 / beta, 1 / beta**2
-    u = pos[3:]
-    dx = ax + offset * (alpha * c - w * w * s)
-    dy = ay - offset * (alpha * s + w * w * c)
-    dx_phi = offset * (-alpha * s - w * w * c - 2 * w * s * r1 + c * r2) + r2
-    dy_phi = -offset * (alpha * c - w * w * s + 2 * w * c * r1 + s * r2)
-    lever = 1 + offset * c
-    frame = np.array([dx, dy, dx * lever - dy * offset * s + body.disk_inertia * alpha])
-    by_frame = np.zeros((3, 3))
-    by_frame[0, 0] = by_frame[1, 1] = r2
-    by_frame[0, 2], by_frame[1, 2] = dx_phi, dy_phi
-    by_frame[2, 0], by_frame[2, 1] = lever * r2, -offset * s * r2
-    by_frame[2, 2] = dx_phi * lever - (dx + dy_phi) * offset * s - dy * offset * c + body.disk_inertia * r2
+    mass, u = body.ring_mass, pos[3:]
+    instant = instant_of(pos, vel, acc, beta)
+    s, c, w, alpha, ax, ay, r1, r2 = instant
+    frame, by_frame = np.zeros(3), np.zeros((3, 3))
+    disk_force(body, instant, frame)
+    disk_tangent(body, instant, by_frame)
     by_ring, of_frame = np.zeros((3, len(u))), np.zeros((len(u), 3))
     forces = ring.elastic(u)
     if ring.massless:

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 
 from rigid.kernel.compile import loop
 
+from ...ring.frame import Instant, disk_energies, disk_force, disk_tangent, instant_of
 from ..rod.corotated import Rod
 from .beside import add_derivatives, add_inertia, moving
 from .ends import EndMass
@@ -52,14 +53,6 @@ class Chain(NamedTuple):
 
 
 @loop
-def _seen(pos: Any, acc: Any) -> tuple[float, float, float, float]:
-    """Sine and cosine of phi, and what all mass is accelerated by along y1 and y2, C's acceleration less gravity."""
-    s, c = sin(pos[2]), cos(pos[2])
-    ax, ay = acc[0] + acc[2], acc[1] + 1.0
-    return s, c, ax * s + ay * c, ax * c - ay * s
-
-
-@loop
 def inertia(chain: Any, pose: Any, rates: Any, changes: Any, frame: Any, force: Any) -> None:
     """Add inertial forces and gravity.
 
@@ -73,15 +66,12 @@ def inertia(chain: Any, pose: Any, rates: Any, changes: Any, frame: Any, force: 
     """
     body, rod, ends = chain
     (pos, q), (vel, qv), (acc, qa) = pose, rates, changes
-    s, c, a1, a2 = _seen(pos, acc)
-    w, alpha, offset = vel[2], acc[2], body.offset
-    dx = acc[0] + alpha + offset * (alpha * c - w * w * s)
-    dy = acc[1] + 1.0 - offset * (alpha * s + w * w * c)
-    frame[0] += dx
-    frame[1] += dy
-    frame[2] += dx * (1 + offset * c) - dy * offset * s + body.disk_inertia * alpha
+    instant = instant_of(pos, vel, acc, 1.0)
+    disk_force(body, instant, frame)
     if body.ring_mass == 0:
         return
+    s, c, w, alpha, ax, ay, _, _ = instant
+    a1, a2 = ax * s + ay * c, ax * c - ay * s
     f1 = body.weld_mass * a1 - w * w * body.weld_moment
     f2 = body.weld_mass * a2 + alpha * body.weld_moment
     moment = body.weld_moment * a2 + body.weld_inertia * alpha
@@ -107,27 +97,6 @@ def inertia(chain: Any, pose: Any, rates: Any, changes: Any, frame: Any, force: 
 
 
 @loop
-def _disk_tangent(body: Any, pos: Any, vel: Any, acc: Any, beta: float, corner: Any) -> None:
-    """Add what belongs to the disk."""
-    offset = body.offset
-    s, c = sin(pos[2]), cos(pos[2])
-    w, alpha = vel[2], acc[2]
-    r1, r2 = 1 / beta, 1 / beta**2
-    dx = acc[0] + alpha + offset * (alpha * c - w * w * s)
-    dy = acc[1] + 1.0 - offset * (alpha * s + w * w * c)
-    dx_phi = offset * (-alpha * s - w * w * c - 2 * w * s * r1 + c * r2) + r2
-    dy_phi = -offset * (alpha * c - w * w * s + 2 * w * c * r1 + s * r2)
-    lever = 1 + offset * c
-    corner[0, 0] += r2
-    corner[0, 2] += dx_phi
-    corner[1, 1] += r2
-    corner[1, 2] += dy_phi
-    corner[2, 0] += lever * r2
-    corner[2, 1] -= offset * s * r2
-    corner[2, 2] += dx_phi * lever - (dx + dy_phi) * offset * s - dy * offset * c + body.disk_inertia * r2
-
-
-@loop
 def inertia_tangent(chain: Any, pose: Any, rates: Any, changes: Any, beta: float, blocks: Any) -> None:
     """Add the derivatives of :func:`inertia` by an increment, see :func:`flexible.ring.frame.inertia`.
 
@@ -141,12 +110,12 @@ def inertia_tangent(chain: Any, pose: Any, rates: Any, changes: Any, beta: float
     """
     body, rod, ends = chain
     (pos, q), (vel, qv), (acc, qa) = pose, rates, changes
-    _disk_tangent(body, pos, vel, acc, beta, blocks.corner)
+    instant = instant_of(pos, vel, acc, beta)
+    disk_tangent(body, instant, blocks.corner)
     if body.ring_mass == 0:
         return
-    s, c, a1, a2 = _seen(pos, acc)
-    w, alpha = vel[2], acc[2]
-    r1, r2 = 1 / beta, 1 / beta**2
+    s, c, w, alpha, ax, ay, r1, r2 = instant
+    a1, a2 = ax * s + ay * c, ax * c - ay * s
     a1_phi, a2_phi = a2 + s * r2, -a1 + c * r2
     # force along y1, y2 of the whole ring, and derivatives by phi; then by V and h, with their accelerations alone
     f1 = body.weld_mass * a1 - w * w * body.weld_moment
@@ -214,16 +183,11 @@ def inertia_tangent(chain: Any, pose: Any, rates: Any, changes: Any, beta: float
 def energies(chain: Any, pos: Any, q: Any, vel: Any, qv: Any) -> tuple[float, float]:
     """Kinetic energy and gravity (0 with the hoop's centre at the floor)."""
     body, rod, ends = chain
-    offset = body.offset
-    s, c = sin(pos[2]), cos(pos[2])
-    w = vel[2]
-    vx, vy = vel[0] + w, vel[1]
-    dx, dy = vx + offset * w * c, vy - offset * w * s
-    kinetic = (dx * dx + dy * dy + body.disk_inertia * w * w) / 2
-    height = 1 + pos[1]
-    gravity = height + offset * c
+    kinetic, gravity = disk_energies(body, pos, vel)
     if body.ring_mass == 0:
         return kinetic, gravity
+    s, c, w = sin(pos[2]), cos(pos[2]), vel[2]
+    vx, vy, height = vel[0] + w, vel[1], 1 + pos[1]
     c1, c2 = vx * s + vy * c, vx * c - vy * s
     kinetic += body.weld_mass * (vx * vx + vy * vy) / 2 + body.weld_moment * c2 * w + body.weld_inertia * w * w / 2
     more, sum1, sum2 = moving(ends, c1, c2, w, q, qv)
@@ -242,12 +206,10 @@ def energies(chain: Any, pos: Any, q: Any, vel: Any, qv: Any) -> tuple[float, fl
 def momenta(chain: Any, pos: Any, q: Any, error: Any, qe: Any, frame: Any, force: Any) -> None:
     """Mass matrix times a rate: (3,), (n + 2, 3), filled in; rates of the frame are those of (V, h, phi)."""
     body, rod, ends = chain
-    offset = body.offset
     s, c = sin(pos[2]), cos(pos[2])
     ax, ay, alpha = error[0] + error[2], error[1], error[2]
-    dx, dy = ax + offset * alpha * c, ay - offset * alpha * s
-    frame[0], frame[1] = dx, dy
-    frame[2] = dx * (1 + offset * c) - dy * offset * s + body.disk_inertia * alpha
+    frame[0], frame[1], frame[2] = 0.0, 0.0, 0.0
+    disk_force(body, Instant(s, c, 0.0, alpha, ax, ay, 0.0, 0.0), frame)
     for i in range(force.shape[0]):
         for a in range(3):
             force[i, a] = 0.0
