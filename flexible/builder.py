@@ -118,7 +118,7 @@ class Builder:
         potential = float((1 + self.hoop.mass_ratio) * (ends.y_C[1] + self.hoop.e * np.cos(ends.phi[1])))
         self.held = (float(ends.energy[1]) - potential, potential, 0.0, 0.0)
         for phase in motion.phases:
-            if phase.t_start < until:
+            if phase.t_start < until or (phase.kind == Kind.IMPACT and phase.t_start == until):
                 end = min(phase.t_end, until)
                 phi_end = phase.phi_end if end == phase.t_end else float(ends.phi[1])
                 self._add_phase(replace(phase, t_start=self.t + phase.t_start, t_end=self.t + end, phi_end=phi_end))

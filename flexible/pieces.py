@@ -38,8 +38,40 @@ class Piece:
         if self.segment is not None:
             return self.segment.states(t, side)
         assert self.motion is not None
-        states = self.motion.at(np.clip(t - self.origin, 0.0, self.motion.t_end), side)
+        known = np.array([0.0, *(phase.t_end for phase in self.motion.phases), self.motion.t_end])
+        own = on_clock(t, known, self.origin + known, t - self.origin)
+        states = self.motion.at(np.clip(own, 0.0, self.motion.t_end), side)
         return replace(states, t=t, x_C=states.x_C + self.x_C)
+
+    @property
+    def instants(self) -> Array:
+        """Where values may jump, (n,), in the clock of the whole motion."""
+        if self.segment is not None:
+            return self.segment["t"]
+        assert self.motion is not None
+        within = [self.origin + phase.t_end for phase in self.motion.phases if phase.t_end < self.t_end - self.origin]
+        return np.array([self.t_start, *within, self.t_end])
+
+
+def on_clock(t: Array, known: Array, seen: Array, about: Array) -> Array:
+    """Times on one clock that are ``t`` on another, on the side of every known instant on which they are there.
+
+    Parameters
+    ----------
+    t : (n,) array
+        On the other clock.
+    known, seen : (m,) arrays
+        Instants on the one, and what they are on the other: round-off may be between them and a reckoning back.
+    about : (n,) array
+        ``t`` reckoned back.
+    """
+    seen, first = np.unique(seen, return_index=True)
+    known = known[first]
+    after = np.searchsorted(seen, t)
+    at, before = np.minimum(after, len(seen) - 1), np.maximum(after - 1, 0)
+    low = np.where(after > 0, np.nextafter(known[before], np.inf), -np.inf)
+    high = np.where(after < len(seen), np.nextafter(known[at], -np.inf), np.inf)
+    return np.where(seen[at] == t, known[at], np.minimum(np.maximum(about, low), high))
 
 
 @dataclass(frozen=True)
@@ -97,7 +129,10 @@ class Sampler:
     def __call__(self, t: Array, side: Side) -> States:
         if not self.pieces:
             raise ValueError("The motion has no states: it was not started, as its ``ended`` says.")
-        flat = np.atleast_1d(np.asarray(t, dtype=float)).ravel() / self.scene.time_unit
+        unit = self.scene.time_unit
+        asked = np.atleast_1d(np.asarray(t, dtype=float)).ravel()
+        known = np.concatenate([piece.instants for piece in self.pieces])
+        flat = on_clock(asked, known, known * unit, asked / unit)
         starts = np.array([piece.t_start for piece in self.pieces])
         owner = np.clip(np.searchsorted(starts, flat, side) - 1, 0, len(starts) - 1)
         columns = {field.name: np.empty_like(flat) for field in dataclasses.fields(States)}
@@ -106,4 +141,5 @@ class Sampler:
             states = self.pieces[i].states(flat[mask], side)
             for name, column in columns.items():
                 column[mask] = getattr(states, name)
-        return in_units(States(**{name: c.reshape(np.shape(t)) for name, c in columns.items()}), self.scene)
+        found = in_units(States(**{name: c.reshape(np.shape(t)) for name, c in columns.items()}), self.scene)
+        return replace(found, t=asked.reshape(np.shape(t)))  # to the last bit as asked for

@@ -173,8 +173,9 @@ class Motion(summary.Summarised):
         ----------
         t : array_like
         side : "right" or "left"
-            At an instant that two phases share N, F and ``alpha`` jump: "right" gives their values in the later
-            phase, "left" those at the end of the earlier one.
+            At an instant that two phases share N, F and ``alpha`` jump, and over an impact velocities: "right" gives
+            their values in the later phase, "left" those at the end of the earlier one. Where the motion ends with an
+            impact "right" is behind the blow.
 
         Raises
         ------

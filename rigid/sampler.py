@@ -126,8 +126,7 @@ class Sampler:
         Returns
         -------
         two (n,) arrays
-            The last of each is the pulse's own: an impact at the very end lies behind the last instant that can be
-            sampled.
+            The last of each is the pulse's own.
         """
         scene, states = self.scene, without_units(self(t, "right"), self.scene)
         e, unit = scene.hoop.e, (1 + scene.hoop.mass_ratio) * scene.impulse_unit

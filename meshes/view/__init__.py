@@ -5,5 +5,6 @@
 """
 
 from .pictures import Timing, ViewError, animate, picture, render, window
+from .setting import as_told
 
-__all__ = ["Timing", "ViewError", "animate", "picture", "render", "window"]
+__all__ = ["Timing", "ViewError", "animate", "as_told", "picture", "render", "window"]

@@ -31,7 +31,7 @@ from ..draw.shots import Shot, Source
 from ..series import Series
 from ..times import frame_times
 from . import film
-from .setting import Setting, setting
+from .setting import Setting, as_told, setting
 
 Image = NDArray[np.uint8]
 Progress = Callable[[int, int], None]
@@ -154,8 +154,7 @@ def render(
     """The picture of one instant as (height, width, 3) bytes; see :func:`picture`."""
     chosen = setting(thing, field, factor, zoom)
     start, stop = chosen.source.span
-    if time is None:
-        time = _liveliest(chosen.source)
+    time = _liveliest(chosen.source) if time is None else as_told(time, (start, stop))
     if not start <= time <= stop:
         raise ViewError(f"time = {time!r} is not possible: the run goes from {start:g} to {stop:g}.")
     with Camera(chosen, size, oversampling=3) as camera:
@@ -281,7 +280,8 @@ def _instants(source: Source, timing: Timing, usual: int) -> NDArray[np.float64]
     """The instants of an animation, ``usual`` in number unless told."""
     count = usual if timing.frames is None else timing.frames
     first, last = source.span
-    start, stop = first if timing.start is None else timing.start, last if timing.stop is None else timing.stop
+    asked = first if timing.start is None else timing.start, last if timing.stop is None else timing.stop
+    start, stop = (as_told(time, (first, last)) for time in asked)
     if not first <= start < stop <= last:
         raise ViewError(f"{start!r} to {stop!r} is not possible: the run goes from {first:g} to {last:g}.")
     if timing.pace == "time":

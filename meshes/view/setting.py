@@ -34,6 +34,11 @@ class Setting:
     patches: tuple[Shot, ...] = ()  # spread over the run, if they know the contact's pressure
 
 
+def as_told(time: float, span: tuple[float, float]) -> float:
+    """A time, or the end of the span of which it is what is printed, to six digits."""
+    return next((end for end in span if time == float(f"{end:.6g}")), time)
+
+
 def setting(
     thing: Series | Motion | str | Path, field: str | None = None, factor: float | None = None, zoom: float = 1.0
 ) -> Setting:

@@ -6,6 +6,7 @@
                                           phase run to its end, cut at events
 ``flight``, ``impact``, ``pointmass``     off the floor; landings and jams; k = 0 without a hoop's mass
 ``skimming``                              k = 0 under a hoop without a force on it
+``contact``                               what the contact does from a state on: rolls, slips, leaves the floor, jams
 ``choice``                                the phase machine: which phase comes next
 ``instant``                               any instant of a phase, from its start
 ``reasons``                               why a motion ends, in words

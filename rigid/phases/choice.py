@@ -41,13 +41,10 @@ from ..kernel.layout import (  # fmt: skip
     MODE,
     MORE,
     MU,
-    MU_S,
     OMEGA,
-    ONE_MINUS_E,
     P_OPEN,
     P_PEAK,
     PHASE_OVER,
-    PULL,
     PULSE_OVER,
     RECORDS,
     REST,
@@ -80,15 +77,13 @@ from ..kernel.layout import (  # fmt: skip
 from ..record.cycle import NEVER
 from ..record.events import ROOM, begin, turn
 from ..record.pulse import energy, released, watch
-from .flight import fly, lifts, settle, touch_down
+from .contact import contact_kind, slip_kind
+from .flight import fly, settle, touch_down
 from .impact import strike
 from .pointmass import catch, choose_point_mass, roll_point_mass
-from .rolling.closed_form import TIE, rolling_forces
 from .rolling.phase import roll
 from .skimming import skim
 from .slipping.phase import slide
-from .slipping.series import JAM, denominator
-from .slipping.step import is_upright
 
 # phi0 this close to a multiple of pi, relatively, means that multiple: no float but 0 is one itself
 LEVEL = 2.3e-16
@@ -114,33 +109,12 @@ def release_from(state, phi0, omega0, slip0):
 
 
 @kernel
-def choose_slip(par, state, events):
-    """Slip, flight or a jam, where rolling is out of the question."""
-    a, top, omega = state[ANGLE], state[TOP], state[OMEGA]
-    s, c, h, _ = trig(a, top)
-    e, gyr, v = par[ECC], par[GYR], state[SLIP]
-    if lifts(e, omega, s, c):
-        begin(par, state, FLIGHT, events)
-        return
-    pull = state[PULL]
-    state[PULL] = 0.0
-    if v == 0.0 and pull != 0.0:
-        # the end of a rolling knows which way F has pulled; where N is round-off, as when the contact force of a hoop
-        # of next to no inertia has died out, F = N e s/(1 + e c) changes sign with it, and the slip follows sin phi
-        n, _ = rolling_forces(par, omega, a, top)
-        v = -pull if abs(n) > 1e-14 * (1 + omega * omega) else s
-    elif v == 0.0:
-        # acceleration of the contact point under the normal force of a smooth floor
-        arm = par[ONE_MINUS_E] + e * h
-        n = gyr * (1 - e * c * omega * omega) / (gyr + e * e * s * s)
-        if is_upright(s, omega):
-            s = c * omega
-        v = e * s * omega * omega - arm * e * s * n / gyr
-    sign = 1.0 if v > 0 else -1.0
-    if denominator(par, par[MU] * sign, a, top) > JAM * gyr:
-        begin(par, state, SKID if sign > 0 else SPIN, events)
-    else:
+def enter(par, state, kind, events):
+    """Go on with a kind; a jam is an impact yet to come."""
+    if kind == IMPACT:
         state[MODE] = IMPACT
+    else:
+        begin(par, state, kind, events)
 
 
 @kernel
@@ -148,21 +122,13 @@ def choose(par, state, events):
     """What the contact does from here on."""
     if state[LAST_KIND] == CHOOSE:
         released(par, state)
-    a, top, omega = state[ANGLE], state[TOP], state[OMEGA]
-    if state[GAP] > 0.0 or state[UN] > 0.0:
-        begin(par, state, FLIGHT, events)
-        return
-    state[GAP] = 0.0
-    state[UN] = 0.0
-    if par[GYR] == 0.0:
-        choose_point_mass(par, state, events)
-        return
-    if state[SLIP] == 0.0:
-        n, f = rolling_forces(par, omega, a, top)
-        if n >= 0.0 and abs(f) <= par[MU_S] * n * (1 + TIE):
-            begin(par, state, ROLL, events)
+    if not (state[GAP] > 0.0 or state[UN] > 0.0):
+        state[GAP] = 0.0
+        state[UN] = 0.0
+        if par[GYR] == 0.0:
+            choose_point_mass(par, state, events)
             return
-    choose_slip(par, state, events)
+    enter(par, state, contact_kind(par, state), events)
 
 
 @kernel
@@ -260,7 +226,7 @@ def entry_run(par, state, room, events):
             else:
                 code = roll(par, state, work, events)
                 if code == PHASE_OVER:
-                    choose_slip(par, state, events)
+                    enter(par, state, slip_kind(par, state), events)
         elif mode in (SKID, SPIN):
             if not held and settles(par, state):
                 # on a smooth floor too, of a hoop that hops: its landings take energy

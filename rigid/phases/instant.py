@@ -9,15 +9,18 @@ from ..kernel.angle import angle_of, trig
 from ..kernel.compile import kernel
 from ..kernel.layout import (  # fmt: skip
     ANGLE,
+    END,
     FLIGHT,
     GAP,
     GYR,
+    IMPACT,
     MOVING,
     MU,
     OMEGA,
     ORDER,
     PHASE_FROM_TOP,
     PHASE_TOP_SIZE,
+    PULL,
     ROLL,
     S_D,
     S_P,
@@ -39,6 +42,7 @@ from ..kernel.layout import (  # fmt: skip
 )
 from ..kernel.polynomial import polish, value
 from ..record.pulse import energy
+from .contact import contact_kind
 from .flight import fly
 from .pointmass import roll_point_mass_on
 from .rolling.closed_form import rolling_acceleration, rolling_forces
@@ -125,6 +129,45 @@ def sample_slip(par, phases, owner, times, i, out, work, state):
 
 
 @kernel
+def sample_behind_the_blow(par, phases, owner, i, out, state):
+    """Rows of ``out`` from the ``i``-th on for the impact with which a motion ends: what would have come next; the next
+    i.
+    """
+    p = owner[i]
+    for j in range(MOVING):
+        state[j] = phases[(p + 1) * WIDTH + 1 + j]
+    state[PULL] = 0.0
+    kind = contact_kind(par, state) if par[GYR] > 0.0 else ROLL
+    angle, top, omega = state[ANGLE], state[TOP], state[OMEGA]
+    normal, friction, alpha = 0.0, 0.0, 0.0
+    if kind == ROLL and par[GYR] > 0.0:
+        normal, friction = rolling_forces(par, omega, angle, top)
+        alpha = rolling_acceleration(par[ZETA], omega, angle, top)
+    elif kind == ROLL:
+        normal, friction, alpha = point_mass_forces(state)
+    elif kind != FLIGHT and kind != IMPACT:
+        mu_hat = par[MU] if kind == SKID else -par[MU]
+        normal = max(0.0, normal_force(par, mu_hat, omega, angle, top))
+        friction, alpha = -mu_hat * normal, slipping_acceleration(par, mu_hat, normal, angle, top)
+    while i < len(owner) and owner[i] == p:
+        write_state(par, state, normal, friction, alpha, out, i)
+        i += 1
+    return i
+
+
+@kernel
+def point_mass_forces(state):
+    """N, F and phiddot of a point mass on a hoop without mass that rolls."""
+    s, _, h, _ = trig(state[ANGLE], state[TOP])
+    w = state[OMEGA] * state[OMEGA]
+    return (
+        h - 0.5 * (h + w * h),
+        s * (1 - 0.5 * (1 + w)),
+        rolling_acceleration(0.0, state[OMEGA], state[ANGLE], state[TOP]),
+    )
+
+
+@kernel
 def entry_sample(par, phases, owner, times, out, work, state):
     """Rows of ``out`` for increasing ``times``; ``phases`` are records of the event log, of which ``owner`` says by
     number which one each time belongs to.
@@ -133,6 +176,9 @@ def entry_sample(par, phases, owner, times, out, work, state):
     while i < len(times):
         p = owner[i]
         kind = phases[p * WIDTH]
+        if kind == IMPACT and phases[(p + 1) * WIDTH] == END:
+            i = sample_behind_the_blow(par, phases, owner, i, out, state)
+            continue
         for j in range(MOVING):
             state[j] = phases[p * WIDTH + 1 + j]
         start = state[T]
@@ -161,11 +207,7 @@ def entry_sample(par, phases, owner, times, out, work, state):
                 alpha = rolling_acceleration(par[ZETA], state[OMEGA], state[ANGLE], state[TOP])
             elif kind == ROLL:
                 roll_point_mass_on(state, time)
-                s, _, h, _ = trig(state[ANGLE], state[TOP])
-                w = state[OMEGA] * state[OMEGA]
-                normal = h - 0.5 * (h + w * h)
-                friction = s * (1 - 0.5 * (1 + w))
-                alpha = rolling_acceleration(0.0, state[OMEGA], state[ANGLE], state[TOP])
+                normal, friction, alpha = point_mass_forces(state)
             elif kind == FLIGHT:
                 fly(par, state, time)
             elif kind == SKIM:

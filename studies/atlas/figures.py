@@ -186,8 +186,12 @@ def fixed(atlas: Drawn) -> str:
     varied = {"friction.mu", "friction.mu_s"} & set(keys)
     if not varied:
         told.append(rf"$\mu_s = {friction.mu_s:g}$, $\mu = {friction.mu:g}$")
+    elif varied == {"friction.mu_s"} and friction.mu == 0 < friction.mu_s:
+        told.append(r"$\mu = 0$")
     elif len(varied) == 1:
         told.append(rf"$\mu_s/\mu = {friction.mu_s / friction.mu if friction.mu else 1.0:.4g}$")
+    if scene.landing.restitution:
+        told.append(rf"restitution ${scene.landing.restitution:g}$")
     return ", ".join(told)
 
 

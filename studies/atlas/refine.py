@@ -108,7 +108,8 @@ def refined(run: Run, count: int, shade: float, tell: Callable[[float], None] = 
         First pulses at shares 0 to 1 of the way across and up, each (m,).
     count : int
     shade : float
-        How far a value may be off where it is not run, as a share of the range of what was run first.
+        How far a value that is read between others may be off in their middle, where it is run to see it, as a share of
+        the range of what was run first.
     tell : callable
         Told the share that is done.
     """

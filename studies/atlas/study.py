@@ -24,7 +24,8 @@ OVER = (("hoop.k", 0.02, 0.9), ("friction.mu", 0.02, 1.0))
 """Sections 3.1 and 3.2 of the paper in one plane."""
 SIDE = 1024
 SHADE = 1 / 256
-"""How far a value may be off where it lies between hoops that were run: a shade of a picture, of its range."""
+"""How far a value may be off in the middle between hoops that were run, where one is run to see it: a shade of a
+picture, of its range. Beside the middle it may be some half more."""
 
 
 @dataclass(frozen=True, slots=True, repr=False)

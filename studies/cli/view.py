@@ -106,14 +106,20 @@ def view(
 
 def _ensure_frames(series: Series, asked: Mapping[str, float | None]) -> None:
     """Fields may be those of a part of a run: what is asked for must lie in it."""
+    from meshes.view import as_told
+
     first, last = series.times[0], series.times[-1]
     for name, value in asked.items():
-        if value is not None and not first <= value <= last:
-            raise StudyError(f"--{name} {value:g} is not possible: the frames go from {first:g} to {last:g}.")
+        if value is not None and not first <= as_told(value, (first, last)) <= last:
+            raise StudyError(f"--{name} {value:g} is not possible: the frames go from {_told(first)} to {_told(last)}.")
+
+
+def _told(time: float) -> str:
+    return f"{time:.6g}"
 
 
 def _drawn(series: Series, time: float) -> str:
-    return f"{series.times[series.nearest_index(time)]:.6g}"
+    return _told(series.times[series.nearest_index(time)])
 
 
 def _fraction(told: Callable[[float], None], done: int, total: int) -> None:

@@ -75,6 +75,23 @@ def test_the_loss_of_a_landing_is_no_friction_loss():
     assert ledger.friction_loss == pytest.approx(0, abs=1e-12)
 
 
+def test_a_run_that_ends_with_the_blow_that_turns_it_has_its_loss():
+    """The turn is behind the blow: the impact is listed, and what it took is no longer held."""
+    thrown = {
+        "hoop": {"k": 0.23507, "r": 1.05}, "friction": {"mu": 0.19825, "mu_s": 0.22414},
+        "release": {"phi0_deg": -55.0743, "omega0": 1.2452, "slip0": 0.51277},
+        "ring": {"bending_stiffness": 3000.0}, "contact": {"stiffness": 1.7e6, "damping": 0.5},
+        "solve": {"rtol": 1e-3}, "run": {"turns": 1},
+    }  # fmt: skip
+    motion, longer = flexible.simulate(thrown), flexible.simulate({**thrown, "run": {"turns": 2}})
+    ledger, turn = motion.ledger, motion.turns[-1]
+    assert (motion.phases[-1].kind, motion.t_end) == (Kind.IMPACT, turn.t)
+    assert ledger.landing_loss == pytest.approx(longer.ledger.landing_loss, rel=1e-12)
+    assert ledger.landing_loss > 1
+    assert ledger.kinetic + ledger.gravity == pytest.approx(turn.energy, rel=1e-12)
+    assert motion.at(motion.t_end).energy == pytest.approx(turn.energy, rel=1e-12)
+
+
 def test_hand_over_tends_to_zero_with_stiffness():
     """Rigid ring: what comes in is the energy of the patch's springs, N delta with delta like (N/eps)^(2/3)."""
     foundations = 10.0 ** np.array([7, 8, 9, 10])

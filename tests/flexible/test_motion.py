@@ -11,6 +11,7 @@ import rigid
 from flexible.contact.laws.patch import SLIDE_LEFT, SLIDE_RIGHT, STICK, Patch
 from flexible.handover import Pose, equilibrium, hand_over
 from flexible.models.reduced import ReducedHoop
+from flexible.pieces import on_clock
 from flexible.time.adaptive import march, restart
 from flexible.time.events import Ends
 from flexible.time.methods import ESDIRK3, METHODS, TR_BDF2
@@ -172,6 +173,39 @@ def test_units():
     assert q.friction_loss == pytest.approx(p.friction_loss * si.energy_unit, rel=1e-5, abs=1e-9)
     assert b.phases[-1].t_end == pytest.approx(a.phases[-1].t_end * si.time_unit, rel=1e-6)
     assert b.ledger.initial == pytest.approx(a.ledger.initial * si.energy_unit)
+
+
+@pytest.mark.parametrize("R", [0.938, 0.292, 1.585])
+def test_both_sides_of_an_event_are_had_in_any_units(R):
+    """Its instant is told in seconds, and a division back may end on the other side of it."""
+    scene = rigid.Scene(
+        rigid.Hoop(k=0.33, r=1.02, mass_ratio=0.05), rigid.Friction(0.3, 0.25), rigid.Release(phi0_deg=20.0)
+    ).replace(ring={"bending_stiffness": 4777.0}, contact={"stiffness": 3.6e6, "damping": 0.0}, run={"turns": 1})
+    scene = scene.replace(solve={"rtol": 1e-3})
+    plain = flexible.simulate(scene)
+    heavy = flexible.simulate(scene.replace(hoop={"R": R, "m": 0.155, "g": 1.62}))
+    here, there = ([phase.t_start for phase in motion.phases[1:]] for motion in (plain, heavy))
+    assert len(here) == len(there) >= 3
+    forces = {}
+    for side in ("left", "right"):
+        told = heavy.at(there, side)
+        assert list(told.t) == there
+        forces[side] = plain.at(here, side).friction_force
+        assert told.friction_force / (0.155 * 1.62) == pytest.approx(forces[side], rel=1e-9, abs=1e-9)
+    assert np.abs(forces["left"] - forces["right"]).max() > 1e-3
+    t = np.linspace(0, heavy.t_end, 1001)
+    assert np.array_equal(heavy.at(t).t, t)
+
+
+def test_instants_keep_their_side_on_another_clock():
+    """Whatever the reckoning back says: what is known is met to the last bit, and nothing passes it."""
+    known = np.array([0.0, 0.1, 0.1, 0.7, 1.3])
+    seen = known * 0.3333
+    t = np.sort(np.concatenate([seen, np.nextafter(seen, 9), np.nextafter(seen, -9)]))
+    for about in (t / 0.3333, t / 0.3333 * (1 + 1e-15), t / 0.3333 * (1 - 1e-15)):
+        own = on_clock(t, known, seen, about)
+        for a, b in zip(known, seen, strict=True):
+            assert np.array_equal(np.sign(own - a), np.sign(t - b))
 
 
 def test_hand_over_does_not_ring():

@@ -332,6 +332,18 @@ def test_the_title_says_the_units_of_a_throw():
     assert r"v_0 = 2\,\sqrt{gR}$" in told
 
 
+def test_the_title_says_the_friction_that_was_run():
+    """Of a scene that slips without friction mu = 0 throughout; and what a landing gives back."""
+    smooth = load_scene("paper-3.1").replace(friction={"mu_s": 0.4, "mu": 0.0}, landing={"restitution": 0.5})
+    over = {"friction.mu_s": (0.1, 1.0), "hoop.k": (0.05, 0.5)}
+    told = fixed(Drawn(plane(smooth, over), None, ()))
+    assert r"$\mu = 0$" in told
+    assert r"\mu_s/\mu" not in told
+    assert "restitution $0.5$" in told
+    told = fixed(Drawn(plane(smooth.replace(friction={"mu": 0.3}), over), None, ()))
+    assert r"\mu_s/\mu = 1.333" in told
+
+
 def test_sequences_too_small_for_the_table_are_counted(drawn: Atlas):
     tiny = [Region(10**6 + n, "spin", share) for n, share in enumerate((1e-5, 1e-6))]
     sheet, *said = atlas_sheets(replace(drawn, regions=(*drawn.regions, *tiny)))

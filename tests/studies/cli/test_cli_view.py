@@ -8,7 +8,9 @@ from command_line import is_one_sentence, process
 
 from meshes import read
 from meshes.draw.display import renderer_problem
+from studies import StudyError
 from studies.cli import hoop as cli
+from studies.cli.view import _ensure_frames
 
 SCENE = """\
 [hoop]
@@ -78,6 +80,18 @@ def test_view_draws_a_picture_and_an_animation(hoop, run, tmp_path):
     assert hoop("view", run, "--gif", gif, "--frames", 3, "--fps", 5, "--pace", "time", "--factor", 100) == (0, "", "")
     with Image.open(gif) as image:
         assert image.n_frames == 3
+
+
+@pytest.mark.parametrize("number", [0, -1])
+def test_the_ends_that_are_told_are_taken(run, number):
+    """The frames go from 5.81573, it said, and 5.81573 was refused: they begin some 1e-6 later."""
+    series = read(run)
+    end = series.times[number]
+    for digits in (float(f"{end:.6g}"), end):
+        _ensure_frames(series, {"time": digits})
+    beyond = float(f"{end:.6g}") + (1e-4 if number else -1e-4)
+    with pytest.raises(StudyError, match="the frames go from"):
+        _ensure_frames(series, {"start": beyond})
 
 
 @pytest.mark.parametrize(
