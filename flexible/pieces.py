@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -81,6 +82,10 @@ class Sampler:
     pieces: tuple[Piece, ...]
     scene: Scene
 
+    @cached_property
+    def _instants(self) -> Array:
+        return np.concatenate([piece.instants for piece in self.pieces])
+
     @property
     def step_times(self) -> Array:
         """Times of all records of the flexible segments, (n,), in the scene's unit; those of events and of hand-overs,
@@ -131,8 +136,7 @@ class Sampler:
             raise ValueError("The motion has no states: it was not started, as its ``ended`` says.")
         unit = self.scene.time_unit
         asked = np.atleast_1d(np.asarray(t, dtype=float)).ravel()
-        known = np.concatenate([piece.instants for piece in self.pieces])
-        flat = on_clock(asked, known, known * unit, asked / unit)
+        flat = asked if unit == 1 else on_clock(asked, self._instants, self._instants * unit, asked / unit)
         starts = np.array([piece.t_start for piece in self.pieces])
         owner = np.clip(np.searchsorted(starts, flat, side) - 1, 0, len(starts) - 1)
         columns = {field.name: np.empty_like(flat) for field in dataclasses.fields(States)}
