@@ -40,7 +40,7 @@ class Piece:
             return self.segment.states(t, side)
         assert self.motion is not None
         known = np.array([0.0, *(phase.t_end for phase in self.motion.phases), self.motion.t_end])
-        own = on_clock(t, known, self.origin + known, t - self.origin)
+        own = on_clock(t, known, self.origin + known, t - self.origin, side)
         states = self.motion.at(np.clip(own, 0.0, self.motion.t_end), side)
         return replace(states, t=t, x_C=states.x_C + self.x_C)
 
@@ -54,7 +54,7 @@ class Piece:
         return np.array([self.t_start, *within, self.t_end])
 
 
-def on_clock(t: Array, known: Array, seen: Array, about: Array) -> Array:
+def on_clock(t: Array, known: Array, seen: Array, about: Array, side: Side) -> Array:
     """Times on one clock that are ``t`` on another, on the side of every known instant on which they are there.
 
     Parameters
@@ -65,14 +65,17 @@ def on_clock(t: Array, known: Array, seen: Array, about: Array) -> Array:
         Instants on the one, and what they are on the other: round-off may be between them and a reckoning back.
     about : (n,) array
         ``t`` reckoned back.
+    side : "right" or "left"
+        Of instants that are one on the other clock alone the last, or the first.
     """
-    seen, first = np.unique(seen, return_index=True)
-    known = known[first]
-    after = np.searchsorted(seen, t)
-    at, before = np.minimum(after, len(seen) - 1), np.maximum(after - 1, 0)
-    low = np.where(after > 0, np.nextafter(known[before], np.inf), -np.inf)
-    high = np.where(after < len(seen), np.nextafter(known[at], -np.inf), np.inf)
-    return np.where(seen[at] == t, known[at], np.minimum(np.maximum(about, low), high))
+    order = np.argsort(known, kind="stable")
+    known, seen = known[order], seen[order]
+    first, behind = np.searchsorted(seen, t, "left"), np.searchsorted(seen, t, "right")
+    last = len(seen) - 1
+    low = np.where(first > 0, np.nextafter(known[np.maximum(first - 1, 0)], np.inf), -np.inf)
+    high = np.where(behind <= last, np.nextafter(known[np.minimum(behind, last)], -np.inf), np.inf)
+    met = known[np.clip(first if side == "left" else behind - 1, 0, last)]
+    return np.where(behind > first, met, np.minimum(np.maximum(about, low), high))
 
 
 @dataclass(frozen=True)
@@ -136,7 +139,7 @@ class Sampler:
             raise ValueError("The motion has no states: it was not started, as its ``ended`` says.")
         unit = self.scene.time_unit
         asked = np.atleast_1d(np.asarray(t, dtype=float)).ravel()
-        flat = asked if unit == 1 else on_clock(asked, self._instants, self._instants * unit, asked / unit)
+        flat = asked if unit == 1 else on_clock(asked, self._instants, self._instants * unit, asked / unit, side)
         starts = np.array([piece.t_start for piece in self.pieces])
         owner = np.clip(np.searchsorted(starts, flat, side) - 1, 0, len(starts) - 1)
         columns = {field.name: np.empty_like(flat) for field in dataclasses.fields(States)}

@@ -164,7 +164,7 @@ class Solve:
         Whether the flexible hoop begins sagged in quasi-static equilibrium, or undeformed and touching the floor.
     rtol : float
         Tolerance on the impulses, over M sqrt(g R) with M the mass of disk and hoop, about; of a patch that sticks
-        while it or a ring with mass vibrates, by which it breaks, they may be off by several times that, up to twenty
+        while it or a ring with mass vibrates, by which it breaks, they may be off by several times that, some twenty
         at 1e-5.
     elements : int or None
         Elements around the ring; by default 240, and more where ``rtol`` asks for it: with a wall of 2 % 463 at 1e-5

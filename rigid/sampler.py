@@ -98,7 +98,7 @@ class Sampler:
         once = np.maximum(once, starts[owner])
         within = np.argsort(once, kind="stable")
         rows = np.empty((len(told), instant.COLUMNS))
-        rows[within] = self._rows(once[within], owner[within])
+        rows[within] = self._rows(once[within], owner[within], side)
         if fold is not None:
             rows[:, 0] += again * 2 * pi * fold.whole
             rows[:, 2] += again * fold.way
@@ -137,18 +137,22 @@ class Sampler:
         normal[-1], friction[-1] = pulse.normal_impulse, pulse.friction_impulse
         return normal, friction
 
-    def _rows(self, times: Array, owner: NDArray[np.int64]) -> Array:
+    def _rows(self, times: Array, owner: NDArray[np.int64], side: Side) -> Array:
         """A row of the kernel's columns for each time, in the phase of the number ``owner``."""
-        width = instant.COLUMNS
+        width, flat = instant.COLUMNS, self._flat
+        if side == "left" and len(flat) == 2 * at.WIDTH:
+            # of a release in a jam that turns the hoop and so ends the motion: what was before the blow
+            flat = [*flat[: at.WIDTH], float(at.CHOOSE), *flat[at.WIDTH + 1 :]]
         constants = parameters(self.scene)
         if patience.left(len(times)) > 0:
             patience.spend(instants=len(times))
             out: Any = [0.0] * (len(times) * width)
             work: Any = workspace()[0]
             state = [0.0] * at.STATE
-            instant.entry_sample(constants, self._flat, owner.tolist(), times.tolist(), out, work, state)
+            instant.entry_sample(constants, flat, owner.tolist(), times.tolist(), out, work, state)
             return np.array(out, dtype=float).reshape(len(times), width)
         out = np.zeros(len(times) * width)
         work = np.zeros((at.SERIES, at.ORDER + 1))
-        compiled()["entry_sample"](np.array(constants), self._table, owner, times, out, work, np.zeros(at.STATE))
+        table = self._table if flat is self._flat else np.array(flat)
+        compiled()["entry_sample"](np.array(constants), table, owner, times, out, work, np.zeros(at.STATE))
         return out.reshape(len(times), width)

@@ -20,7 +20,7 @@ import click
 
 ROOT = Path(__file__).parent.parent
 PACKAGES = ("rigid", "meshes", "flexible", "studies")
-THEORY = re.compile(r"\]\(([\w./]*)README\.md(#[^)]*)?\)")
+PAGE = re.compile(r"\]\(([\w./]*)(README|CHANGELOG)\.md(#[^)]*)?\)")
 FILE = re.compile(r"\]\(([^):#]+)\)")
 PICTURES = re.compile(r"(\]\(|src=\")(?:\.\./)*\.images/")
 FORMULA_OR_CODE = re.compile(
@@ -46,12 +46,13 @@ def text_of(path: Path, formulas: dict[str, str]) -> str:
         return f"\n\n{name}\n\n" if found["display"] else (found["indent"] or "") + name
 
     def link(found: re.Match[str]) -> str:
-        """To the page of the package that has this theory, at the title of it where it is a room's."""
-        theory = (path.parent / found[1] / "README.md").resolve()
-        page, *rooms = theory.relative_to(ROOT).parts[:-1] or ("index",)
-        return f"]({page}.html{found[2] or (f'#{title_of(theory)}' if rooms else '')})"
+        """To the page of the package that has this text, at the title of it where it is not the package's own."""
+        target = (path.parent / found[1] / f"{found[2]}.md").resolve()
+        page, *rooms = target.relative_to(ROOT).parts[:-1] or ("index",)
+        own = not rooms and found[2] == "README"
+        return f"]({page}.html{found[3] or ('' if own else f'#{title_of(target)}')})"
 
-    text = THEORY.sub(link, path.read_text(encoding="utf-8"))
+    text = PAGE.sub(link, path.read_text(encoding="utf-8"))
     return FORMULA_OR_CODE.sub(word, PICTURES.sub(r"\1images/", text))
 
 
@@ -62,8 +63,9 @@ def title_of(path: Path) -> str:
 
 
 def theories(package: str) -> list[Path]:
-    """The READMEs of a package and of its rooms, its own first."""
-    return sorted((ROOT / package).rglob("README.md"), key=lambda path: len(path.parts))
+    """The READMEs of a package and of its rooms, its own first, and its log of changes."""
+    pages = sorted((ROOT / package).rglob("README.md"), key=lambda path: len(path.parts))
+    return [*pages, *(ROOT / package).glob("CHANGELOG.md")]
 
 
 def face_of(docstring: str) -> str:
@@ -113,7 +115,7 @@ def build(out: Path) -> Path:
         html = page.read_text(encoding="utf-8")
         page.write_text(re.sub(r"formula\d+x", lambda name: formulas[name[0]], html), encoding="utf-8")
     for file in {ROOT / name for name in FILE.findall(front.__doc__ or "")}:
-        if file.is_file():  # notebooks, the changelog
+        if file.is_file():  # notebooks
             target = out / file.relative_to(ROOT)
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(file, target)

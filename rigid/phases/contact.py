@@ -33,7 +33,7 @@ from .slipping.step import is_upright
 
 @kernel
 def slip_kind(par, state):
-    """Slip, flight, or IMPACT in a jam, where rolling is out of the question."""
+    """Slip, flight, or IMPACT in a jam, where rolling is out of the question; what F has pulled before is used up."""
     a, top, omega = state[ANGLE], state[TOP], state[OMEGA]
     s, c, h, _ = trig(a, top)
     e, gyr, v = par[ECC], par[GYR], state[SLIP]
@@ -61,7 +61,7 @@ def slip_kind(par, state):
 
 @kernel
 def contact_kind(par, state):
-    """What it does from here on, IMPACT in a jam."""
+    """What it does from here on, IMPACT in a jam; as :func:`slip_kind`."""
     if state[GAP] > 0.0 or state[UN] > 0.0:
         return FLIGHT
     if state[SLIP] == 0.0:

@@ -44,7 +44,7 @@ from ..kernel.polynomial import polish, value
 from ..record.pulse import energy
 from .contact import contact_kind
 from .flight import fly
-from .pointmass import roll_point_mass_on
+from .pointmass import point_mass_kind, roll_point_mass_on
 from .rolling.closed_form import rolling_acceleration, rolling_forces
 from .rolling.phase import roll_on
 from .skimming import drop, skimming_acceleration
@@ -137,7 +137,7 @@ def sample_behind_the_blow(par, phases, owner, i, out, state):
     for j in range(MOVING):
         state[j] = phases[(p + 1) * WIDTH + 1 + j]
     state[PULL] = 0.0
-    kind = contact_kind(par, state) if par[GYR] > 0.0 else ROLL
+    kind = contact_kind(par, state) if par[GYR] > 0.0 else point_mass_kind(par, state)
     angle, top, omega = state[ANGLE], state[TOP], state[OMEGA]
     normal, friction, alpha = 0.0, 0.0, 0.0
     if kind == ROLL and par[GYR] > 0.0:
@@ -145,6 +145,8 @@ def sample_behind_the_blow(par, phases, owner, i, out, state):
         alpha = rolling_acceleration(par[ZETA], omega, angle, top)
     elif kind == ROLL:
         normal, friction, alpha = point_mass_forces(state)
+    elif kind == SKIM:
+        alpha = skimming_acceleration(omega, angle, top)
     elif kind != FLIGHT and kind != IMPACT:
         mu_hat = par[MU] if kind == SKID else -par[MU]
         normal = max(0.0, normal_force(par, mu_hat, omega, angle, top))

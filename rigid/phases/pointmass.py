@@ -63,10 +63,15 @@ def choose_point_mass(par, state, events):
             catch(state)  # without a blow
     if state[SLIP] * s < 0.0 and abs(s) < par[MU] * h:
         state[MODE] = IMPACT
-    elif state[SLIP] == 0.0 and holds(par, s, h, state[OMEGA]):
-        begin(par, state, ROLL, events)
     else:
-        begin(par, state, SKIM, events)
+        begin(par, state, point_mass_kind(par, state), events)
+
+
+@kernel
+def point_mass_kind(par, state):
+    """What a hoop does that friction has not to catch first."""
+    s, _, h, _ = trig(state[ANGLE], state[TOP])
+    return ROLL if state[SLIP] == 0.0 and holds(par, s, h, state[OMEGA]) else SKIM
 
 
 @kernel

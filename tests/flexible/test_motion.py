@@ -203,9 +203,14 @@ def test_instants_keep_their_side_on_another_clock():
     seen = known * 0.3333
     t = np.sort(np.concatenate([seen, np.nextafter(seen, 9), np.nextafter(seen, -9)]))
     for about in (t / 0.3333, t / 0.3333 * (1 + 1e-15), t / 0.3333 * (1 - 1e-15)):
-        own = on_clock(t, known, seen, about)
-        for a, b in zip(known, seen, strict=True):
-            assert np.array_equal(np.sign(own - a), np.sign(t - b))
+        for side in ("left", "right"):
+            own = on_clock(t, known, seen, about, side)
+            for a, b in zip(known, seen, strict=True):
+                assert np.array_equal(np.sign(own - a), np.sign(t - b))
+    two = np.array([0.0, 1.0, 1.0 + 4e-16])
+    at = np.array([51.0])
+    assert 50 + two[1] == 50 + two[2] == at
+    assert [on_clock(at, two, 50 + two, at - 50, side)[0] for side in ("left", "right")] == [two[1], two[2]]
 
 
 def test_hand_over_does_not_ring():

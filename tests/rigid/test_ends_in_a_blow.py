@@ -31,6 +31,41 @@ def same(one: States, other: States) -> None:
         np.testing.assert_allclose(getattr(one, field.name), getattr(other, field.name), rtol=1e-12, atol=1e-12)
 
 
+def thrown_point_mass(number: int, turns: int = 1) -> Scene:
+    mu, more, phi0, omega0, slip0 = np.random.default_rng(number).uniform([0.1, 1, -80, -1, 0.5], [2, 1.4, 80, 1, 4])
+    return scene_from_dict({
+        "hoop": {"k": 0.0}, "friction": {"mu": mu, "mu_s": more * mu}, "run": {"turns": turns},
+        "release": {"phi0_deg": phi0, "omega0": omega0, "slip0": slip0},
+    })  # fmt: skip
+
+
+def test_a_point_mass_that_is_caught_and_turned_rolls_or_skims():
+    kinds = set()
+    for number in range(400):
+        motion = simulate(thrown_point_mass(number))
+        if motion.phases[-1].kind == Kind.IMPACT:
+            longer = simulate(thrown_point_mass(number, 2))
+            for side in ("right", "left"):
+                same(motion.at(motion.t_end, side), longer.at(motion.t_end, side))
+            kinds.add(longer.phase_at(motion.t_end).kind)
+    assert kinds >= {Kind.ROLL, Kind.SKIM}  # and some longer runs that end there as well
+
+
+@pytest.mark.parametrize("number", range(3))
+def test_a_release_in_a_jam_that_turns_the_hoop_has_both_sides(number):
+    """The blow is all of the motion."""
+    scene = scene_from_dict({
+        "hoop": {"k": 0.106}, "friction": {"mu": 1.82, "mu_s": 2.0}, "run": {"turns": 1},
+        "release": {"phi0_deg": 130.0 + number, "omega0": 0.28, "slip0": -2.36},
+    })  # fmt: skip
+    motion, longer = simulate(scene), simulate(scene.replace(run={"turns": 2}))
+    assert [phase.kind for phase in motion.phases] == [Kind.IMPACT]
+    for side in ("right", "left"):
+        same(motion.at(0.0, side), longer.at(0.0, side))
+    assert motion.at(0.0, "left").omega == pytest.approx(0.28)
+    assert motion.at(0.0).omega < 0
+
+
 @pytest.mark.parametrize("restitution", [0.0, 0.4])
 def test_behind_the_last_blow_is_what_a_longer_run_goes_on_with(restitution):
     """State, forces and energy; before it what it was in flight."""

@@ -45,8 +45,8 @@ class HopMap:
     Raises
     ------
     SceneError
-        A second key of which a roll replaces what it says, a value that no scene can have, no value at all, or
-        ``bisections`` that are no whole number from 0 to 30.
+        A second key of which a roll replaces what it says or whose values are words, a value that no scene can have, no
+        value at all, or ``bisections`` that are no whole number from 0 to 30.
     StudyError
         A hoop that is not released at rest, or stands still.
     """
@@ -76,6 +76,10 @@ class HopMap:
         for name in ("stiffness", "values"):
             if np.ndim(getattr(self, name)) != 1 or len(getattr(self, name)) == 0:
                 raise SceneError(f"{name} = {shown(getattr(self, name))} is not possible: it lists what is rolled.")
+        if any(isinstance(value, str) for value in self.values):
+            raise SceneError(
+                f"{self.second} cannot be varied in a hop study: its values are words, and a map has numbers."
+            )
         rings = [scene.replace(ring={"bending_stiffness": value}).ring for value in self.stiffness]
         object.__setattr__(self, "stiffness", tuple(sorted({ring.bending_stiffness for ring in rings})))
         object.__setattr__(self, "values", tuple(sorted(set(self.values))))

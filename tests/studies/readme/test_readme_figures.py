@@ -31,6 +31,17 @@ def test_every_number_is_found_in_the_readme_and_can_be_read():
         assert stated.agrees(written, readme.plain_number(written))
 
 
+def test_what_the_readme_takes_from_the_benchmarks_page_is_there():
+    """Times and errors of its short table, to the digit, and the scenes of the quick stress test."""
+    readme, page = ((again.ROOT / name).read_text(encoding="utf-8") for name in again.PAGES)
+    section = readme[readme.index("## Speed and accuracy") : readme.index("## How it is built")]
+    rows = "\n".join(line for line in section.splitlines() if line.startswith("| "))
+    told = re.findall(r"[\d.]+ (?:ms|s|%)(?= |;|,)|[\d.]+·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", rows)
+    assert len(told) > 15
+    assert [number for number in told if not re.search(rf"(?<![\d.]){re.escape(number)}", page)] == []
+    assert re.findall(r"runs (\d+)", section) == re.findall(r"`--quick` runs (\d+)", page)
+
+
 @pytest.mark.parametrize(
     ("written", "value", "unit"),
     [("0.1701", 0.1701, 1e-4), ("5·10⁻⁵", 5e-5, 1e-5), ("10⁻⁴", 1e-4, 1.0), ("−0.93", -0.93, 1e-2), ("190", 190, 1)],
