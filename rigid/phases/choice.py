@@ -1,11 +1,9 @@
 """The phase machine: which phase comes next, and each phase run to its end.
 
 ``entry_run`` advances a state until its event log is full, its allowance of work is spent, or the motion is over;
-it can be called again to go on. Rules where Coulomb's law leaves a choice (derived in README.md of this package):
+it can be called again to go on. Rules where Coulomb's law leaves a choice (derived in README.md of this package; what
+a contact point at rest does is in :mod:`rigid.phases.contact`):
 
-* contact point at rest: roll if |F| <= mu_s N with N >= 0; else the slip starts in the direction in which the
-  contact point would move without friction. (That slip never lies in Painlevé's D < 0: if it did, rolling
-  would be admissible.)
 * slipping with D > 0: contact while 1 - e c phidot^2 > 0, else flight.
 * slipping towards D -> 0+ with N -> infinity, a jam: when D is round-off of its terms the configuration is frozen
   and the slip goes on to its stop, an impact without collision. It may end with 1 - e c phidot^2 < 0, and phidot

@@ -1,5 +1,10 @@
-"""What the contact of a hoop with inertia does from a state on; rules where Coulomb's law leaves a choice are in
-:mod:`rigid.phases.choice`."""
+"""What the contact of a hoop with inertia does from a state on.
+
+A contact point at rest rolls if |F| <= mu_s N with N >= 0; else the slip starts in the direction in which the contact
+point would move without friction. (That slip never lies in Painlevé's D < 0: if it did, rolling would be admissible.)
+One that moves is carried on, lifts off or jams; the rules for that are with the phase machine,
+:mod:`rigid.phases.choice`.
+"""
 
 # mypy: allow-untyped-defs
 from __future__ import annotations

@@ -78,6 +78,25 @@ def write_state(par, state, normal, friction, alpha, out, i):
 
 
 @kernel
+def forces(par, state, kind):
+    """N, F and phiddot in a phase of this kind."""
+    angle, top, omega = state[ANGLE], state[TOP], state[OMEGA]
+    if kind == ROLL and par[GYR] > 0.0:
+        normal, friction = rolling_forces(par, omega, angle, top)
+        return normal, friction, rolling_acceleration(par[ZETA], omega, angle, top)
+    if kind == ROLL:
+        s, _, h, _ = trig(angle, top)
+        w = omega * omega
+        return h - 0.5 * (h + w * h), s * (1 - 0.5 * (1 + w)), rolling_acceleration(0.0, omega, angle, top)
+    if kind in (SKID, SPIN):
+        mu_hat = par[MU] if kind == SKID else -par[MU]
+        # a tiny disk may lift off between two instants that the clock can tell: a contact never pulls
+        normal = max(0.0, normal_force(par, mu_hat, omega, angle, top))
+        return normal, -mu_hat * normal, slipping_acceleration(par, mu_hat, normal, angle, top)
+    return 0.0, 0.0, skimming_acceleration(omega, angle, top) if kind == SKIM else 0.0
+
+
+@kernel
 def sample_slip(par, phases, owner, times, i, out, work, state):
     """Rows of ``out`` from the ``i``-th on for the times in one slip, from whose beginning ``state`` is; the next i."""
     p, start = owner[i], state[T]
@@ -116,10 +135,8 @@ def sample_slip(par, phases, owner, times, i, out, work, state):
                 x = polish(tt, ORDER, 0.0, length) if value(tt, ORDER, length) > 0.0 else length
                 tt[0] = 0.0
                 carry(par, state, mu_hat, work, x)
-            # a tiny disk may lift off between two instants that the clock can tell: a contact never pulls
-            normal = max(0.0, normal_force(par, mu_hat, state[OMEGA], state[ANGLE], state[TOP]))
-            alpha = slipping_acceleration(par, mu_hat, normal, state[ANGLE], state[TOP])
-            write_state(par, state, normal, -mu_hat * normal, alpha, out, i)
+            normal, friction, alpha = forces(par, state, kind)
+            write_state(par, state, normal, friction, alpha, out, i)
             state[T_SINCE] = before
             state[ANGLE], state[TOP], state[WHOLE], state[OMEGA], state[SLIP], state[X_C], state[XDOT] = keep
             i += 1
@@ -138,35 +155,11 @@ def sample_behind_the_blow(par, phases, owner, i, out, state):
         state[j] = phases[(p + 1) * WIDTH + 1 + j]
     state[PULL] = 0.0
     kind = contact_kind(par, state) if par[GYR] > 0.0 else point_mass_kind(par, state)
-    angle, top, omega = state[ANGLE], state[TOP], state[OMEGA]
-    normal, friction, alpha = 0.0, 0.0, 0.0
-    if kind == ROLL and par[GYR] > 0.0:
-        normal, friction = rolling_forces(par, omega, angle, top)
-        alpha = rolling_acceleration(par[ZETA], omega, angle, top)
-    elif kind == ROLL:
-        normal, friction, alpha = point_mass_forces(state)
-    elif kind == SKIM:
-        alpha = skimming_acceleration(omega, angle, top)
-    elif kind != FLIGHT and kind != IMPACT:
-        mu_hat = par[MU] if kind == SKID else -par[MU]
-        normal = max(0.0, normal_force(par, mu_hat, omega, angle, top))
-        friction, alpha = -mu_hat * normal, slipping_acceleration(par, mu_hat, normal, angle, top)
+    normal, friction, alpha = forces(par, state, kind)
     while i < len(owner) and owner[i] == p:
         write_state(par, state, normal, friction, alpha, out, i)
         i += 1
     return i
-
-
-@kernel
-def point_mass_forces(state):
-    """N, F and phiddot of a point mass on a hoop without mass that rolls."""
-    s, _, h, _ = trig(state[ANGLE], state[TOP])
-    w = state[OMEGA] * state[OMEGA]
-    return (
-        h - 0.5 * (h + w * h),
-        s * (1 - 0.5 * (1 + w)),
-        rolling_acceleration(0.0, state[OMEGA], state[ANGLE], state[TOP]),
-    )
 
 
 @kernel
@@ -191,12 +184,8 @@ def entry_sample(par, phases, owner, times, out, work, state):
             for j in range(MOVING):
                 state[j] = phases[p * WIDTH + 1 + j]
             time = times[i] - start
-            normal = 0.0
-            friction = 0.0
-            alpha = 0.0
             if kind in (SKID, SPIN):
                 carry_steadily(state, time)
-                normal = 1.0
             elif kind == ROLL and par[GYR] > 0.0:
                 behind = (p + 1) * WIDTH + 1
                 if times[i] >= phases[behind + T] * (1 - LAST_DIGITS):
@@ -205,15 +194,13 @@ def entry_sample(par, phases, owner, times, out, work, state):
                         state[j] = phases[behind + j]
                 else:
                     roll_on(par, state, time)
-                normal, friction = rolling_forces(par, state[OMEGA], state[ANGLE], state[TOP])
-                alpha = rolling_acceleration(par[ZETA], state[OMEGA], state[ANGLE], state[TOP])
             elif kind == ROLL:
                 roll_point_mass_on(state, time)
-                normal, friction, alpha = point_mass_forces(state)
             elif kind == FLIGHT:
                 fly(par, state, time)
             elif kind == SKIM:
                 drop(state, time)
-                alpha = skimming_acceleration(state[OMEGA], state[ANGLE], state[TOP])
+            # a slip that is steady has the weight of the hoop on the floor, and nothing turns it
+            normal, friction, alpha = (1.0, 0.0, 0.0) if kind in (SKID, SPIN) else forces(par, state, kind)
             write_state(par, state, normal, friction, alpha, out, i)
             i += 1

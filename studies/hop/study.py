@@ -65,9 +65,8 @@ class HopStudy(summary.Summarised):
         pure = dict.fromkeys((*_COLUMNS[:-1], *_THRESHOLD, "rtol", "hops"), "1")
         energies = unit_names(self.rolled, HopEnergies)
         parts = {f"energies.{name}": unit for name, unit in energies.items()}
-        second = {} if self.second is None else units_of_keys([self.second], self.rolled)
         return {
-            **second,
+            **units_of_keys(self._keys, self.rolled),
             **pure,
             **unit_names(self.rolled, Flight, Scales),
             "energy": energies["stored_in_ring"],
@@ -80,17 +79,18 @@ class HopStudy(summary.Summarised):
 
         rows: list[dict[str, Any]] = []
         for told in self._told():
-            kept = {key: told[key] for key in ([] if self.second is None else [self.second]) + list(_COLUMNS)}
+            kept = {key: told[key] for key in (*self._keys, *_COLUMNS)}
             rows += [kept | {key: hop[key] for key in (*TOLD, "energy")} for hop in told["hops"]] or [kept]
         return pandas.DataFrame(rows)
 
+    @property
+    def _keys(self) -> tuple[str, ...]:
+        """Those besides the bending stiffness."""
+        return () if self.second is None else (self.second,)
+
     def _told(self) -> list[dict[str, Any]]:
         """Each roll as JSON prints it, with its value of the second key."""
-        return [
-            ({} if self.second is None else {self.second: line.value}) | case.to_dict()
-            for line in self.lines
-            for case in _rolls(line)
-        ]
+        return [dict.fromkeys(self._keys, line.value) | case.to_dict() for line in self.lines for case in _rolls(line)]
 
     def plot(self) -> Figure:
         """The map where there is a second key, else where each hop begins."""
@@ -120,8 +120,7 @@ class HopStudy(summary.Summarised):
             for line in self.lines:
                 if where not in line.windows:
                     continue
-                row: dict[str, Any] = {} if self.second is None else {self.second: line.value}
-                row |= line.threshold(where).to_dict()
+                row: dict[str, Any] = dict.fromkeys(self._keys, line.value) | line.threshold(where).to_dict()
                 row["phi"] = line.angles(where)
                 if where == "anywhere":
                     row["foreseen"] = foreseen(line.scene)
@@ -134,7 +133,7 @@ class HopStudy(summary.Summarised):
         return {
             "scene": scene_to_dict(self.scene),
             "as_run": scene_to_dict(self.rolled),
-            "over": [STIFFNESS, *([self.second] if self.second else [])],
+            "over": [STIFFNESS, *self._keys],
             "rtol": self.lines[0].scene.solve.rtol,
             "cases": self._told(),
             "threshold": threshold,
