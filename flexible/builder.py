@@ -131,7 +131,7 @@ class Builder:
     def _add_flexible(self, marched: Marched, rise: float) -> Segment:
         """A flexible segment that begins now, with the mass centre rising so fast."""
         records = marched.records
-        segment = Segment(records, self.hoop, rise)
+        segment = Segment(records, self.scene, rise)
         held = segment.held()
         self._meet(float(held[0]))
         last = records[-1]

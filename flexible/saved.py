@@ -36,8 +36,8 @@ def load_motion(path: str | PathLike[str]) -> Motion:
 
 def _flexible(stored: Stored, scene: Scene) -> Motion:
     told = stored.told
-    hoop = scene.to_dimensionless().hoop
-    pieces = tuple(_piece(number, piece, stored, hoop) for number, piece in enumerate(told["pieces"]))
+    plain = scene.to_dimensionless()
+    pieces = tuple(_piece(number, piece, stored, plain) for number, piece in enumerate(told["pieces"]))
     sample = Sampler(pieces, scene)
     return FlexibleMotion(
         scene=scene,
@@ -55,11 +55,11 @@ def _flexible(stored: Stored, scene: Scene) -> Motion:
     )
 
 
-def _piece(number: int, told: dict[str, Any], stored: Stored, hoop: Any) -> Piece:
+def _piece(number: int, told: dict[str, Any], stored: Stored, scene: Scene) -> Piece:
     arrays = _named(f"{number}.", stored)
     where = {name: told[name] for name in ("t_start", "t_end", "origin", "x_C")}
     if "columns" in told:
-        return Piece(**where, segment=Segment.of({name: arrays[name] for name in told["columns"]}, hoop, told["rise"]))
+        return Piece(**where, segment=Segment.of({name: arrays[name] for name in told["columns"]}, scene, told["rise"]))
     return Piece(**where, motion=unstored(Stored("rigid", told["rigid"], arrays), scene_from_dict(told["scene"])))
 
 

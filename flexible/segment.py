@@ -7,15 +7,17 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable, Iterator
+from itertools import pairwise
 from math import sqrt
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid import Hoop, Kind, Phase, Side, States, Turn
+from rigid import Kind, Phase, Scene, Side, States, Turn
+from rigid.output.cubic import cubic, hermite, root, slope_of
 from rigid.output.sampling import share_taken
 
+from .contact.laws.listing import LAWS
 from .models.state import Record
 from .motion import FlexiblePulse, History
 
@@ -29,20 +31,6 @@ RATES = {
 
 NO_TIME = 1e-13
 """Time off the floor, in sqrt(R/g), that is the round-off of a sum and no flight."""
-
-T = TypeVar("T", float, Array)
-
-
-def _cubic(z: T, y0: T, y1: T, s0: T, s1: T) -> T:
-    """Cubic on [0, 1] through values and slopes at both ends."""
-    a, b = s0 - (y1 - y0), (y1 - y0) - s1
-    return (1 - z) * y0 + z * y1 + z * (1 - z) * (a * (1 - z) + b * z)
-
-
-def _hermite(x: Array, x0: Array, x1: Array, y0: Array, y1: Array, s0: Array, s1: Array) -> Array:
-    """The same between two abscissas."""
-    h = np.where(x1 > x0, x1 - x0, 1.0)
-    return _cubic((x - x0) / h, y0, y1, s0 * h, s1 * h)
 
 
 def peak(t: Array, y: Array) -> float:
@@ -59,16 +47,16 @@ def peak(t: Array, y: Array) -> float:
 
 
 class Segment:
-    """The records of one march as arrays, and what is read off them."""
+    """The records of one march of a scene as arrays, and what is read off them."""
 
-    def __init__(self, records: list[Record], hoop: Hoop, rise: float) -> None:
-        self.hoop = hoop
+    def __init__(self, records: list[Record], scene: Scene, rise: float) -> None:
+        self.scene = scene
         self.rise = rise  # of the mass centre G, upward velocity at the first record
         table = np.array(records, dtype=float).reshape(-1, len(Record._fields))
         self.columns: dict[str, Array] = dict(zip(Record._fields, table.T.copy(), strict=True))
 
     @classmethod
-    def of(cls, columns: dict[str, Array], hoop: Hoop, rise: float) -> Segment:
+    def of(cls, columns: dict[str, Array], scene: Scene, rise: float) -> Segment:
         """The same from its columns.
 
         Raises
@@ -76,14 +64,14 @@ class Segment:
         KeyError
             One that a record has is missing.
         """
-        segment = cls([], hoop, rise)
+        segment = cls([], scene, rise)
         segment.columns = {name: columns[name] for name in segment.columns}
         return segment
 
     def then(self, later: Segment) -> Segment:
         """This and a segment that goes on from its end, as one: totals go on."""
         totals = (*History.TOTALS, "off_floor")
-        joined = Segment([], self.hoop, self.rise)
+        joined = Segment([], self.scene, self.rise)
         for name, column in self.columns.items():
             before = column[-1] if name in totals else 0.0
             joined.columns[name] = np.concatenate([column, later[name] + before])
@@ -132,7 +120,7 @@ class Segment:
         times = self["t"]
         i = np.clip(np.searchsorted(times, t, side) - 1, 0, len(times) - 2)
         if slope is not None:
-            return _hermite(t, times[i], times[i + 1], y[i], y[i + 1], slope[i], slope[i + 1])
+            return hermite(t, times[i], times[i + 1], y[i], y[i + 1], slope[i], slope[i + 1])
         length = times[i + 1] - times[i]
         share = (t - times[i]) / np.where(length > 0, length, 1.0)
         share = np.where(length > 0, np.clip(share, 0.0, 1.0), 1.0 if side == "right" else 0.0)
@@ -162,21 +150,41 @@ class Segment:
     def phases(self, first: float = -np.inf, last: float = np.inf) -> list[Phase]:
         """Runs of one kind between the times ``first`` and ``last``."""
         t, phi = self["t"], self["phi"]
-        kinds = self.kinds()
         runs: list[tuple[Kind, float, float, float, float]] = []
-        inside = [i for i in range(len(t) - 1) if t[i + 1] > max(first, t[i]) and t[i] < last]
-        for i in inside:
-            start, end = max(t[i], first), min(t[i + 1], last)
+        for kind, i, start, end in self._stretches():
+            if not (end > max(first, start) and start < last):
+                continue
+            start, end = max(start, first), min(end, last)
             phi_0, phi_1 = phi[i], phi[i + 1]
             if start > t[i] or end < t[i + 1]:
                 phi_0, phi_1 = self.value("phi", np.array([start, end]))
-            # a step belongs to what its end does, unless an event opened it
-            kind = kinds[i] if i and t[i] == t[i - 1] else kinds[i + 1] if kinds[i] == Kind.FLIGHT else kinds[i]
             if runs and runs[-1][0] == kind:
                 runs[-1] = (kind, runs[-1][1], end, runs[-1][3], phi_1)
             else:
                 runs.append((kind, start, end, phi_0, phi_1))
         return [Phase(kind, *map(float, ends)) for kind, *ends in runs]
+
+    def _stretches(self) -> Iterator[tuple[Kind, int, float, float]]:
+        """Kind, number of the step, and times from and to which it does so: steps, or parts of them.
+
+        A step belongs to what its end does where it begins in the air, unless an event opened it, and to what its start
+        does elsewhere. A patch that stores nothing does what its slip velocity says, which is linear in between.
+        """
+        t, v, kinds = self["t"], self["slip_velocity"], self.kinds()
+        creep = LAWS[self.scene.contact.law].rolls_below(self.scene.contact)
+        for i in np.nonzero(np.diff(t) > 0)[0].tolist():
+            start, end = float(t[i]), float(t[i + 1])
+            if kinds[i] == Kind.FLIGHT and not (i and t[i] == t[i - 1]):
+                yield kinds[i + 1], i, start, end
+            elif kinds[i] != kinds[i + 1] and Kind.FLIGHT not in kinds[i : i + 2] and creep > 0 and v[i] != v[i + 1]:
+                v_0, v_1 = float(v[i]), float(v[i + 1])
+                at = ((edge - v_0) / (v_1 - v_0) for edge in (-creep, creep))
+                cuts = [start, *(start + z * (end - start) for z in sorted(at) if 0 < z < 1), end]
+                for low, high in pairwise(cuts):
+                    slip = v_0 + (v_1 - v_0) * ((low + high) / 2 - start) / (end - start)
+                    yield Kind.ROLL if abs(slip) < creep else Kind.SPIN if slip < 0 else Kind.SKID, i, low, high
+            else:
+                yield kinds[i], i, start, end
 
     def turns(self) -> list[Turn]:
         """Instants by which both the disk and the momentum of the rotation have turned."""
@@ -204,58 +212,39 @@ class Segment:
         takes_time = t[1:] > np.maximum(t[:-1], after)  # the two records of an event do not
         for i in np.nonzero((angle[:-1] * angle[1:] <= 0) & takes_time)[0]:
             start, length = float(t[i]), float(t[i + 1] - t[i])
-            here = tuple(map(float, (angle[i], angle[i + 1], omega[i] * length, omega[i + 1] * length)))
-            low, high = max(after - start, 0.0) / length, 1.0
-            sign = _cubic(low, *here)
-            if sign * here[1] > 0:
-                continue
-            for _ in range(60):
-                middle = (low + high) / 2
-                low, high = (middle, high) if _cubic(middle, *here) * sign > 0 else (low, middle)
-            yield start + length * (low + high) / 2
+            here = (angle[i], angle[i + 1], omega[i] * length, omega[i + 1] * length)
+            low = float(max(after - start, 0.0) / length)
+            if cubic(low, *here) * here[1] <= 0:
+                yield start + length * root(here, low)
 
     def pulse(self, first: float, last: float) -> FlexiblePulse:
         """Measures between the times ``first`` and ``last``."""
-        ends = np.array([first, last])
-        t = self["t"]
+        ends, t = np.array([first, last]), self["t"]
         inside = (t > first) & (t < last)
         grid = np.concatenate([[first], t[inside], [last]])
 
         def gain(name: str) -> float:
             return float(np.diff(self.value(name, ends))[0])
 
-        mass = 1 + self.hoop.mass_ratio
-        # the mass centre's velocity follows from the impulse, however the ring bends
+        opened, closed = self.value("normal_force", ends[:1]), self.value("normal_force", ends[1:], "left")
+        normal_force = np.concatenate([opened, self["normal_force"][inside], closed])
         impulse = self.value("normal_impulse", grid)
-        velocity = self.rise + impulse / mass - (grid - self.t_start)
-        impulse = impulse - impulse[0]
-        normal_force = self.value("normal_force", grid)
-        work = normal_force * velocity
-        gained = np.concatenate([[0.0], np.cumsum((work[1:] + work[:-1]) / 2 * np.diff(grid))])
-        split = int(np.argmax(velocity >= 0)) if (velocity >= 0).any() else len(grid) - 1
-        if split > 0 and velocity[split] > velocity[split - 1]:
-            part = -velocity[split - 1] / (velocity[split] - velocity[split - 1])
-        else:
-            part = 1.0
-        before = max(split - 1, 0)
-        compression = impulse[before] + part * (impulse[split] - impulse[before])
-        absorbed = gained[before] + part * (gained[split] - gained[before])
-        returned = gained[-1] - absorbed
+        newton, poisson, energetic = self._restitutions(grid, impulse, normal_force)
         phi = self.value("phi", ends)
         strain, spring = (float(np.interp(grid, t, self[name]).max()) for name in ("ring_strain", "contact_spring"))
-        total, off_floor = float(impulse[-1]), gain("off_floor")
+        off_floor = gain("off_floor")
         return FlexiblePulse(
             t_start=first,
             t_end=last,
             phi_start=float(phi[0]),
             phi_end=float(phi[1]),
-            normal_impulse=total,
+            normal_impulse=float(impulse[-1] - impulse[0]),
             friction_impulse=gain("friction_impulse"),
             friction_loss=gain("friction_loss"),
             peak_normal_force=peak(grid, normal_force),
-            newton_restitution=float(-velocity[-1] / velocity[0]) if velocity[0] else 0.0,
-            poisson_restitution=float((total - compression) / compression) if compression > 0 else 0.0,
-            energetic_restitution=sqrt(max(0.0, -returned / absorbed)) if absorbed < 0 else 0.0,
+            newton_restitution=newton,
+            poisson_restitution=poisson,
+            energetic_restitution=energetic,
             time_off_floor=off_floor if off_floor > NO_TIME else 0.0,
             ring_energy_peak=strain,
             contact_energy_peak=spring,
@@ -263,6 +252,36 @@ class Segment:
             numerical_loss=gain("numerical_loss"),
             phases=tuple(self.phases(first, last)),
         )
+
+    def _restitutions(self, t: Array, impulse: Array, normal_force: Array) -> tuple[float, float, float]:
+        """Newton's, Poisson's and the energetic one, of N and its impulse at the times of a pulse from end to end.
+
+        The mass centre's velocity follows from the impulse, however the ring bends, and so does the work of N on it,
+        M (ydot^2/2 + y) between two instants. From each time to the next the impulse is a cubic;
+        its rates at the ends of the pulse, within a step, are those of N's line there.
+        """
+        mass, steps = 1 + self.scene.hoop.mass_ratio, np.diff(t)
+        velocity = self.rise + impulse / mass - (t - self.t_start)
+        slope = normal_force / mass - 1
+        risen = steps * ((velocity[1:] + velocity[:-1]) / 2 - steps * np.diff(slope) / 12)
+        height = np.concatenate([[0.0], np.cumsum(risen)])
+        i = int(np.argmax(velocity >= 0)) if (velocity >= 0).any() else len(t) - 1
+        lowest, depth, speed = t[i], height[i], velocity[i]
+        if i > 0 and velocity[i] > 0:
+            h = steps[i - 1]
+            here = (velocity[i - 1], velocity[i], slope[i - 1] * h, slope[i] * h)
+            z, speed = root(here), 0.0
+            lowest, depth = (
+                t[i - 1] + z * h,
+                height[i - 1] + z * h * (here[0] / 2 - z * (slope_of(z, *here) - here[2]) / 12),
+            )
+        compression = mass * (speed - velocity[0] + lowest - t[0])
+        restitution = mass * (velocity[-1] - speed + t[-1] - lowest)
+        absorbed = (speed**2 - velocity[0] ** 2) / 2 + depth
+        returned = (velocity[-1] ** 2 - speed**2) / 2 + height[-1] - depth
+        newton = float(-velocity[-1] / velocity[0]) if velocity[0] else 0.0
+        poisson = float(restitution / compression) if compression > 0 else 0.0
+        return newton, poisson, sqrt(max(0.0, float(-returned / absorbed))) if absorbed < 0 else 0.0
 
 
 def history_of(segments: Iterable[Segment | None]) -> History:

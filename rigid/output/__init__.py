@@ -2,6 +2,7 @@
 
 ``units``     what a quantity is measured in, part of its definition; the solvers' numbers and a scene's
 ``sampling``  times between which forces are straight
+``cubic``     cubics between instants at which values and rates are known
 ``axes``      curves over time or angle, in matplotlib
 ``frame``     the states of a motion, and the pulses of many scenes, as a table, in pandas
 ``summary``   text of a screen's length, and the same as HTML

@@ -3,19 +3,21 @@
 import numpy as np
 import pytest
 from scenes import HOOP
+from scipy.optimize import brentq
 
 from flexible import simulate
 from flexible.models.state import Record
 from flexible.output.body import whole
 from flexible.segment import Segment, peak
-from rigid import Hoop
+
+MASSLESS = HOOP.replace(hoop={"mass_ratio": 0.0})
 
 
-def turning(t, phi, omega):
+def turning(t, phi, omega, scene=MASSLESS):
     """Records of a hoop that turns, and does nothing else."""
     nothing = dict.fromkeys(Record._fields, 0.0)
     rows = [{**nothing, "t": a, "phi": b, "omega": c, "mode": 0} for a, b, c in zip(t, phi, omega, strict=True)]
-    return Segment([Record(**row) for row in rows], Hoop(k=0.1), 0.0)
+    return Segment([Record(**row) for row in rows], scene, 0.0)
 
 
 def test_an_event_at_the_very_angle_is_no_crossing_of_its_own():
@@ -72,6 +74,41 @@ def test_restitutions_are_those_of_the_mass_centre():
     assert pulse.poisson_restitution == pytest.approx(out / into, rel=3e-3)
     assert pulse.energetic_restitution == pytest.approx((returned / absorbed) ** 0.5, rel=3e-3)
     assert pulse.energetic_restitution**2 < 0.95, "its square is another number"
+
+
+def test_restitutions_and_peak_of_a_force_that_jumps():
+    """N = 1 + a t (1 - t) up to 0.4, where it is largest and jumps down to half of that; M = 1, ydot_G = -1 at first.
+
+    Four steps: the impulse is a cubic in each, as it is kept between them, so what is read off has no error of the
+    steps. The work is that of fifty thousand midpoints, good to 1e-8.
+    """
+    a, jump, down = 12.0, 0.4, -1.0
+
+    def force(t, behind):
+        return (1 + a * t * (1 - t)) * np.where(behind, 0.5, 1.0)
+
+    def gained(t):
+        rise = t + a * (t**2 / 2 - t**3 / 3)
+        there = jump + a * (jump**2 / 2 - jump**3 / 3)
+        return np.where(t <= jump, rise, there + (rise - there) / 2)
+
+    t = np.array([0.0, 0.25, jump, jump, 0.7, 1.0])
+    segment = turning(t, t, np.ones(6))
+    segment.rise = down
+    segment.columns |= {"normal_force": force(t, np.arange(6) > 2), "normal_impulse": gained(t)}
+    pulse = segment.pulse(0.0, 1.0)
+
+    edges = np.concatenate([np.linspace(0, jump, 20001), np.linspace(jump, 1, 30001)[1:]])
+    middle, width = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
+    normal_force, velocity = force(middle, middle > jump), down + gained(middle) - middle
+    pressed = velocity < 0
+    turned = brentq(lambda t: down + gained(t) - t, 0.0, 1.0, xtol=1e-15)
+    into, out = float(gained(turned)), float(gained(1.0) - gained(turned))
+    absorbed, returned = (float((normal_force * velocity * width)[part].sum()) for part in (pressed, ~pressed))
+    assert pulse.newton_restitution == pytest.approx(down + gained(1.0) - 1, rel=1e-14)
+    assert pulse.poisson_restitution == pytest.approx(out / into, rel=1e-12)
+    assert pulse.energetic_restitution == pytest.approx((-returned / absorbed) ** 0.5, rel=1e-7)
+    assert pulse.peak_normal_force == pytest.approx(1 + a * jump * (1 - jump), rel=1e-14)
 
 
 def test_energy_peaks_are_those_of_the_ring_and_of_the_floor():

@@ -125,6 +125,11 @@ class Law:
         raise NotImplementedError
 
     @classmethod
+    def rolls_below(cls, contact: Any) -> float:
+        """Slip velocity below which a patch that stores nothing is called rolling, over sqrt(g R); 0 if it stores."""
+        return 0.0
+
+    @classmethod
     def stiffened(cls, contact: Any, factor: float) -> dict[str, float]:
         """Other keys of a scene's contact that go with a foundation ``factor`` times as stiff, towards that limit."""
         return {}

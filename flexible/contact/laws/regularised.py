@@ -82,6 +82,11 @@ class Regularised(Law):
         )
 
     @classmethod
+    def rolls_below(cls, contact: Any) -> float:
+        """v_s."""
+        return float(contact.slip_velocity_scale)
+
+    @classmethod
     def stiffened(cls, contact: Any, factor: float) -> dict[str, float]:
         """v_s falls as the patch's half width does, like stiffness^(-1/3)."""
         return {"slip_velocity_scale": contact.slip_velocity_scale * factor ** (-1 / 3)}

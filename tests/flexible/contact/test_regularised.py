@@ -195,3 +195,21 @@ def test_a_creep_that_ends_at_a_fold_snaps_off(damping):
     before = np.flatnonzero(history.t < history.t[last] - 1e-5)[-1]
     rate = (normal[before] - normal[last]) / (history.t[last] - history.t[before])
     assert normal[last] / (history.t[last + 1] - history.t[last]) > 100 * rate > 0
+
+
+def test_it_rolls_where_it_slips_slower_than_v_s():
+    """A phase begins at the time at which the slip velocity passes v_s, and not with the step behind it: from one
+    tolerance to the next that moves by the bend of v over a step, a thousandth of a radian, and steps turn by more."""
+    scene = rigid.load_scene("paper-3.3-massless").replace(
+        hoop={"mass_ratio": 0.1}, friction={"mu_s": 0.3}, contact={"law": "regularised", "slip_velocity_scale": 1e-3},
+        run={"turns": None, "until": "pulse"},
+    )  # fmt: skip
+    starts = []
+    for rtol in (1e-4, 1e-5):
+        motion = flexible.simulate(scene.replace(solve={"rtol": rtol}))
+        phases = motion.pulses[0].phases
+        assert {phase.kind for phase in phases} == {rigid.Kind.SPIN, rigid.Kind.ROLL, rigid.Kind.SKID}
+        speeds = np.abs(motion.at([phase.t_start for phase in phases[1:]]).slip_velocity)
+        assert speeds == pytest.approx(1e-3, rel=1e-9)
+        starts.append([phase.phi_start for phase in phases])
+    assert starts[0] == pytest.approx(starts[1], abs=5e-3)
