@@ -1,4 +1,4 @@
-"""The ring's mesh in the formats of other programs, by meshio: Gmsh, Abaqus, VTU, MED and what else it knows."""
+"""The ring's mesh in the formats of other programs, by meshio: Gmsh, Abaqus, VTU and what else holds its quads."""
 
 from __future__ import annotations
 

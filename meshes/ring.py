@@ -173,8 +173,9 @@ def ring_mesh(
         raise MeshError(f"a ring with radii {inner!r} and {outer!r} cannot be: 0 < inner < outer is needed.")
     if not (around >= 8 and through >= 1 and around % 1 == through % 1 == 0):
         raise MeshError(f"{around!r} x {through!r} elements make no ring: it takes 8 around and 1 through.")
-    if not 0 <= halved <= MOST_HALVED:
-        raise MeshError(f"halved = {halved!r} is not possible: it lies between 0 and {MOST_HALVED}.")
+    if not (0 <= halved <= MOST_HALVED and halved % 1 == 0):
+        raise MeshError(f"halved = {halved!r} is not possible: it is a whole number from 0 to {MOST_HALVED}.")
+    around, through, halved = int(around), int(through), int(halved)
     if not 0 < weld_half_angle < pi:
         raise MeshError(f"weld_half_angle = {weld_half_angle!r} is not possible: it lies between 0 and pi.")
 

@@ -175,7 +175,7 @@ class SeriesWriter:
         self._unnamed = 0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Series:
     """A series on disk; frames are read when they are asked for.
 

@@ -31,10 +31,12 @@ def frame_times(
     Raises
     ------
     ValueError
-        Fewer than 2 frames, no stretch of time or one without end, a share outside [0, 1), or a force that is no curve.
+        No whole number of frames from 2 on, no stretch of time or one without end, a share outside [0, 1), or a force
+        that is no curve.
     """
-    if not (count >= 2 and -inf < start < stop < inf and 0 <= share < 1):
+    if not (count >= 2 and count % 1 == 0 and -inf < start < stop < inf and 0 <= share < 1):
         raise ValueError(f"{count} frames from {start} to {stop} with a share of {share} cannot be chosen.")
+    count = int(count)
     even = np.linspace(start, stop, count)
     if t is None or normal_force is None or not np.size(t):
         return even

@@ -36,6 +36,7 @@ _COMPONENTS = {"stress": ("xx", "yy", "xy")}
 _HEAD = b'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian"'
 _MARK = b'<AppendedData encoding="raw">\n_'
 _TAIL = b"\n</AppendedData>\n</VTKFile>\n"
+_HEADER = 16  # bytes in front of an array: blocks, their size, that of the last one, that of its code
 
 
 @dataclass
@@ -58,10 +59,20 @@ class Encoder:
         parts: list[bytes] = []
         offset = 0
 
+        # meshio looks an array up by its offset, having moved those before it to where they are in base64, unpacked:
+        # one that begins at such a place would be taken for the other
+        moved, taken = 0, set[int]()
+
         def add(items: Iterable[tuple[str, bytes]]) -> str:
-            nonlocal offset
+            nonlocal offset, moved
             lines = []
             for attributes, code in items:
+                taken.add(moved)
+                moved += 4 * -(-(4 + int.from_bytes(code[4:8], "little")) // 3)
+                flushes = 0
+                while offset + len(code) in taken:
+                    flushes += 1
+                    code = _coded(zlib.decompress(code[_HEADER:]), self.strategy, flushes)
                 lines.append(f'<DataArray {attributes} format="appended" offset="{offset}"/>')
                 parts.append(code)
                 offset += len(code)
@@ -109,10 +120,7 @@ class Encoder:
         for i, component in enumerate(_COMPONENTS.get(name, ())):
             more += f' ComponentName{i}="{component}"'
         attributes = f'type="{_NAMES[dtype]}" Name="{escape(name)}" NumberOfComponents="{columns}" {more}'
-        raw = np.ascontiguousarray(value, dtype=dtype).tobytes()
-        packer = zlib.compressobj(1, strategy=self.strategy)
-        code = packer.compress(raw) + packer.flush()
-        return attributes, np.array([1, len(raw), len(raw), len(code)], dtype="<u4").tobytes() + code
+        return attributes, _coded(np.ascontiguousarray(value, dtype=dtype).tobytes(), self.strategy)
 
     def _word(self, word: str) -> tuple[str, bytes]:
         if word not in self._words:
@@ -135,6 +143,14 @@ class Encoder:
                 self._kept.clear()
             kept = self._kept[id(block.cells)] = (block.cells, code)
         return kept[1]
+
+
+def _coded(raw: bytes, strategy: int, flushes: int = 0) -> bytes:
+    """A header and a zlib stream, flushed behind each of some first bytes: longer, it says no more."""
+    packer = zlib.compressobj(1, strategy=strategy)
+    begun = b"".join(packer.compress(raw[i : i + 1]) + packer.flush(zlib.Z_SYNC_FLUSH) for i in range(flushes))
+    code = begun + packer.compress(raw[flushes:]) + packer.flush()
+    return np.array([1, len(raw), len(raw), len(code)], dtype="<u4").tobytes() + code
 
 
 def _tuples(value: AnyArray) -> str:
@@ -190,7 +206,7 @@ def _decode(root: ElementTree.Element, data: bytes) -> Block:
 def _decode_array(attributes: Mapping[str, str], data: bytes) -> AnyArray:
     start = int(attributes["offset"])
     blocks, size, _, packed = (int(v) for v in np.frombuffer(data, "<u4", 4, start))
-    raw = zlib.decompress(data[start + 16 : start + 16 + packed])
+    raw = zlib.decompress(data[start + _HEADER : start + _HEADER + packed])
     if blocks != 1 or len(raw) != size:
         raise ValueError("wrong length")
     flat = np.frombuffer(raw, _TYPES[attributes["type"]])
