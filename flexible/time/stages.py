@@ -39,6 +39,9 @@ def momentum_error(model: Any, pos: Any, vel: Any, acc: Any, beta: float, matrix
 #: the beta of a step of no length: what it moves, beta^2 acc, must be nothing to the thinnest patch, whose depth as it
 #: opens is some 1e-12 R, or N is another one after every event than before it
 INSTANT = 1e-15
+#: of a landing's first (N - N_el)/N_el times what the springs store: from the touch on N - N_el grows like the root of
+#: the depth, and its work is 2/3 of the last times the depth, 5/2 U/N_el
+LANDS = 5 / 3
 RENEWED = 1e-3  # share of a patch that may enter in a step whose end tells what the feet of its bristles do
 
 
@@ -163,14 +166,13 @@ def _damped(table: Table, known: _Known) -> float:
             for j in range(stored.shape[0]):
                 damped += (known.eta[i] - 1) * table.work[i, j] * (stored[j] - stored[0])
         return damped
-    for k in range(1, stored.shape[0]):  # off the floor there is no factor
+    for k in range(1, stored.shape[0]):  # eta grows without bound towards a touch, N does not
         before, after = table.order[k - 1], table.order[k]
-        factor, counted = 0.0, 0
-        for i in (before, after):
-            if known.elastic[i] > 0:
-                factor += known.eta[i] - 1
-                counted += 1
-        damped += factor / max(counted, 1) * (stored[after] - stored[before])
+        springs = known.elastic[before] + known.elastic[after]
+        if springs > 0:
+            lands = known.elastic[before] == 0
+            share = (known.normal[before] + known.normal[after]) / springs - 1
+            damped += (LANDS if lands else 1.0) * share * (stored[after] - stored[before])
     return damped
 
 
