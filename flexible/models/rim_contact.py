@@ -25,7 +25,10 @@ KNOWN = EXACTLY, 1e-4  # of 1 + N: Newton's least and largest tolerance on the f
 #: E I below which the first and the last are less, like its power 3/2
 STEPS = 0.3, 33.0, 3e-4, 1.0
 #: wall over R from which on a step may have less of the tolerance, how much of it, and from which rtol down how much
-THICK = 0.15, 0.7, 3e-4, 0.5
+THICK = 0.15, 0.7, 3e-4, 0.3
+#: wall over R from which on a step's tolerance falls faster than rtol, from which rtol down, like which power more, and
+#: rtol as which no step is more exact: what is left then is round-off
+FASTER = 0.06, 1e-4, 0.6, 5e-8
 #: modes by whose error steps are chosen of a ring of nodes or parts; a reduced one has all of its own
 SLOW = 24
 COARSE = 1e-3  # rtol at which a law has its number of points; their share of the error falls like its cube, and faster
@@ -107,14 +110,16 @@ def share_of_steps(scene: Scene) -> float:
 
 
 def share_of_linear_steps(scene: Scene) -> float:
-    """The same of a linear ring: the less of a thick wall, whose dents come and go with its nodes.
+    """The same of a linear ring: the less of a thick wall, whose vibrations hide more of the bristles' kinks.
 
-    See README.md, section 5.
+    Where a brush slips and sticks over and over, as the modes of such a wall make it, errors of its steps add up as
+    often as there are steps, and fall like a lower power of their tolerance. See README.md, section 5.
     """
-    wall, share, rtol, of_fine = THICK
-    if scene.wall < wall:
-        return 1.0
-    return of_fine if scene.solve.rtol <= rtol else share
+    rtol = scene.solve.rtol
+    wall, share, fine, of_fine = THICK
+    thick = 1.0 if scene.wall < wall else of_fine if rtol <= fine else share
+    wall, fine, power, finest = FASTER
+    return thick if scene.wall < wall else max(thick * min(1.0, rtol / fine) ** power, min(1.0, finest / rtol))
 
 
 class RimContact:

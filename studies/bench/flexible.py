@@ -19,6 +19,7 @@ from .truth import reference
 
 SCENE_A, SCENE_B, MASSLESS = "scene A, full roll", "scene B, pulse", "massless pulse"
 BEST = "rtol 1e-03"
+RTOLS = 1e-2, 5e-3, 3e-3, 1.3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6  # at 1.3e-3 the peak of scene B is right to a percent
 SCIPY = "scipy DOP853"
 
 
@@ -61,8 +62,8 @@ def contestants_b(quick: bool) -> list[Contestant]:
     def add(solver: str, setting: str, run: Callable[[], Any], repeats: int | None = None) -> None:
         entries.append(Contestant(solver, setting, SCENE_B, run, judge, repeats=repeats, memory=repeats is None))
 
-    for rtol in (1e-2, 5e-3, 1e-3, 3e-4) if quick else (1e-2, 5e-3, 3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6):
-        add("hoop-pulse reduced", f"rtol {rtol:.0e}", _motion(reference.scene_b(rtol)))
+    for rtol in (1e-2, 5e-3, 1.3e-3, 1e-3, 3e-4) if quick else RTOLS:
+        add("hoop-pulse reduced", f"rtol {rtol:.1e}".replace(".0e", "e"), _motion(reference.scene_b(rtol)))
     for rtol in (1e-3,) if quick else (3e-3, 1e-3, 1e-4, 1e-5):
         add("hoop-pulse esdirk4", f"rtol {rtol:.0e}", _motion(_fourth_order(reference.scene_b(rtol))))
     for elements in (120,) if quick else (60, 120, 480):

@@ -9,7 +9,7 @@ import pytest
 
 import flexible
 from studies.bench import knobs
-from studies.bench.knobs import KNOBS, Pulse, Setting, budget, pulse_at, pulses
+from studies.bench.knobs import KNOBS, Budget, Pulse, Setting, budget, pulse_at, pulses
 from studies.bench.shown.figures import budget as drawn
 from studies.bench.truth.reference import errors
 
@@ -65,8 +65,12 @@ def test_a_knob_that_leaves_too_much_is_told(monkeypatch):
     result = knobs.bench(quick=True)
     assert [claim.holds for claim in result.claims] == [False, False]
     assert [claim.name for claim in result.claims] == [
-        f"one, rtol {x}: the largest part over rtol" for x in ("1e-03", "1e-04")
+        f"one, rtol {x}: the largest part, or all, over rtol" for x in ("1e-03", "1e-04")
     ]
+    monkeypatch.setattr(knobs, "MOST", 1.0)
+    monkeypatch.setattr(knobs, "budget", lambda scene, rtol, done: Budget({"steps": rtol / 2}, all=2 * rtol))
+    assert [claim.holds for claim in knobs.bench(quick=True).claims] == [False, False], "all of it counts too"
+    monkeypatch.setattr(knobs, "budget", budget)
     drawn(result.rows, result.parts).draw_without_rendering()
 
     def fails(scene, setting):
