@@ -1,4 +1,6 @@
-"""Programs of twenty to fifty lines, one per use. Each writes a picture: ``python -m studies.examples.rigid_motion``.
+"""Programs of twenty to sixty lines, one per use, and a longer one. Each writes a picture.
+
+``python -m studies.examples.rigid_motion`` runs one.
 
 ``rigid_motion``      the paper's first cycle in closed form
 ``batch_map``         a plane of hoops at once: friction over normal impulse of the first pulse
@@ -6,4 +8,5 @@
 ``stiffness_study``   the limit of stiffness from Python
 ``fields_in_pyvista`` the ring's fields as a mesh series, opened with pyvista
 ``own_friction_law``  a law of friction in a file of its own, ``tanh_law``
+``slip_weakening``    a rigid ring on a floor of one's own, whose friction falls over a distance of slip
 """

@@ -22,7 +22,15 @@ FLEXIBLE = "hoop bench flexible --peers --json --out bench"
 KNOBS = "hoop bench knobs --json --out bench"
 SCALING = "hoop bench scaling --json --out bench"
 STRESS = "hoop stress --scenes 1200 --seed 4 --json --out stress"
-EXAMPLES = ("rigid-motion", "batch-map", "pulse", "stiffness-study", "fields-in-pyvista", "own-friction-law")
+EXAMPLES = (
+    "rigid-motion",
+    "batch-map",
+    "pulse",
+    "stiffness-study",
+    "fields-in-pyvista",
+    "own-friction-law",
+    "slip-weakening",
+)
 """Those of :mod:`studies.examples`, whose pictures stand in the README of this package."""
 
 

@@ -10,7 +10,7 @@ import matplotlib.image
 import pytest
 
 from meshes.draw.display import renderer_problem
-from studies.examples import batch_map, own_friction_law, pulse, rigid_motion, stiffness_study
+from studies.examples import batch_map, own_friction_law, pulse, rigid_motion, slip_weakening, stiffness_study
 
 matplotlib.use("Agg")
 
@@ -51,6 +51,13 @@ def test_fields_in_pyvista(tmp_path: Path) -> None:
     from studies.examples import fields_in_pyvista  # VTK would be in every process of the tests
 
     assert drawn(fields_in_pyvista.main(tmp_path, frames=4))
+
+
+@pytest.mark.slow
+def test_slip_weakening(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert drawn(slip_weakening.main(tmp_path, foundations=(1e7, 1e8)))
+    limits = [float(line.split()[-1]) for line in capsys.readouterr().out.splitlines()]
+    assert limits == sorted(limits, reverse=True)  # of brush, longer and longer distances, patch, mu_s throughout
 
 
 @pytest.mark.slow
