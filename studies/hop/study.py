@@ -34,7 +34,7 @@ _COLUMNS = ("bending_stiffness", "k", "mass_ratio", "foundation", "mu_s", "mu", 
 _THRESHOLD = ("value", "low", "high", "foreseen", "omega_1_t", "times_duration_squared", "gaps", "undecided_between")
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
 class HopStudy(summary.Summarised):
     """What the study found."""
 

@@ -18,12 +18,14 @@ omega_s the slowest symmetric vibration about the weld, LEFT measured (studies/R
 from __future__ import annotations
 
 from functools import cache
+from itertools import pairwise
 from math import asinh, cos, cosh, log, pi, sqrt
 
 import numpy as np
 from scipy.integrate import quad
 
-from rigid import Run, Scene, simulate
+from rigid import Kind, Run, Scene, simulate
+from rigid.output.sampling import bottom
 
 from .rule import slowest_period
 
@@ -63,23 +65,50 @@ def duration(scene: Scene) -> float | None:
 
 
 @cache
-def relief(scene: Scene) -> float | None:
-    """N_max/N_min of the rigid hoop, in its first pulse and behind it to its first turn; None without a pulse."""
+def relief(scene: Scene) -> tuple[float, float] | None:
+    """N_max/N_min of the rigid hoop, in its first pulse and behind it to its first turn, and how long N_min comes
+    after the disk has passed over the floor, in sqrt(R/g); None without a pulse.
+    """
     motion = simulate(scene.to_dimensionless().replace(run=Run(turns=1)))
     pulse = next((pulse for pulse in motion.pulses if not pulse.cut), None)
     if pulse is None:
         return None
-    behind = motion.at(np.linspace(pulse.t_end, motion.t_end, 4001)).normal_force
-    return float(pulse.peak_normal_force / behind.min()) if behind.min() > 0 else None
+    lowest = bottom(lambda t: motion.at(t).phi, pulse.t_start, pulse.t_end)
+    behind = np.linspace(pulse.t_end, motion.t_end, 4001)
+    force = motion.at(behind).normal_force
+    least = int(force.argmin())
+    if force[least] <= 0:
+        return None
+    return float(pulse.peak_normal_force / force[least]), float(behind[least] - lowest)
 
 
-def foreseen(scene: Scene) -> float | None:
+def foreseen(scene: Scene, ratio: float = 0.0) -> float | None:
     """E I/(m g R^2) below which the pulse leaves the ring ringing so that the hoop leaves the floor behind it.
 
-    None without a pulse or without a mass. Up to k = 0.18 it is off by a fifth at most; from 0.2 on stiffer hoops hop
-    too, see studies/README.md.
+    ``ratio`` is a damping ratio of that vibration, small: until N is least it falls by exp(-ratio omega_s) per time,
+    of which the flexible solver's ring, without damping in its material, knows nothing. None without a pulse or
+    without a mass. Up to k = 0.18 it is off by a fifth at most; from 0.2 on stiffer hoops hop too, see
+    studies/README.md.
     """
-    sudden, ratio = suddenness(scene), relief(scene)
-    if sudden == 0 or ratio is None:
+    sudden, seen = suddenness(scene), relief(scene)
+    if sudden == 0 or seen is None:
         return None
-    return float(sudden * ((LEFT + log(ratio)) / SYMMETRIC) ** 2)
+    fall, wait = seen
+    turned = (LEFT + log(fall)) / SYMMETRIC / (1 + ratio * wait / pulse_time(scene))
+    return float(sudden * turned**2)
+
+
+def drop(scene: Scene) -> float | None:
+    """N in front of over N behind the rigid hoop's first slip out of a roll, up to its first turn; None without one.
+
+    What holds an elastic hoop up is pressed as before the jump, and undamped N swings about the force behind it from
+    the one in front. A wall softer than the floor, a linear spring, lets it come down to 2 N_behind - N_front: below 0,
+    so that the hoop leaves the floor, from a ratio of 2 on. The patch under a stiffer wall, N ~ depth^(3/2), does from
+    5/2 on.
+    """
+    motion = simulate(scene.to_dimensionless().replace(run=Run(turns=1)))
+    for phase, after in pairwise(motion.phases):
+        if phase.kind is Kind.ROLL and after.kind in (Kind.SPIN, Kind.SKID):
+            front, behind = (float(motion.at(after.t_start, side).normal_force) for side in ("left", "right"))
+            return front / behind
+    return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import exp, pi, radians, sqrt
+from math import cos, exp, pi, radians, sqrt
 
 import numpy as np
 import pytest
@@ -39,12 +39,13 @@ def test_the_spectrum_of_a_pulse_falls_with_its_time(k, mass_ratio):
     assert slope == pytest.approx(-1, abs=0.05)
 
 
-def test_the_time_of_a_light_ring_is_pi_zeta_over_8():
-    """zeta small, from the top: phidot^2 = 4/(zeta + psi^2) about the bottom, so t* = pi zeta/8, but for zeta^2."""
-    scene = rolling(0.1, 0.02, phi0=0.1)
+@pytest.mark.parametrize("phi0", [0.1, 80.0])
+def test_the_time_of_a_light_ring_is_pi_zeta_over_8_cos(phi0):
+    """phidot^2 = 4 cos(phi0/2)^2/(zeta + psi^2) about the bottom, so t* = pi zeta/(8 cos(phi0/2)), but for zeta^2."""
+    scene = rolling(0.1, 0.02, phi0=phi0)
     zeta = scene.hoop.constants.zeta
     assert zeta < 0.1
-    assert pulse_time(scene) == pytest.approx(pi * zeta / 8, rel=zeta)
+    assert pulse_time(scene) == pytest.approx(pi * zeta / 8 / cos(radians(phi0) / 2), rel=zeta)
 
 
 def test_at_the_suddenness_the_slowest_vibration_turns_by_one_radian_in_it():
@@ -91,13 +92,45 @@ def test_what_is_foreseen_is_where_the_amplitude_is_the_least_normal_force():
     t = np.linspace(0, motion.t_end, 200001)
     states = motion.at(t)
     behind = states.normal_force[(states.phi > motion.pulses[0].phi_end) & (t > motion.pulses[0].t_end)]
-    assert relief(scene) == pytest.approx(states.normal_force.max() / behind.min(), rel=1e-3)
+    fall, wait = relief(scene)
+    assert fall == pytest.approx(states.normal_force.max() / behind.min(), rel=1e-3)
+    least, bottom = t[states.normal_force == behind.min()][0], np.interp(pi, states.phi, t)  # up to the turn phi grows
+    assert wait == pytest.approx(least - bottom, abs=2e-3)
     at = scene.replace(ring={"bending_stiffness": foreseen(scene)})
     vibration = SYMMETRIC * 2 * pi / slowest_period(at) * pulse_time(at)
     assert exp(LEFT - vibration) * states.normal_force.max() == pytest.approx(behind.min(), rel=1e-3)
     (first, second), _ = ring_of(at).modes(2)
     assert sqrt(second / first) == pytest.approx(SYMMETRIC, rel=0.01)
     assert foreseen(scene.replace(hoop={"mass_ratio": 0.0})) is None
+
+
+@pytest.mark.parametrize("phi0", [-10.0, 350.0, 370.0])
+def test_a_release_is_its_mirror_image_and_turns_that_are_over_do_not_count(phi0):
+    assert relief(rolling(0.1, 0.1, phi0)) == pytest.approx(relief(rolling(0.1, 0.1, 10.0)), rel=1e-6)
+
+
+def test_a_damped_vibration_is_foreseen_less_by_the_time_it_has_to_fall():
+    """An oscillator that a roll's N drives, q'' + 2 ratio w q' + w^2 q = N, by quadrature: what is left of it a
+    time behind the bottom falls with the ratio like exp(-ratio w wait), and so does the stiffness foreseen.
+
+    w t* = 6, the ratio 0.02: the next power of the ratio is 0.02 w t*, a tenth of what the fall is.
+    """
+    scene = rolling(0.1, 0.1)
+    motion, ratio, wait = simulate(scene), 0.02, 1.0
+    t = np.linspace(0, 12, 20001)
+    bottom = t[np.argmax(motion.at(t).omega)]
+    w = 6 / pulse_time(scene)
+    u = np.linspace(-40 / w, wait, 80001)
+    force = motion.at(bottom + u).normal_force * (0.5 - 0.5 * np.tanh((np.abs(u) - 0.7) / 0.05))
+
+    def amplitude(damped: float) -> float:
+        kernel = np.exp((-damped * w - 1j * w * sqrt(1 - damped**2)) * (wait - u))
+        return float(abs(trapezoid(force * kernel, u)))
+
+    assert np.log(amplitude(ratio) / amplitude(0.0)) == pytest.approx(-ratio * w * wait, rel=0.15)
+    slips = scene.replace(friction={"mu_s": 0.35, "mu": 0.3})
+    (_, wait), time = relief(slips), pulse_time(slips)
+    assert foreseen(slips, ratio) == pytest.approx(foreseen(slips) / (1 + ratio * wait / time) ** 2)
 
 
 def test_a_ring_without_mass_has_no_vibration_to_leave():
