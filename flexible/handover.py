@@ -35,7 +35,7 @@ Array = NDArray[np.float64]
 # of the rates; a shorter one sees how the patch's height ripples as point after point comes to bear (measured at a
 # foundation of 1e4: rates 35 % off at 1e-3, 0.5 % at 1e-2).
 SPAN = 1e-2
-#: A parabolic patch of which no point has let go creeps 2 F/(3 mu N) of what lets go all, which so is at most this many
+#: A parabolic patch of which no point has let go creeps F/(3 mu N) of what lets go all, which so is at most this many
 #: times as much as it. Where nearly all do, F all but stands still, and the points of a brush may never carry it.
 ALL_SLIP = 3.0
 GAINS = 0.01  # share of the energy that rigid hoops may add; what one lacks to go over the top from 10 degrees is 0.008

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rigid import Motion, Phase, Pulse, Scene, Side, States
+from rigid.output.same import Same
 from rigid.output.units import (
     AngularAcceleration,
     AngularVelocity,
@@ -47,10 +48,10 @@ class Ledger:
     ``hand_over`` is what went out (came in, where negative) where the rigid hoop was replaced by a flexible one, sagged
     and with a patch, and where it was put back: it tends to zero with growing stiffness. ``residual`` is all that the
     others leave unexplained: the work of a patch's points beyond that of the patch as a whole, which is summed by
-    trapezoids over the steps. It falls more slowly than ``numerical_loss``, like rtol^(1/2) or so: below a tenth of
-    ``solve.rtol`` of the initial energy down to 1e-5 in thin walls that are not soft, but as much as ``solve.rtol`` in
-    thick soft ones, and some times that in hoops that land (README.md, section 4). It is a limit of the books, and no
-    part of the motion.
+    trapezoids over the steps, and falls like the square of their length, rtol^(2/3): below a hundredth of
+    ``solve.rtol`` of the initial energy down to 1e-5 in thin walls that are not soft, but up to a third of it in thick
+    soft ones, and some times ``solve.rtol`` in hoops that land in a pulse (README.md, section 4). It is a limit of the
+    books, and no part of the motion.
     """
 
     initial: Energy[float]
@@ -93,8 +94,8 @@ class FlexiblePulse(Pulse):
         )
 
 
-@dataclass(frozen=True, slots=True, repr=False)
-class History:
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
+class History(Same):
     """Every accepted step of the flexible segments, as arrays over time; stored only when asked for.
 
     Losses and impulses are running ``TOTALS`` over these segments: what the rigid hoop between them loses, and the
@@ -181,9 +182,10 @@ class FlexibleMotion(Motion):
     def at(self, t: ArrayLike, side: Side = "right") -> States:
         """State at times ``t`` (any shape): of the rigid hoop between flexible segments, of the steps inside them.
 
-        Between two steps the angle, ``y_C`` and the impulses are cubics, as their rates are known, and all else is
-        linear, N, F and the slip velocity among it: F is that of the friction law at the steps alone, and of the
-        ``regularised`` one no longer -mu N v/sqrt(v^2 + v_s^2) of the N and the v that are told with it.
+        Within a step the angle and ``y_C`` are cubics, as their rates are known, ``x_C`` is the way that rolls with
+        that angle and what it slips, linear, and all else is linear, N, F and the slip velocity among it: F is that of
+        the friction law at the steps alone, and of the ``regularised`` one no longer -mu N v/sqrt(v^2 + v_s^2) of the N
+        and the v that are told with it.
 
         Parameters
         ----------
@@ -201,13 +203,14 @@ class FlexibleMotion(Motion):
 
     def _lines(self) -> list[tuple[str, str]]:
         scene, books = self.scene, self.ledger
-        lost = {"friction": books.friction_loss, "the damper": books.damping_loss, "landings": books.landing_loss,
-                "the integrator": books.numerical_loss}  # fmt: skip
+        lost = {"friction": books.friction_loss, "damper": books.damping_loss, "landings": books.landing_loss,
+                "integrator": books.numerical_loss}  # fmt: skip
         return [
             *Motion._lines(self),
             ("ring", f"E I/(m g R^2) = {scene.ring.bending_stiffness:g}, foundation {scene.contact.stiffness:g}, "
                      f"{scene.contact.law}, damping {scene.contact.damping:g}"),
-            ("energy", f"{books.initial:.6g}, of which lost to " + ", ".join(f"{k} {v:.3g}" for k, v in lost.items())),
+            ("energy", f"{books.initial:.6g}"),
+            ("lost to", ", ".join(f"{name} {value:.3g}" for name, value in lost.items())),
             ("steps", f"{self.steps}{', all kept' if self.history is not None else ''}"),
         ]  # fmt: skip
 
@@ -215,7 +218,7 @@ class FlexibleMotion(Motion):
     def units(self) -> dict[str, str]:
         """What each number of this motion, its ledger and its history is measured in, by its name."""
         common = super().units
-        return common | unit_names(self.scene, FlexiblePulse, Ledger, History)
+        return common | unit_names(self.scene, FlexiblePulse, Ledger, History) | {"steps": "1"}
 
     def to_dict(self) -> dict[str, Any]:
         """The common keys and ``energy_ledger``."""

@@ -125,7 +125,7 @@ class Pulse(Same):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class States(Same):
-    """A motion sampled at times ``t``; every field is an array of the shape of ``t``.
+    """A motion sampled at times ``t``; every field has the shape of ``t``.
 
     ``omega`` and ``alpha`` are phidot and phiddot, ``x_C`` and ``y_C`` the hoop's centre, ``slip_velocity`` is that
     of the contact point, F is positive to the right. N, F and ``alpha`` jump where phases meet.
@@ -277,8 +277,8 @@ class Motion(summary.Summarised):
                       f"mu = {friction.mu:g}, from {degrees(release.phi0):g} degrees"),
             ("phases", summary.some([str(phase.kind) for phase in self.phases[:shown]], len(self.phases))),
             ("turns", summary.some([f"phi = {turn.phi:.6g}" for turn in self.turns[:shown]], len(self.turns))),
-            ("pulses", summary.some([f"J_F/J_N = {p.impulse_ratio:.6g}" for p in self.pulses[:shown]],
-                                    len(self.pulses))),
+            ("pulses", summary.some([f"J_F/J_N = {p.impulse_ratio:.6g}{' (cut)' if p.cut else ''}"
+                                     for p in self.pulses[:shown]], len(self.pulses))),
         ]  # fmt: skip
 
     @property
@@ -287,7 +287,7 @@ class Motion(summary.Summarised):
         return {**units.unit_names(self.scene, Phase, Turn, Pulse, States), "impulse_ratio": "1"}
 
     def to_dict(self) -> dict[str, Any]:
-        """The motion as the command line's JSON prints it."""
+        """The motion as the command line's JSON prints it, but for NaN and infinity, which are null there."""
         return {
             "scene": scene_to_dict(self.scene),
             "phases": [dataclasses.asdict(phase) for phase in self.phases],

@@ -89,8 +89,8 @@ class Batch(summary.Summarised):
         return table
 
     def phases(self, scene: int, pulse: int = 0) -> tuple[Kind, ...]:
-        """What the contact does in a pulse of a scene, in its order; nothing where there is no such pulse."""
-        return phases_of(self.sequence[scene, pulse])
+        """What the contact does in a pulse of a scene, in its order; nothing where no such pulse is kept."""
+        return phases_of(self.sequence[scene, pulse]) if 0 <= pulse < self.sequence.shape[1] else ()
 
     def _title(self) -> str:
         return f"Batch of {len(self)} scenes"

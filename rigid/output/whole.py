@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
@@ -57,4 +58,5 @@ def write_whole(path: Path, write: Callable[[Path], object], synced: bool = Fals
         raise OSError(error.errno, error.strerror, str(path)) from None
     finally:
         if not named:
-            part.unlink(missing_ok=True)
+            with suppress(OSError):  # of a file that could not be made either: the error that counts is on its way
+                part.unlink(missing_ok=True)

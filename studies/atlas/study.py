@@ -28,7 +28,7 @@ SHADE = 1 / 256
 picture, of its range. Beside the middle it may be some half more."""
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
 class Atlas(summary.Summarised):
     """A map of (side + 1)^2 hoops; rows run up, columns across."""
 
@@ -82,7 +82,12 @@ class Atlas(summary.Summarised):
             "jams": self.found.jams,
             "computed": self.found.computed,
         }
-        return write_whole(path, lambda part: np.savez_compressed(part, **arrays))  # type: ignore[arg-type]
+
+        def fill(part: Path) -> None:
+            with part.open("wb") as file:  # savez would add a suffix to a name
+                np.savez_compressed(file, allow_pickle=False, **arrays)
+
+        return write_whole(Path(path), fill)
 
     def plot(self) -> Figure:
         """The map as a picture."""

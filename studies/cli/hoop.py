@@ -38,12 +38,13 @@ elastic hoop on a compliant floor, `study` what happens between the two as stiff
 
 \b
 Try, in this order:
-  hoop rigid paper-3.1                                the paper's example, phase by phase
-  hoop flexible paper-3.3-massless                    the same kind of hoop, elastic
-  hoop study stiffness paper-3.3-massless --out study the limit; then open study/report.html
-  hoop scenes                                         what else is ready to run
-  hoop view paper-3.1 --gif rolling.gif               a moving picture
-  hoop COMMAND -h                                     the options of a command
+  hoop rigid paper-3.1               the paper's example, phase by phase
+  hoop flexible paper-3.3-massless   the same kind of hoop, elastic
+  hoop study stiffness paper-3.3-massless --out study
+                                     the limit; then open study/report.html
+  hoop scenes                        what else is ready to run
+  hoop view paper-3.1 --gif a.gif    a moving picture
+  hoop COMMAND -h                    the options of a command
 
 SCENE is the name of a shipped scene or a TOML file; `hoop scenes NAME` prints one to start from.
 """

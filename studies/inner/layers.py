@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid.kernel.compile import Patience
+from rigid.kernel.interrupts import between_calls
 from rigid.kernel.store import is_cold
 
 from ..running.files import StudyError
@@ -181,13 +182,18 @@ def layer(
 def _marched(system: System, state: Array, mode: int, kept: Bristles, ends: Array) -> Any:
     """:func:`studies.inner.march.march`; by the interpreter, to the same numbers, as long as compiling takes longer."""
     if system.contact.law == BRUSH or (left := _patience.left()) <= 0:
-        return march(system, state, mode, kept, ends)
+        return _compiled(system, state, mode, kept, ends)
     by_python: Any = march
     room, short = deepcopy(kept), np.append(ends[:-1], left)
     with np.errstate(all="ignore"):
         found = by_python.py_func(system, state, mode, room, short)
     _patience.spend(steps=len(found[0]))
-    return found if found[-1] else march(system, state, mode, kept, ends)
+    return found if found[-1] else _compiled(system, state, mode, kept, ends)
+
+
+def _compiled(*given: Any) -> Any:
+    with between_calls():
+        return march(*given)
 
 
 def _break_away(

@@ -15,6 +15,7 @@ from scipy.integrate import solve_ivp
 
 from flexible.contact.laws.listing import LAWS
 from rigid import Scene
+from rigid.kernel.interrupts import between_calls
 
 from ..inner.body import accelerations, rolling_forces, sliding_force
 from ..inner.bristles import SIZE, bristles, set_stretch
@@ -109,7 +110,8 @@ def march_through(way: Passage, eps: float, fineness: float = 0.1) -> tuple[np.n
     for psi in way.edges:
         if psi != way.start:
             ends = np.array([np.inf, psi, fineness, _SPARSE, _MOST])
-            records, turned, state, done = march(System(way.body, way.contact, eps), state, mode, kept, ends)
+            with between_calls():
+                records, turned, state, done = march(System(way.body, way.contact, eps), state, mode, kept, ends)
             if not done:
                 raise StudyError(f"This pulse takes a rigid ring more than {_MOST:g} steps: {TOO_FAST}.")
             mode = int(records[-1, 5])

@@ -90,7 +90,7 @@ class Other:
     """Whether there is a limit."""
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
 class LimitStudy(summary.Summarised):
     """What the study found."""
 

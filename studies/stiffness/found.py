@@ -75,7 +75,7 @@ class Rung:
         }
 
 
-@dataclass(frozen=True, slots=True, repr=False)
+@dataclass(frozen=True, slots=True, repr=False, eq=False)
 class StiffnessStudy(summary.Summarised):
     """What the study found."""
 
@@ -262,7 +262,7 @@ class StiffnessStudy(summary.Summarised):
         return lines
 
     def to_dict(self) -> dict[str, Any]:
-        """The study as JSON prints it."""
+        """The study as JSON prints it, but for NaN and infinity, which are null there."""
         return {
             "scene": scene_to_dict(self.scene),
             "ladder": {
