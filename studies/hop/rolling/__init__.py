@@ -6,4 +6,5 @@
 ``rule``       which flights are hops and which are chatter
 ``threshold``  a roll of the map, a line of them, and the stiffness below which it hops
 ``scaling``    how sudden a pulse is for the ring
+``drop``       how far N falls where a slip begins
 """

@@ -18,13 +18,12 @@ omega_s the slowest symmetric vibration about the weld, LEFT measured (studies/R
 from __future__ import annotations
 
 from functools import cache
-from itertools import pairwise
 from math import asinh, cos, cosh, log, pi, sqrt
 
 import numpy as np
 from scipy.integrate import quad
 
-from rigid import Kind, Run, Scene, simulate
+from rigid import Run, Scene, simulate
 from rigid.output.sampling import bottom
 
 from .rule import slowest_period
@@ -96,19 +95,3 @@ def foreseen(scene: Scene, ratio: float = 0.0) -> float | None:
     fall, wait = seen
     turned = (LEFT + log(fall)) / SYMMETRIC / (1 + ratio * wait / pulse_time(scene))
     return float(sudden * turned**2)
-
-
-def drop(scene: Scene) -> float | None:
-    """N in front of over N behind the rigid hoop's first slip out of a roll, up to its first turn; None without one.
-
-    What holds an elastic hoop up is pressed as before the jump, and undamped N swings about the force behind it from
-    the one in front. A wall softer than the floor, a linear spring, lets it come down to 2 N_behind - N_front: below 0,
-    so that the hoop leaves the floor, from a ratio of 2 on. The patch under a stiffer wall, N ~ depth^(3/2), does from
-    5/2 on.
-    """
-    motion = simulate(scene.to_dimensionless().replace(run=Run(turns=1)))
-    for phase, after in pairwise(motion.phases):
-        if phase.kind is Kind.ROLL and after.kind in (Kind.SPIN, Kind.SKID):
-            front, behind = (float(motion.at(after.t_start, side).normal_force) for side in ("left", "right"))
-            return front / behind
-    return None

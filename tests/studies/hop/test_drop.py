@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 import flexible
 from rigid import Friction, Hoop, Kind, Release, Run, Scene, simulate
-from studies.hop.rolling.scaling import drop
+from studies.hop.rolling.drop import drop
 
 
 def released(k: float, mass_ratio: float = 0.0, mu: float = 0.3) -> Scene:
