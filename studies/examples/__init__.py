@@ -9,4 +9,5 @@
 ``fields_in_pyvista`` the ring's fields as a mesh series, opened with pyvista
 ``own_friction_law``  a law of friction in a file of its own, ``tanh_law``
 ``slip_weakening``    a rigid ring on a floor of one's own, whose friction falls over a distance of slip
+``hop_by_rule``       which hoops hop, foreseen from the rigid motion and the ring's vibrations
 """

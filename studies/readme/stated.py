@@ -30,6 +30,7 @@ EXAMPLES = (
     "fields-in-pyvista",
     "own-friction-law",
     "slip-weakening",
+    "hop-by-rule",
 )
 """Those of :mod:`studies.examples`, whose pictures stand in the README of this package."""
 

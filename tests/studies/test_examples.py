@@ -10,7 +10,15 @@ import matplotlib.image
 import pytest
 
 from meshes.draw.display import renderer_problem
-from studies.examples import batch_map, own_friction_law, pulse, rigid_motion, slip_weakening, stiffness_study
+from studies.examples import (
+    batch_map,
+    hop_by_rule,
+    own_friction_law,
+    pulse,
+    rigid_motion,
+    slip_weakening,
+    stiffness_study,
+)
 
 matplotlib.use("Agg")
 
@@ -58,6 +66,18 @@ def test_slip_weakening(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> N
     assert drawn(slip_weakening.main(tmp_path, foundations=(1e7, 1e8)))
     limits = [float(line.split()[-1]) for line in capsys.readouterr().out.splitlines()]
     assert limits == sorted(limits, reverse=True)  # of brush, longer and longer distances, patch, mu_s throughout
+
+
+def test_hop_by_rule(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert drawn(hop_by_rule.main(tmp_path, count=2))
+    falls, thresholds = capsys.readouterr().out.split("k, m_h/m: ")
+    # as studies/README.md has them, the jump of N where slip begins, over k and over mu
+    for written in ("0.1, mu = 0.3: N falls by 9.7", "0.25, mu = 0.3: N falls by 2.15", "mu = 0.1: N falls by 2.22"):
+        assert written in falls
+    rows = [[float(each) for each in line.split(": ")[1].split()] for line in thresholds.splitlines()[1:]]
+    assert all(row == sorted(row, reverse=True) for row in rows)  # damping lowers every threshold
+    undamped = [row[0] for row in rows[2:]]
+    assert undamped == sorted(undamped, reverse=True)  # and so does a heavier hoop
 
 
 @pytest.mark.slow
