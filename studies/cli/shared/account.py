@@ -17,6 +17,10 @@ HEADING = "Energy ledger: the first line is the sum of the others"
 NOTED = 1e-3
 """Share of the energy from which on a hand-over is spoken of."""
 
+TAKEN = 2.0
+"""What the integrator may take for each pulse, over rtol times the energy, before it is spoken of: 0.5 at most where no
+vibration is left behind by its steps."""
+
 
 def account(motion: FlexibleMotion) -> list[tuple[str, str]]:
     """Entries of the ledger by name, with as many decimals for all as give the largest seven digits."""
@@ -29,7 +33,7 @@ def account(motion: FlexibleMotion) -> list[tuple[str, str]]:
 
 def remarks(motion: FlexibleMotion) -> list[str]:
     """Sentences on the ledger and on the phases."""
-    return [sentence for sentence in (_hand_over(motion), _chatter(motion)) if sentence]
+    return [sentence for sentence in (_hand_over(motion), _taken(motion), _chatter(motion)) if sentence]
 
 
 def _hand_over(motion: FlexibleMotion) -> str:
@@ -47,6 +51,17 @@ def _hand_over(motion: FlexibleMotion) -> str:
             'pulses; solve.resolve = "all" keeps them.'
         )
     return said
+
+
+def _taken(motion: FlexibleMotion) -> str:
+    scene, took = motion.scene, abs(motion.ledger.numerical_loss)
+    held, rtol = max(abs(motion.ledger.initial), scene.energy_unit), scene.solve.rtol
+    if took <= TAKEN * rtol * held * max(1, len(motion.pulses)):
+        return ""
+    return (
+        f"Numerical loss: the steps took {took / held:.2g} of the energy, for vibrations faster than they follow. "
+        f"What hangs on those may be further off than solve.rtol = {rtol:g}; a run with a smaller one shows how far."
+    )
 
 
 def _chatter(motion: FlexibleMotion) -> str:

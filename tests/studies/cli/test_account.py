@@ -59,3 +59,23 @@ def test_a_hand_over_is_flagged_where_it_is_large():
         motion = flexible.simulate(scene)
         assert (abs(motion.ledger.hand_over) > 1e-3 * motion.ledger.initial) == flagged
         assert any("of the energy" in text for text in remarks(motion)) == flagged
+
+
+@pytest.mark.slow
+def test_what_the_steps_took_is_told_where_they_do_not_follow():
+    """A wall that lands leaves waves of bending of all frequencies; one that rolls leaves none."""
+    soft = SCENE.replace(
+        hoop={"mass_ratio": 0.05}, ring={"bending_stiffness": 1.0}, contact={"stiffness": 1e8, "damping": 0.0}
+    )
+    for scene, told in (
+        (soft.replace(solve={"rtol": 1e-4}), True),
+        (soft.replace(ring={"bending_stiffness": 1e4}), False),
+    ):
+        motion = flexible.simulate(scene)
+        assert any(phase.kind.value == "flight" for phase in motion.pulses[0].phases) == told
+        (sentence,) = [text for text in remarks(motion) if "Numerical loss" in text] or [""]
+        assert bool(sentence) == told
+        if told:
+            share = float(re.search(r"took (\S+) of the energy", sentence)[1])
+            # to two digits
+            assert share * motion.ledger.initial == pytest.approx(abs(motion.ledger.numerical_loss), rel=0.06)
