@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
-from math import inf, pi
+from math import inf, isfinite, pi
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -122,8 +122,11 @@ def disk_block(centre: ArrayLike, radius: float, angle: float, sectors: int = 12
     SeriesError
         A radius that is not above 0, or fewer than 3 sectors.
     """
-    if not (0 < radius < inf and sectors >= 3):
-        raise SeriesError(f"a disk of radius {radius!r} in {sectors!r} sectors is not possible.")
+    if not (0 < radius < inf and sectors >= 3 and isfinite(angle) and np.all(np.isfinite(centre))):
+        raise SeriesError(
+            f"a disk of radius {radius!r} about {centre!r}, turned by {angle!r}, in {sectors!r} sectors, is "
+            "not possible."
+        )
     turn = np.arange(sectors) * (2 * pi / sectors) - angle
     rim = np.column_stack([np.cos(turn), np.sin(turn)]) * radius
     points = np.vstack([[0.0, 0.0], rim]) + np.asarray(centre, dtype=float)

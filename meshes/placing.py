@@ -73,9 +73,9 @@ def disk_in(scene: Scene) -> tuple[float, float]:
     return distance, inner - distance
 
 
-def von_mises(stress: Array) -> Array:
+def von_mises(stress: ArrayLike) -> Array:
     """Von Mises stress of plane stress components (11, 22, 12), (n, 3); the same in any frame."""
-    s1, s2, s12 = stress.T
+    s1, s2, s12 = np.asarray(stress, dtype=float).T
     return np.sqrt(s1**2 - s1 * s2 + s2**2 + 3 * s12**2)
 
 
@@ -84,19 +84,30 @@ def around(ring: RingMesh) -> Array:
     return np.column_stack([-np.sin(ring.theta), np.cos(ring.theta)])
 
 
-def hoop_stress(ring: RingMesh, stress: Array, along: Array | None = None) -> Array:
+def hoop_stress(ring: RingMesh, stress: ArrayLike, along: ArrayLike | None = None) -> Array:
     """Stress along the wall at the nodes, from components (11, 22, 12) in the disk's frame, (n_nodes, 3).
 
     ``along``, (n_nodes, 2), are the unit vectors in which the circles of the nodes run now; by default, and so of small
     displacements, those of the ring at rest.
     """
-    a1, a2 = (around(ring) if along is None else along).T
-    s1, s2, s12 = stress.T
+    a1, a2 = np.asarray(around(ring) if along is None else along, dtype=float).T
+    s1, s2, s12 = np.asarray(stress, dtype=float).T
     return s1 * a1**2 + s2 * a2**2 + 2 * s12 * a1 * a2
 
 
-def bending_stress(ring: RingMesh, hoop: Array) -> Array:
-    """What the hoop stress has beyond its mean through the wall (Simpson's rule over the layers of nodes)."""
+def bending_stress(ring: RingMesh, hoop: ArrayLike) -> Array:
+    """What the hoop stress, (n_nodes,), has beyond its mean through the wall (Simpson's rule over the layers of nodes).
+
+    Raises
+    ------
+    ValueError
+        Not one number for each node.
+    """
+    hoop = np.asarray(hoop, dtype=float)
+    if hoop.shape != (len(ring.theta),):
+        raise ValueError(
+            f"hoop of shape {hoop.shape} is not possible: it has one stress for each of {len(ring.theta)} nodes."
+        )
     radii = ring.radius[ring.grid[:, 0]]
     weights = np.zeros(len(radii))
     for share, first in ((1.0, 0), (4.0, 1), (1.0, 2)):

@@ -38,7 +38,9 @@ def frame_times(
         raise ValueError(f"{count} frames from {start} to {stop} with a share of {share} cannot be chosen.")
     count = int(count)
     even = np.linspace(start, stop, count)
-    if t is None or normal_force is None or not np.size(t):
+    if (t is None) != (normal_force is None):
+        raise ValueError("frames cannot be chosen: a force and its times are given together.")
+    if t is None or not np.size(t):
         return even
     at, force = np.asarray(t, dtype=float), np.asarray(normal_force, dtype=float)
     if at.shape != force.shape or at.ndim != 1 or np.any(np.diff(at) < 0) or not np.all(np.isfinite([at, force])):

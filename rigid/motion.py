@@ -186,7 +186,7 @@ class Motion(summary.Summarised):
 
     def _inside(self, t: ArrayLike, side: Side) -> Array:
         """Times within the motion; those that round-off has beyond its ends are at them."""
-        times, slack = np.asarray(t, dtype=float), 1e-12 * max(1.0, self.t_end)
+        times, slack = np.asarray(t, dtype=float), 1e-12 * max(self.scene.time_unit, self.t_end)
         if side not in ("left", "right"):
             raise ValueError(f"side must be 'left' or 'right', not {side!r}")
         if times.size and not (times.min() >= -slack and times.max() <= self.t_end + slack):
@@ -200,6 +200,8 @@ class Motion(summary.Summarised):
         if not self.phases:
             raise ValueError("a motion without phases")
         search = bisect_right if side == "right" else bisect_left
+        if np.ndim(t):
+            raise ValueError("phase_at takes one time")
         found = search(self.phases, float(self._inside(t, side)), key=lambda phase: phase.t_start)
         return self.phases[max(found - 1, 0)]
 

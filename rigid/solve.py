@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .allowed import SceneError, require
+from .allowed import SceneError, require, shown
 from .kernel import layout as at
 from .kernel.compile import compiled, patience
 from .kernel.spectral import compiled_workspace, workspace
@@ -162,7 +162,10 @@ def simulate(scene: SceneLike, aloft: Aloft = ON_THE_FLOOR) -> Motion:
         No such scene, or one that cannot be; a height below 0.
     """
     scene = as_scene(scene)
-    height, rise = aloft
+    try:
+        height, rise = aloft
+    except (TypeError, ValueError):
+        raise SceneError(f"aloft = {shown(aloft)} is not possible: it is a height and a velocity upward.") from None
     height = require("aloft's height", height, 0.0, 1e9, "the hoop is on the floor or over it")
     least = 0.0 if height == 0 else -1e9
     rise = require("aloft's rise", rise, least, 1e9, "a hoop on the floor moves along it, or up")

@@ -10,6 +10,7 @@ from math import inf, tan
 import numpy as np
 from scipy.optimize import brentq
 
+from .allowed import shown
 from .kernel.angle import trig
 from .kernel.layout import MU_S, ZETA
 from .phases.rolling.closed_form import ceiling, margin_polynomials, rolling_forces, turning_point
@@ -38,6 +39,8 @@ def rolling_mu_s(hoop: Hoop, release: Release) -> float:
     SceneError
         A release that slips.
     """
+    if not isinstance(release, Release):
+        raise SceneError(f"release = {shown(release)} is not possible: it must be a Release.")
     if release.slip0 != 0.0:
         raise SceneError(f"release.slip0 = {release.slip0!r} is not possible here: what is released so does not roll.")
     par, state = _at_release(hoop, release)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import os
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import prod
 from os import PathLike
@@ -18,6 +18,7 @@ from rigid.elastic import SECTION, UNITS
 from rigid.scenefile import ensure_possible, scene_tables
 
 from .running.files import trouble
+from .running.solvers import solver
 
 BOTH = ("rigid", "flexible")
 
@@ -121,8 +122,10 @@ def sweep_from_dict(data: Mapping[str, Any], solvers: str | Sequence[str] = (), 
     laid = {part: table for part, table in data.items() if part != "sweep"}
     base = _base(settings["scene"], laid) if "scene" in settings else {}
     keys, choices, tables, repeated = _varied(laid, base)
-    who = (solvers,) if isinstance(solvers, str) else tuple(solvers)
-    sweep = Sweep(tuple(keys), tuple(choices), tables, who or named, histories, repeated)
+    who = dict.fromkeys((solvers,) if isinstance(solvers, str) or not isinstance(solvers, Iterable) else solvers)
+    for name in who:
+        solver(name)
+    sweep = Sweep(tuple(keys), tuple(choices), tables, tuple(who) or named, histories, repeated)
     if sweep.cases > max_cases:
         raise SceneError(
             f"{sweep.announcement()}. That is more than {max_cases}: shorten the lists, or allow it:"

@@ -67,7 +67,7 @@ def check(names: Iterable[str]) -> None:
         One sentence with all names there are.
     """
     for name in names:
-        if name not in _WORDS:
+        if not isinstance(name, str) or name not in _WORDS:
             raise ValueError(f"{name!r} is not a quantity of a motion: known are {', '.join(_WORDS)}.")
 
 
@@ -123,6 +123,9 @@ def draw(
         panels = list(np.atleast_1d(axes).ravel())
         if len(panels) != len(quantities):
             raise ValueError(f"{len(quantities)} quantities need as many axes, not {len(panels)}.")
+        for panel in panels:
+            if not hasattr(panel, "axvspan"):
+                raise ValueError(f"{type(panel).__name__} is not possible: what is drawn on are matplotlib Axes.")
     for panel, name in zip(panels, quantities, strict=True):
         _shade(panel, columns, name, over, [span for span in spans if span[0] in _SHADES and span[1] < span[2]])
         panel.plot(columns[over], columns[name], linewidth=1.2)

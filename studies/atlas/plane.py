@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Kind, Scene, SceneError, load_scene, scene_names, simulate_batch
+from rigid.allowed import shown
 from rigid.output.units import without_units
 
 Array = NDArray[np.float64]
@@ -188,9 +189,11 @@ def plane(scene: Scene, over: Mapping[str, tuple[float, float]] | Sequence[tuple
     SceneError
         Not two different keys, a key that no atlas has, a range that does not run upward or leads to no hoop.
     """
-    axes = [Axis(key, *map(float, ends)) for key, ends in over.items()] if isinstance(over, Mapping) else [
-        Axis(key, float(low), float(high)) for key, low, high in over
-    ]  # fmt: skip
+    try:
+        ranges = [(key, *ends) for key, ends in over.items()] if isinstance(over, Mapping) else over
+        axes = [Axis(key, float(low), float(high)) for key, low, high in ranges]
+    except (TypeError, ValueError):
+        raise SceneError(f"over = {shown(over)} is not possible: it has two keys, each with both ends.") from None
     keys = [axis.key for axis in axes]
     if len(set(keys)) != 2 or len(axes) != 2:
         raise SceneError(f"An atlas is over two different keys: it was given {', '.join(keys) or 'none'}.")

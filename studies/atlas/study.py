@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from rigid import SceneError, SceneLike, as_scene, scene_to_dict
+from rigid.allowed import shown
 from rigid.lists import phases_of
 from rigid.output import summary
 
@@ -23,9 +24,13 @@ from .refine import FIRST, Map, refined
 OVER = (("hoop.k", 0.02, 0.9), ("friction.mu", 0.02, 1.0))
 """Sections 3.1 and 3.2 of the paper in one plane."""
 SIDE = 1024
+
+LARGEST = 8192
+"""Most squares along a side: the map takes a gigabyte then."""
 SHADE = 1 / 256
 """How far a value may be off in the middle between hoops that were run, where one is run to see it: a shade of a
-picture, of its range. Beside the middle it may be some half more."""
+picture, of its range. Beside the middle it may be some half more, three
+times that at one hoop of some thousand."""
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
@@ -144,8 +149,8 @@ def atlas_of(
     SceneError
         What no scene or no atlas can be.
     """
-    if not (isinstance(side, int | np.integer) and side > 0):
-        raise SceneError(f"side = {side!r} is not possible: it is a whole number of squares, from 1.")
+    if not (isinstance(side, int | np.integer) and 0 < side <= LARGEST):
+        raise SceneError(f"side = {shown(side)} is not possible: it is a whole number of squares, from 1 to {LARGEST}.")
     chosen = plane(as_scene(scene), over)
     count = max(1, -(-side // FIRST)) * FIRST
     start = time.perf_counter()

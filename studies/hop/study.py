@@ -9,11 +9,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rigid import Scene, scene_to_dict
+from rigid.allowed import shown
 from rigid.output import summary
 from rigid.output.units import unit_names
 from rigid.scenefile import units_of_keys
 
 from ..running.case import Case, Outcome
+from ..running.files import StudyError
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
 from .rolling.asked import STIFFNESS, Ask, HopMap
@@ -153,7 +155,15 @@ def hop_study(
     progress: Callable[[float], None] | None = None,
     say: Callable[[str], None] | None = None,
 ) -> HopStudy:
-    """Roll the map, then close in on the thresholds; see :func:`studies.running.runs.run_cases` for the arguments."""
+    """Roll the map, then close in on the thresholds; see :func:`studies.running.runs.run_cases` for the arguments.
+
+    Raises
+    ------
+    StudyError
+        What is asked is no :class:`HopMap`.
+    """
+    if not isinstance(asked, HopMap):
+        raise StudyError(f"{shown(asked)} is not what a hop study rolls: it must be a HopMap.")
     rounds = 1 + asked.bisections + 1
     stage = 0
 

@@ -26,7 +26,7 @@ from ..inner.scales import damping_of
 from ..inner.separate import separate_from, stiff_from
 from ..plots.sheet import power_of
 from ..running.case import Case
-from ..running.measures import MEASURES
+from ..running.measures import MEASURES, known
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
 from .compliant import Sight, at_foundation, go_through, seen_by_rigid_ring
@@ -130,7 +130,7 @@ class LimitStudy(summary.Summarised):
         along = np.geomspace(min(*foundations, 1e9), max(*foundations, 1e13), 60)
         drawn = {}
         for name in names or OBSERVED[:3]:
-            term = self.prediction.terms[name]
+            term = known(self.prediction.terms, name)
             away = np.array([float(term.at(self.small(s))) - term.limit for s in along])
             seen = {}
             for solver in ("rigid ring", "flexible"):

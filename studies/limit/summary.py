@@ -132,8 +132,12 @@ def verdict(study: LimitStudy) -> str:
         f"Made ever stiffer{least}, the hoop on a floor with the {law} law {becomes}: J_F/J_N (friction impulse over"
         " normal impulse, of the first pulse)"
     )
+    frictionless = study.scene.friction.mu_s == 0
+    if same and not term.coefficient and law == "regularised" and not frictionless:
+        order = power_of(_symbol(study), term.exponent)
+        return f"{lead} tends to {term.limit:.6f}, without a term of the order of {order}: what is left falls faster."
     if same and not term.coefficient:
-        why = "there is no friction" if study.scene.friction.mu_s == 0 else "nothing in it depends on the stiffness"
+        why = "there is no friction" if frictionless else "nothing in it depends on the stiffness"
         return f"{lead} is {number(term.limit)} at any stiffness: {why}."
     words = (
         f"{lead} tends to {term.limit:.6f}"
@@ -162,7 +166,9 @@ def damping_sentences(study: LimitStudy) -> list[str]:
         largest = max(critical)
         ratio = study.scene.contact.damping
         if largest == 0:
-            said.append("Its patch passes every event without breaking anew, even undamped.")
+            said.append("The layer of no event breaks the patch anew, even undamped.")
+            if not all(other.tends for other in study.others):
+                said.append("Undamped it goes on ringing, and breaks its stick early all the same: no limit is seen.")
         else:
             above = "above" if ratio > largest else "below"
             said.append(

@@ -6,10 +6,12 @@ What a solver does not have (a rigid hoop stores no strain energy) is 0.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import TypeVar
 
 from rigid import Kind, Motion, Phase, Pulse, Scene
+from rigid.allowed import shown
 from rigid.output.units import Unit
 
 
@@ -36,11 +38,22 @@ class Measure:
         return self.heading(scene).replace("\n", " ")
 
 
+T = TypeVar("T")
+
 MEASURES: dict[str, Measure] = {}
 
 
 def measure(symbol: str, unit: Unit) -> Callable[[Callable[[Motion, Pulse], float]], Callable[[Motion, Pulse], float]]:
-    """Enter a function of a motion and a pulse among the measures."""
+    """Enter a function of a motion and a pulse among the measures.
+
+    Raises
+    ------
+    TypeError
+        A unit that is none.
+    """
+    if not isinstance(unit, Unit):
+        names = ", ".join(each.name for each in Unit)
+        raise TypeError(f"unit = {shown(unit)} is not possible: it is one of studies.Unit: {names}.")
 
     def enter(function: Callable[[Motion, Pulse], float]) -> Callable[[Motion, Pulse], float]:
         MEASURES[function.__name__] = Measure(function.__name__, symbol, unit, function)
@@ -144,6 +157,19 @@ def duration(motion: Motion, pulse: Pulse) -> float:
 
 OF_THE_MEASURE = "that of the measure"
 """Unit of what is told of one measure after the other, as limits are."""
+
+
+def known(of: Mapping[str, T], name: str) -> T:
+    """What there is of a measure by name.
+
+    Raises
+    ------
+    ValueError
+        Nothing; one sentence with all names of which there is.
+    """
+    if name not in of:
+        raise ValueError(f"{name!r} is not a measure of this study: known are {', '.join(of)}.")
+    return of[name]
 
 
 def units_of_measures(scene: Scene) -> dict[str, str]:

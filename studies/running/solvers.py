@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Protocol
 
 from rigid import Motion, Scene
+from rigid.allowed import shown
 from rigid.output.file import version
 
 from .files import StudyError
@@ -50,7 +51,6 @@ def flexible(scene: Scene, *, history: bool = False, progress: Progress | None =
 NAMED = {"rigid": f"{__name__}:rigid", "flexible": f"{__name__}:flexible"}
 
 
-@cache
 def solver(name: str) -> Solver:
     """The solver of that name: "rigid", "flexible" or ``module:function``.
 
@@ -59,6 +59,13 @@ def solver(name: str) -> Solver:
     StudyError
         There is none.
     """
+    if not isinstance(name, str):
+        raise StudyError(f"{shown(name)} is not a solver: it must be the name of one, which other processes import.")
+    return _solver(name)
+
+
+@cache
+def _solver(name: str) -> Solver:
     module, colon, function = NAMED.get(name, name).partition(":")
     if not colon:
         raise StudyError(f"{name!r} is not a solver: it must be one of {', '.join(NAMED)}, or module:function.")

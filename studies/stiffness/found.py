@@ -14,7 +14,7 @@ from rigid.output import summary
 
 from ..running.case import SAME, SHARE, Outcome
 from ..running.history import rows_to_csv
-from ..running.measures import MEASURES, OF_THE_MEASURE, units_of_measures
+from ..running.measures import MEASURES, OF_THE_MEASURE, known, units_of_measures
 from .coefficient import Coefficient, coefficient
 from .extrapolation.limits import CONFIDENCE, Limit, fitted_series
 from .ladder import Ladder
@@ -168,7 +168,7 @@ class StiffnessStudy(summary.Summarised):
         """How far a measure of the rungs that came through is from the rigid value, for a picture."""
         from ..plots.distance import Distance
 
-        limit, through = self.limits[name], self.rungs_through
+        limit, through = known(self.limits, name), self.rungs_through
         unit = MEASURES[name].unit.of(self.scene)
         stiffness = np.array([rung.stiffness for rung in through])
         values, errors = (np.array([of(rung, name) for rung in through]) for of in (Rung.measure, Rung.error))

@@ -44,6 +44,12 @@ def test_bodies_that_cannot_be(radius):
         floor_block(-1.0, 1.0, radius)
 
 
+def test_a_disk_is_somewhere():
+    for centre, angle in (((0.0, float("nan")), 0.0), ((0.0, 0.0), float("inf"))):
+        with pytest.raises(SeriesError, match="a disk of radius"):
+            disk_block(centre, 1.0, angle)
+
+
 @pytest.mark.parametrize("phi", [0.0, 0.4, pi / 2, 4.0])
 def test_the_halves_of_a_disk_turn_clockwise_with_the_hoop(phi):
     """At phi = 0 the half 0 is above; it turns as what is fixed to the disk does: its middle is along y1."""

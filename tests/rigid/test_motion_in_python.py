@@ -15,7 +15,20 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 
-from rigid import Friction, Hoop, Pulse, Release, Run, Scene, States, load_scene, simulate, simulate_batch
+from rigid import (
+    Friction,
+    Hoop,
+    Pulse,
+    Release,
+    Run,
+    Scene,
+    SceneError,
+    States,
+    load_scene,
+    rolling_mu_s,
+    simulate,
+    simulate_batch,
+)
 from rigid.output.axes import label
 from rigid.output.units import Unit, units_of
 
@@ -294,3 +307,37 @@ def test_states_are_the_same_where_all_their_numbers_are(motion):
     assert unknown == dataclasses.replace(other, alpha=np.array([0.0, np.nan, 1.0]))
     assert unknown != one
     assert motion.at(1.0) == motion.at(1.0)
+
+
+def test_what_is_asked_in_the_wrong_words(motion):
+    with pytest.raises(ValueError, match="is not a quantity of a motion"):
+        motion.plot(["normal_force", "energy"])
+    with pytest.raises(ValueError, match="Figure is not possible: what is drawn on are matplotlib Axes"):
+        motion.plot("energy", axes=mpl.figure.Figure())
+    with pytest.raises(ValueError, match="one time"):
+        motion.phase_at([1, 2])
+    with pytest.raises(SceneError, match=r"aloft = 1\.0 is not possible"):
+        simulate("paper-3.1", 1.0)
+    with pytest.raises(SceneError, match="it must be a Release"):
+        rolling_mu_s(Hoop(0.1), 0.2)
+
+
+def test_what_is_masked_is_no_number():
+    k = np.ma.array([0.1, 0.2], mask=[False, True])
+    with pytest.raises(SceneError, match="nan"):
+        simulate_batch({"k": k, "mu_s": 0.35, "mu": 0.3, "phi0": 0.17})
+
+
+def test_the_end_is_as_near_in_any_unit():
+    motion = simulate(HEAVY.replace(hoop={"R": 1e-30}))
+    with pytest.raises(ValueError, match="times must lie"):
+        motion.at(2 * motion.t_end)
+
+
+def test_a_scene_comes_through_a_pipe():
+    text = (ROOT / "rigid/scenes/paper-3.1.toml").read_text()
+    run = [sys.executable, "-c", "import rigid; print(rigid.load_scene('/dev/stdin') == rigid.load_scene('paper-3.1'))"]
+    if not Path("/dev/stdin").exists():
+        pytest.skip("no /dev/stdin here")
+    done = subprocess.run(run, input=text, capture_output=True, text=True, check=True, cwd=ROOT)
+    assert done.stdout == "True\n"

@@ -119,3 +119,56 @@ def test_every_package_tells_its_version_and_that_it_is_typed(package):
     assert (files(package) / "py.typed").is_file()
     with pytest.raises(AttributeError, match="has no attribute 'nothing'"):
         package.nothing  # noqa: B018
+
+
+SWEPT = {"hoop": {"k": [0.1]}, "friction": {"mu_s": 0.35, "mu": 0.3}, "release": {"phi0_deg": 10}}
+
+
+@pytest.mark.parametrize("solvers", ["flexibel", ["rigid", "x"], [rigid.simulate], [3], None])
+def test_a_solver_that_is_none_is_refused_before_anything_runs(solvers):
+    with pytest.raises(StudyError, match="is not a solver"):
+        sweep_from_dict(SWEPT, solvers=solvers)
+
+
+def test_a_solver_named_twice_is_one():
+    assert sweep_from_dict(SWEPT, solvers=["rigid", "rigid"]).cases == 1
+
+
+@pytest.mark.parametrize("solver", [rigid.simulate, None, "rigidd"])
+def test_a_study_of_no_solver(solver):
+    with pytest.raises(StudyError, match="is not a solver"):
+        stiffness_study("paper-3.3-massless", solver=solver)
+
+
+def test_what_is_asked_in_the_wrong_words(study):
+    with pytest.raises(ValueError, match="'nope' is not a measure of this study: known are impulse_ratio"):
+        study.plot("nope")
+    with pytest.raises(TypeError, match=r"unit = 's' is not possible: it is one of studies.Unit: .*TIME"):
+        studies.measure("$q$", "s")
+    with pytest.raises(StudyError, match="it must be a HopMap"):
+        studies.hop_study("paper-3.1")
+    with pytest.raises(SceneError, match="are of no key"):
+        studies.HopMap(load_scene("paper-3.3-heavier"), (10.0,), values=(0.1, 0.2))
+    for over in (
+        {"hoop.k": (0.1, 0.2), "friction.mu": 0.3},
+        None,
+        {"hoop.k": (0.1, 0.2, 0.3), "friction.mu": (0.1, 1)},
+    ):
+        with pytest.raises(SceneError, match=r"over = .* both ends"):
+            studies.atlas_of(over=over)
+    with pytest.raises(SceneError, match="from 1 to 8192"):
+        studies.atlas_of(side=10**9)
+    with pytest.raises(ValueError, match="a force and its times"):
+        meshes.frame_times(0, 1, 5, normal_force=[1, 2])
+
+
+def test_an_error_below_zero_is_none():
+    with pytest.raises(ValueError, match=r"error = -0\.1"):
+        studies.limit_of([1e6, 1e7, 1e8], [1.0, 1.1, 1.2], 1.3, error=[0.1, -0.1, 0.1])
+
+
+def test_stresses_are_arrays_or_lists():
+    assert meshes.von_mises([[3.0, 0.0, 0.0], [0.0, 0.0, 1.0]]) == pytest.approx([3.0, 3**0.5])
+    ring = meshes.ring_mesh(0.9, 1.0, 60)
+    with pytest.raises(ValueError, match="one stress for each of"):
+        meshes.bending_stress(ring, np.zeros((len(ring.theta), 3)))

@@ -76,6 +76,8 @@ class HopMap:
         for name in ("stiffness", "values"):
             if np.ndim(getattr(self, name)) != 1 or len(getattr(self, name)) == 0:
                 raise SceneError(f"{name} = {shown(getattr(self, name))} is not possible: it lists what is rolled.")
+        if self.second is None and tuple(self.values) != (None,):
+            raise SceneError(f"values = {shown(self.values)} are of no key: second is the key that they vary.")
         if any(isinstance(value, str) for value in self.values):
             raise SceneError(
                 f"{self.second} cannot be varied in a hop study: its values are words, and a map has numbers."

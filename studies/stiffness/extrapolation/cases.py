@@ -54,6 +54,8 @@ def ascending(
         raise ValueError(f"s, y and error of shapes {told} are not possible: there is one of each for every case.")
     if not np.all(np.isfinite(x) & (x > 0)):
         raise ValueError(f"s = {x[~(np.isfinite(x) & (x > 0))][0]:g} is not possible: a stiffness is above 0.")
+    if e is not None and np.any(e < 0):
+        raise ValueError(f"error = {e[e < 0][0]:g} is not possible: an error is at least 0.")
     if exponents is not None:
         rates = np.asarray(exponents, float)
         if rates.ndim != 1 or not rates.size or not np.all((rates > 0) & (rates < inf)) or np.any(np.diff(rates) < 0):

@@ -171,7 +171,12 @@ def prediction_sentence(study: StiffnessStudy) -> str:
     told = []
     for name in ("impulse_ratio", "friction_loss"):
         term = study.prediction.terms[name]
-        powers = " ".join(f"{c:+.4g} {power_of('ε', p)}" for p, c in term.powers if c) or "at any stiffness"
+        powers = " ".join(f"{c:+.4g} {power_of('ε', p)}" for p, c in term.powers if c)
+        if not powers:
+            # sliding one way throughout J_F is mu J_N, J_N and the loss are what they come to be
+            exact = name == "impulse_ratio" and study.scene.contact.law != "regularised"
+            frictionless = study.scene.friction.mu_s == 0
+            powers = "at any stiffness" if exact or frictionless else "without a term of the order of ε"
         seen = study.coefficient(name)
         heading = MEASURES[name].heading(study.scene).replace("\n", " ")
         words = f"{heading} = {number(term.limit)} {powers}"

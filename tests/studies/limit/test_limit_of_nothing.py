@@ -103,3 +103,24 @@ def test_it_is_said_where_a_ring_is_softer_than_the_patch():
         said = [each for each in damping_sentences(found) if each.startswith("All this is of a rigid rim")]
         assert bool(said) == told == (found.stiff > 1e6)
         assert found.to_dict()["stiff"] == found.stiff
+
+
+def test_smoothed_friction_is_less_than_mu_n_where_it_slips_throughout():
+    """mu N v/sqrt(v^2 + v_s^2): it comes to mu as v_s does to 0, and is not mu before."""
+    scene = load_scene("paper-3.4-slippery").replace(contact={"law": "regularised", "slip_velocity_scale": 0.1})
+    study = limit_study(scene, foundations=(1e10, 1e12))
+    mu, seen = scene.friction.mu, [sight.values["impulse_ratio"] for sight in study.sights]
+    assert abs(seen[0]) < abs(seen[1]) < mu
+    said = verdict(study)
+    assert "at any stiffness" not in said
+    assert "what is left falls faster" in said
+
+
+def test_an_undamped_patch_that_rings_on_is_not_said_to_be_as_good():
+    """No layer breaks it anew, but it never comes to rest, and breaks out of its stick before the rigid hoop does."""
+    scene = load_scene("paper-3.3-massless").replace(
+        hoop={"k": 0.15, "r": 1.05}, friction={"mu_s": 0.45, "mu": 0.35}, release={"phi0_deg": 12}
+    )
+    said = damping_sentences(limit_study(scene, foundations=()))
+    assert any("even undamped" in sentence for sentence in said)
+    assert any("breaks its stick early" in sentence for sentence in said)
