@@ -25,7 +25,7 @@ from .contact.points.rim import lift, sideways, upward
 from .models.equilibrium import Patch
 from .models.select import Hoop
 from .models.state import State, Touching, in_motion
-from .settling import settle
+from .settling import settle, settle_free
 from .time.adaptive import MarchError, compile_steps, restart
 from .time.course import Stop
 
@@ -130,14 +130,13 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
     mode = hoop.law.start(pose.kind)
     try:
         ring = hoop.resting(pose.omega, angular, a_x * s + a_y * c, a_x * c - a_y * s)
-        if pose.normal_force <= 0:
-            ring.linearise(1.0)
     except np.linalg.LinAlgError:
         raise MarchError(Stop(lost, phi=pose.phi, what="no start")) from None
     if pose.normal_force <= 0:
         window = hoop.window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
-        ring.move(window, np.zeros(2 * (2 * window[1] + 1)))
-        u = ring.response(window)[0].reshape(-1, 2)
+        u = settle_free(ring, window)
+        if u is None:
+            raise MarchError(Stop(lost, phi=pose.phi, what="no start", by_ring=True))
         # just clear of the floor, and as high over that as the rigid hoop is
         height = pose.height - min(0.0, float(upward(u[:, 0], u[:, 1], s, c).min()))
         pos = np.concatenate([[0.0, height, pose.phi], ring.coordinates])

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rigid.kernel.interrupts import answer
 
-from .models.equilibrium import Patch, RestingRing
+from .models.equilibrium import Patch, RestingRing, Window
 
 Array = NDArray[np.float64]
 
@@ -33,6 +33,44 @@ def settle(ring: RestingRing, patch: Patch) -> float:
         return reached
     ring.coordinates, patch.__dict__ = begins, known
     return 1.0 if _from_soft(ring, patch) else reached
+
+
+def settle_free(ring: RestingRing, window: Window) -> Array | None:
+    """Bring a ring that nothing touches to rest under the inertia of its frame.
+
+    Returns
+    -------
+    (nodes, 2) array or None
+        Displacements of a window of rim nodes; nothing where it comes to no rest.
+    """
+    share, step = 0.0, 1.0
+    while share < 1:
+        start = ring.coordinates
+        try:
+            came = _hangs(ring, window, share + step)
+        except np.linalg.LinAlgError:
+            came = False
+        if came:
+            share, step = share + step, min(2 * step, 1 - share - step)
+            continue
+        ring.coordinates, step = start, step / 2
+        if step < SHORTEST:
+            return None
+    ring.linearise(1.0)
+    return ring.response(window)[0].reshape(-1, 2)
+
+
+def _hangs(ring: RestingRing, window: Window, share: float) -> bool:
+    nothing, change = np.zeros(2 * (2 * window[1] + 1)), np.inf
+    for _ in range(15):
+        answer()
+        ring.linearise(share)
+        last, change = change, ring.move(window, nothing)
+        if change < 1e-11 or (change < 1e-7 and change > last / 4):
+            return True
+        if not change < 10:
+            return False
+    return False
 
 
 class _Way:

@@ -144,9 +144,9 @@ def held(model: Any, pos: Any, vel: Any) -> Any:
     return model.held(pos, vel)
 
 
-def rotation(model: Any, pos: Any, vel: Any, rolls: bool) -> float:
+def rotation(model: Any, pos: Any, vel: Any, rolls: bool, creep: float) -> float:
     """phidot of a hoop on the floor that moved as one body, in the shape that it has, with the momentum along phi that
-    it has, and along V if it does not roll.
+    it has, and along V if it does not roll; if it does V stays the ``creep``.
 
     The disk vibrates on a soft ring, and so does the rim at the floor: their velocities at an instant are not those of
     the hoop. These momenta are not changed by N. Kinetic energy T is a quadratic form of the rates, so that
@@ -163,13 +163,13 @@ def rotation(model: Any, pos: Any, vel: Any, rolls: bool) -> float:
         rates[k] = 0.0
     rates[2] = 1.0
     inertia = 2 * held(model, pos, rates)[0]
-    if rolls:
-        return float(momenta[2] / inertia)
     rates[0] = 1.0
     both = held(model, pos, rates)[0]
     rates[2] = 0.0
     mass = 2 * held(model, pos, rates)[0]
     shared = both - (mass + inertia) / 2
+    if rolls:
+        return float((momenta[2] - shared * creep) / inertia)
     return float((momenta[2] - shared / mass * momenta[0]) / (inertia - shared * shared / mass))
 
 

@@ -66,7 +66,7 @@ def sight(model: Any, there: Any, old: Any, way: float) -> Sight:
     """
     omega, by_momentum = there.vel[2], way
     if there.res.elastic > 0 and (way == 0 or way * omega <= 0):
-        by_momentum = rotation(model, there.pos, there.vel, old.res.stuck > 0)
+        by_momentum = rotation(model, there.pos, there.vel, old.res.stuck > 0, there.slip_velocity)
     return Sight(old.mode, there.pos[2], omega, by_momentum, there.res, there.slip_velocity, there.rates)
 
 

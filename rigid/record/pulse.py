@@ -189,9 +189,7 @@ def close_pulse(par, state, events):
         return False
     state[P_OPEN] = 0.0
     if state[P_CROSSED] == 0.0:
-        # released below the hoop's centre and on the way up: what is left of a pulse
-        rising = state[TOP] != 0.0 or state[P_ANGLE] * (state[ANGLE] - state[P_ANGLE]) >= 0.0
-        if state[P_CUT] != 0.0 and state[P_TOP] == 0.0 and rising:
+        if is_rest(state):
             write_pulse(par, state, events)
         return False
     write_pulse(par, state, events)
@@ -200,10 +198,17 @@ def close_pulse(par, state, events):
 
 
 @kernel
+def is_rest(state):
+    """Whether the stretch is what is left of a pulse: of a hoop released below its centre, on the way up."""
+    rising = state[TOP] != 0.0 or state[P_ANGLE] * (state[ANGLE] - state[P_ANGLE]) >= 0.0
+    return state[P_CUT] != 0.0 and state[P_TOP] == 0.0 and rising
+
+
+@kernel
 def cut_pulse(par, state, events):
     """At the end of a run: put the pulse in which it ends into the event log."""
     falling = state[TOP] == 0.0 and state[ANGLE] * state[OMEGA] < 0.0
-    if state[P_OPEN] != 0.0 and (state[P_CROSSED] != 0.0 or falling):
+    if state[P_OPEN] != 0.0 and (state[P_CROSSED] != 0.0 or falling or is_rest(state)):
         state[P_CUT] = 1.0
         write_pulse(par, state, events)
     state[P_OPEN] = 0.0

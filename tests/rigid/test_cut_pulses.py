@@ -166,3 +166,16 @@ def test_energy_gained_in_a_pulse_would_show():
     scene = load_scene("paper-3.2-k0.75").replace(run={"turns": 40})
     losses = np.array([pulse.friction_loss for pulse in simulate(scene).pulses])
     assert np.abs(losses).max() < 1e-14
+
+
+@pytest.mark.parametrize("turned", [181, 172, -179])
+def test_cut_at_both_ends(turned):
+    """Released on its way up from the bottom, as down to it, and looked at no further than in the pulse."""
+    omega = 2.0 if turned > 0 else -2.0
+    scene = Scene(Hoop(0.1, 1.02), Friction(0.35, 0.3), Release(np.radians(turned), omega), Run(t_end=0.05))
+    motion = simulate(scene)
+    (pulse,) = motion.pulses
+    assert (pulse.t_start, pulse.t_end, pulse.cut) == (0, 0.05, True)
+    assert quadrature(motion, pulse) == pytest.approx([pulse.normal_impulse, pulse.friction_impulse], rel=1e-9)
+    of_batch = simulate_batch([scene], t_end=0.05, pulses=1)
+    assert of_batch.normal_impulse[0, 0] == pytest.approx(pulse.normal_impulse, rel=1e-12)
