@@ -72,12 +72,14 @@ def results_folder(path: Path | None) -> Path | None:
     Raises
     ------
     StudyError
-        It holds the results of another command, or files of somebody's that this command would write over, or nothing
-        can be written into it.
+        --overwrite without a folder; one that holds the results of another command, or files of somebody's that this
+        command would write over; nothing can be written into it.
     """
-    if path is None:
-        return None
     ctx = click.get_current_context()
+    if path is None:
+        if ctx.meta.get(OVERWRITE):
+            raise StudyError("--overwrite needs --out DIR: without it nothing is written.")
+        return None
     files = [*_found(path, ctx.command_path, ctx.params), *path.glob(MADE_BY)]
     held = _held(path)  # after the files: what another run of this command leaves meanwhile comes after its mark
     if not ctx.meta.get(OVERWRITE):

@@ -80,6 +80,12 @@ def test_a_folder_whose_name_is_no_utf_8_is_known_again(hoop, tmp_path, scene):
     assert os.fsencode(out) in (out / results.MADE_BY).read_bytes()
 
 
+def test_overwrite_of_nothing(hoop):
+    status, out, err = hoop("rigid", "paper-3.1", "--overwrite")
+    assert (status, out) == (2, "")
+    assert err.startswith("hoop: --overwrite needs --out DIR")
+
+
 def test_overwrite_takes_a_strangers_folder(hoop, tmp_path):
     (tmp_path / "history.csv").write_text("mydata")
     assert hoop("rigid", "paper-3.1", "--out", tmp_path, "--overwrite")[0] == 0
