@@ -133,7 +133,7 @@ def verdict(study: LimitStudy) -> str:
         " normal impulse, of the first pulse)"
     )
     frictionless = study.scene.friction.mu_s == 0
-    if same and not term.coefficient and law == "regularised" and not frictionless:
+    if same and not term.coefficient and study.prediction.parameter != "eps" and not frictionless:
         order = power_of(_symbol(study), term.exponent)
         return f"{lead} tends to {term.limit:.6f}, without a term of the order of {order}: what is left falls faster."
     if same and not term.coefficient:

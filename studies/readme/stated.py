@@ -82,7 +82,7 @@ class Stated:
 
     def written(self, pages: str) -> str | None:
         """The number as it stands there; None where the words are not there."""
-        found = re.search(self.words, pages)
+        found = re.search(self.words.replace(" ", r"\s+"), pages)  # lines may end between words
         return found[1] if found else None
 
     def agrees(self, written: str, now: float) -> bool:

@@ -174,7 +174,7 @@ def prediction_sentence(study: StiffnessStudy) -> str:
         powers = " ".join(f"{c:+.4g} {power_of('ε', p)}" for p, c in term.powers if c)
         if not powers:
             # sliding one way throughout J_F is mu J_N, J_N and the loss are what they come to be
-            exact = name == "impulse_ratio" and study.scene.contact.law != "regularised"
+            exact = name == "impulse_ratio" and study.prediction.parameter == "eps"
             frictionless = study.scene.friction.mu_s == 0
             powers = "at any stiffness" if exact or frictionless else "without a term of the order of ε"
         seen = study.coefficient(name)
