@@ -159,17 +159,18 @@ class Layout:
 
     def _logarithmic(self, axes: Any, usual: float, low: float, high: float) -> None:
         """An axis that is linear about zero and logarithmic beyond the usual force."""
-        from matplotlib.ticker import NullLocator
-
         axes.set_yscale("asinh", linear_width=usual)
         room = 0.3 * usual
         axes.set_ylim(3 * low if low < -usual else low - room, 3 * high if high > usual else high + room)
         decades = 10.0 ** np.arange(np.ceil(np.log10(usual)), np.ceil(np.log10(max(high, -low, 2 * usual))))
         some = decades[:: -max(1, len(decades) // 3)][:3]
+        if len(some) > 2:  # beside two others one at the usual force would lie over the zero
+            some = some[some > 2 * usual]
         above = decades[decades <= high][-1:] if low < -usual else some[some <= high]
         axes.set_yticks(np.sort([*-decades[decades <= -low][-1:], 0.0, *above]), minor=False)
         axes.yaxis.set_major_formatter(lambda value, _: _decade(value))
-        axes.yaxis.set_minor_locator(NullLocator())
+        axes.minorticks_off()
+        axes.text(0.01, 0.98, "log", transform=axes.transAxes, va="top", color=style.FAINT, fontsize=0.8 * self.type)
 
     def note(self, text: str) -> None:
         """Print a line beside the title, or below it where it would not fit, on every page from now on."""
@@ -277,8 +278,7 @@ class Layout:
                 axes.tick_params(labelbottom=False)
             else:
                 axes.set_xlabel(f"t  [{self.units['time']}]", fontsize=self.type, color=style.INK, labelpad=1)
-            how = "" if curves.usual is None else ", log"
-            axes.set_ylabel(f"{name}  [{self.units['force']}]{how}", fontsize=self.type, color=colour)
+            axes.set_ylabel(f"{name}  [{self.units['force']}]", fontsize=self.type, color=colour)
             axes.yaxis.set_label_coords(-3.6 * em / (self.size[0] - left - right), 0.5)
             line = axes.axvline(0, color=style.INK, lw=0.07 * self.type, zorder=4, animated=True)
             (dot,) = axes.plot([], [], "o", color=colour, zorder=5, animated=True)

@@ -22,7 +22,12 @@ def main(out: Path = Path(), frames: int = 12) -> Path:
     ring = reader.read()[0]
     print(f"{ring.n_cells} cells, {ring.point_data.keys()}")
     plotter = pyvista.Plotter(off_screen=True, window_size=[900, 700])
-    plotter.add_mesh(ring, scalars="hoop_stress", cmap="RdBu_r", scalar_bar_args={"title": "hoop stress / (m g/R²)"})
+    plotter.add_mesh(
+        ring,
+        scalars="hoop_stress",
+        cmap="RdBu_r",
+        scalar_bar_args={"title": "hoop stress / (m g/R²)", "n_labels": 3},
+    )
     plotter.camera_position = "xy"
     plotter.camera.parallel_projection = True
     plotter.camera.focal_point = (ring.center[0], 0.05, 0.0)  # the contact

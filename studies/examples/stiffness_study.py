@@ -13,7 +13,7 @@ def main(out: Path = Path(), count: int = 5) -> Path:
     ladder = Ladder(along="both", low=1e7, high=1e11, count=count)
     study = stiffness_study(scene, ladder)
     target, found = study.rigid.pulses[0]["impulse_ratio"], study.limits["impulse_ratio"]
-    print(f"J_F/J_N tends to {found.value:.5f} +- {found.uncertainty:.5f}; the rigid hoop has {target:.5f}")
+    print(f"J_F/J_N tends to {found.value:.5f} +- {found.uncertainty:.1e}; the rigid hoop has {target:.5f}")
     figure, axes = plt.subplots(layout="constrained")
     axes.loglog(
         [rung.contact_stiffness for rung in study.rungs],

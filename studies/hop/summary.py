@@ -41,7 +41,11 @@ def _of_all_lines(study: HopStudy, where: str) -> str:
     values = sorted(value for value in (bracket.value for bracket in found) if value is not None)
     still = max((bracket.low for bracket in found if not isfinite(bracket.high)), default=0.0)
     told = []
-    if values:
+    if any(bracket.value is not None and not bracket.is_close for bracket in found):
+        closed = [bracket for bracket in found if bracket.value is not None]
+        low, high = min(bracket.low for bracket in closed), max(bracket.high for bracket in closed)
+        told.append(f"below something between {number(low, 3)} and {number(high, 3)}")
+    elif values:
         least, largest = number(values[0], 3), number(values[-1], 3)
         told.append(f"below {least}" if least == largest else f"below {least} to {largest}")
     if still:
@@ -214,8 +218,8 @@ def _power_of_k(study: HopStudy) -> list[str]:
 
     said = []
     for where in PLACES:
-        found = [(line.value, line.threshold(where).value) for line in study.lines if where in line.windows]
-        known = np.array([(k, value) for k, value in found if value is not None])
+        found = [(line.value, line.threshold(where)) for line in study.lines if where in line.windows]
+        known = np.array([(k, bracket.value) for k, bracket in found if bracket.is_close])
         if len(known) < 3:
             continue
         k, value = np.log(known).T

@@ -11,23 +11,29 @@ from matplotlib.figure import Figure
 
 from ..plots.style import OKABE_ITO, RIGID, STYLE, blank, colours, power_of_ten
 from .damping import Spot
-from .study import LimitStudy
+from .study import EventFound, LimitStudy
 
 
 def of_limit(study: LimitStudy) -> dict[str, Figure]:
     """All figures by name."""
     drawn = {"approach": approach(study)}
-    if study.events:
+    if any(map(_jumps, study.events)):
         drawn["layers"] = layers(study)
     return drawn
 
 
+def _jumps(found: EventFound) -> bool:
+    """Whether the forces jump at an event; where they do not, its layer is round-off."""
+    return not np.allclose(found.before, found.behind, rtol=1e-6, atol=1e-9)
+
+
 def layers(study: LimitStudy) -> Figure:
-    """N, F and V through the layer of each event, over the rigid hoop's values before and behind it."""
+    """N, F and V through the layer of each event at which forces jump, over the rigid hoop's before and behind it."""
     with matplotlib.rc_context(STYLE):
-        figure = blank(3.6 * max(len(study.events), 2), 6.4)
-        grid = figure.subplots(3, len(study.events), sharex="col", squeeze=False)
-        for column, found in zip(grid.T, study.events, strict=True):
+        events = [found for found in study.events if _jumps(found)]
+        figure = blank(3.6 * max(len(events), 2), 6.4)
+        grid = figure.subplots(3, len(events), sharex="col", squeeze=False)
+        for column, found in zip(grid.T, events, strict=True):
             layer = found.layer
             show = layer.tau <= min(layer.tau[-1], 6 * layer.period)
             tau = layer.tau[show]
@@ -73,7 +79,7 @@ def damping_figure(spots: Sequence[Spot]) -> Figure:
         left.axhline(spots[0].limit, color=RIGID, lw=2.6, alpha=0.3)
         left.set_xscale("symlog", linthresh=0.003)
         left.set(xlabel="damping ratio", ylabel="$J_F/J_N$", xlim=(0, None))
-        left.legend(ncols=2, title="foundation εR²/(mg)")
+        left.legend(ncols=2, title="foundation ε_n R²/(mg)")
         right.axhline(0, color=RIGID, lw=2.6, alpha=0.3)
         right.set_xscale("symlog", linthresh=0.3)
         right.set(xlabel=r"$x = \zeta\omega T_{stick}$", ylabel="beyond the predicted distance", xlim=(0, None))

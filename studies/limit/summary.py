@@ -19,7 +19,7 @@ def event_sheet(study: LimitStudy) -> Sheet:
     """Events, and what their layers do; forces before and behind, over the weight of the whole hoop."""
     found = study.events
     return Sheet(
-        "Events of the first pulse, their layers on the clock τ = (t − t*)/ε",
+        "Events of the first whole pulse and on the way to it, their layers on the clock τ = (t − t*)/ε",
         [Column("event", [e.event.kind for e in found], words=True)],
         [
             Column("phi\n[deg]", [f"{degrees(e.event.phi):.3f}" for e in found]),
@@ -130,7 +130,7 @@ def verdict(study: LimitStudy) -> str:
     least = ", with the least of damping" if study.scene.contact.damping == 0 and study.separate == inf else ""
     lead = (
         f"Made ever stiffer{least}, the hoop on a floor with the {law} law {becomes}: J_F/J_N (friction impulse over"
-        " normal impulse, of the first pulse)"
+        " normal impulse, of the first whole pulse)"
     )
     frictionless = study.scene.friction.mu_s == 0
     if same and not term.coefficient and study.prediction.parameter != "eps" and not frictionless:

@@ -61,7 +61,7 @@ def panel(axes: Axes, distance: Distance, words: str, colour: str) -> None:
         axes.text(0.5, 0.5, "the rigid value, to round-off", transform=axes.transAxes, ha="center", color="0.4")
         axes.set(xscale="log", xlim=(s.min(), s.max()), yticks=[], xlabel=distance.label, title=words)
         return
-    for side, fill, said in ((off > 0, colour, "above the rigid value"), (off < 0, "white", "below it")):
+    for side, fill, said in ((off > 0, colour, "above the rigid value"), (off < 0, "white", "below the rigid value")):
         if side.any():
             axes.plot(s[side], abs(off[side]), "o", color=colour, markerfacecolor=fill, zorder=4, label=said)
     axes.plot(s, np.where(error > 0, error, np.nan), "v", color="0.6", markersize=4, label="numerical error")

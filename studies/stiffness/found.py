@@ -179,7 +179,8 @@ class StiffnessStudy(summary.Summarised):
             foundation = np.geomspace(softest, stiffest, 60)
             term = self.prediction.terms[name]
             away = abs(term.at(foundation ** (-1 / 3)) - term.limit) / unit
-            predicted = foundation * stiffness[0] / through[0].contact_stiffness, away
+            if away.any():
+                predicted = foundation * stiffness[0] / through[0].contact_stiffness, away
         return Distance(
             stiffness,
             (values - limit.rigid) / unit,

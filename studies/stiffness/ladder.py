@@ -73,7 +73,7 @@ class Ladder:
     @property
     def label(self) -> str:
         """What is raised, in words."""
-        return "bending stiffness EI/(mgR²)" if self.along == "bending" else "contact foundation εR²/(mg)"
+        return "bending stiffness EI/(mgR²)" if self.along == "bending" else "contact foundation ε_n R²/(mg)"
 
     @property
     def raised(self) -> str:

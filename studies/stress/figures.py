@@ -76,7 +76,7 @@ def margins(report: Report) -> Figure:
                 _panel(figure, axes, mine, plane)
             else:
                 axes.set_axis_off()
-            axes.set_title(f"{_TITLES[name]}: {len(mine)} scenes")
+            axes.set_title(f"{_TITLES[name]}: {len(mine)} scene{'s' if len(mine) != 1 else ''}")
         return figure
 
 

@@ -10,7 +10,7 @@ from rigid import load_scene, simulate
 
 @pytest.mark.parametrize(
     ("low", "high", "ticks"),
-    [(-130.0, 74.0, [-100, 0, 10]), (0.0, 300.0, [0, 1, 10, 100]), (-20.0, 0.5, [-10, 0]), (-0.2, 50.0, [0, 1, 10])],
+    [(-130.0, 74.0, [-100, 0, 10]), (0.0, 300.0, [0, 10, 100]), (-20.0, 0.5, [-10, 0]), (-0.2, 50.0, [0, 1, 10])],
 )
 def test_a_logarithmic_axis_has_a_tick_wherever_a_decade_is(low, high, ticks):
     """On both sides of zero, of a usual force of 1: between a single one and zero nothing can be read."""
@@ -22,8 +22,8 @@ def test_a_logarithmic_axis_has_a_tick_wherever_a_decade_is(low, high, ticks):
     layout = Layout((640, 480), Curves(t, force, friction), (0.0, 1.0), None, {}, "")
     of_normal, of_friction = [axes for axes in layout.figure.axes if axes.get_yscale() == "asinh"]
     assert of_friction.get_yticks() == pytest.approx(ticks)
-    assert "log" in of_friction.get_ylabel()
-    assert "log" in of_normal.get_ylabel()
+    assert "log" in [text.get_text() for text in of_friction.texts]
+    assert "log" in [text.get_text() for text in of_normal.texts]
 
 
 def test_a_pulse_far_above_the_usual_force_gets_a_logarithm():

@@ -49,7 +49,7 @@ def test_pulse(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 @pytest.mark.slow
 def test_stiffness_study(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert drawn(stiffness_study.main(tmp_path))
-    value, uncertainty, rigid = (float(x) for x in re.findall(r"\d\.\d+", capsys.readouterr().out))
+    value, uncertainty, rigid = (float(x) for x in re.findall(r"\d\.\d+(?:e-\d+)?", capsys.readouterr().out))
     assert abs(value - rigid) <= uncertainty
 
 

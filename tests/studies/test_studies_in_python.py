@@ -42,7 +42,7 @@ def test_a_study_draws_its_distance(study):
     axes = study.plot()
     assert len(axes) == 2
     limit = study.limits["impulse_ratio"]
-    points = [line for line in axes[0].lines if line.get_label() in ("above the rigid value", "below it")]
+    points = [line for line in axes[0].lines if line.get_label() in ("above the rigid value", "below the rigid value")]
     drawn = {round(x): y for line in points for x, y in zip(*line.get_data(), strict=True)}
     for rung in study.rungs:
         away = abs(rung.measure("impulse_ratio") - limit.rigid)
@@ -61,7 +61,7 @@ def test_a_point_is_called_above_the_rigid_value_where_it_is(study):
         told = {line.get_label(): len(line.get_xdata()) for line in axes.lines}
         above = sum(rung.measure(name) > limit.rigid for rung in study.rungs)
         assert told.get("above the rigid value", 0) == above
-        assert told.get("below it", 0) == len(study.rungs) - above
+        assert told.get("below the rigid value", 0) == len(study.rungs) - above
     pyplot.close("all")
 
 

@@ -28,11 +28,11 @@ def write_motion(motion: Motion, out: Path) -> None:
     from ...plots import pulse as figures
 
     first = motion.pulses[_shown(motion)]
-    whole = "The first whole pulse" if motion.pulses[0].cut else "The first pulse"
-    title = "A pulse cut by the run" if first.cut else whole
+    which = "first whole" if motion.pulses[0].cut and not first.cut else "first"
+    title = "A pulse cut by the run" if first.cut else f"The {which} pulse"
     through = history.dimensionless(history.through(motion, first), motion.scene)
     figures.save(figures.pulse([("", through, figures.RIGID)], title), out / "pulse.png")
-    if (ledger := figures.energy(through, "Where the energy is during the first pulse")) is not None:
+    if (ledger := figures.energy(through, f"Where the energy is during the {which} pulse")) is not None:
         figures.save(ledger, out / "energy.png")
 
 

@@ -62,6 +62,10 @@ def hops_in(motion: Mapping[str, Any], window: Window | None, least: float = 1.0
     return False if ended or (window is not None and motion["swept"] > window.high) else None
 
 
+CLOSE = 1.25
+"""Ratio of the ends of a bracket up to which the threshold in it is told as a number."""
+
+
 @dataclass(frozen=True, slots=True)
 class Bracket:
     """A threshold between two stiffnesses: it hops at ``low`` and not at ``high``."""
@@ -79,6 +83,11 @@ class Bracket:
     def value(self) -> float | None:
         """Their geometric mean, None without both."""
         return sqrt(self.low * self.high) if self.low > 0 and isfinite(self.high) else None
+
+    @property
+    def is_close(self) -> bool:
+        """Whether its ends are near enough for a rule to be seen in the threshold."""
+        return self.value is not None and self.high <= CLOSE * self.low
 
     @property
     def ends(self) -> str:
@@ -232,13 +241,13 @@ class Line:
 
     def turning(self, where: str) -> float | None:
         """omega_1 t* at the threshold, see :mod:`studies.hop.rolling.scaling`; None without one, or without a mass."""
-        value, sudden = self.threshold(where).value, suddenness(self.scene)
-        return sqrt(value / sudden) if value is not None and sudden > 0 else None
+        found, sudden = self.threshold(where), suddenness(self.scene)
+        return sqrt(found.value / sudden) if found.value is not None and found.is_close and sudden > 0 else None
 
     def times_duration(self, where: str) -> float | None:
         """E I tau^2 at the threshold, E I over m g R^2 and tau, the time of the rigid pulse, over sqrt(R/g)."""
-        value, tau = self.threshold(where).value, duration(self.scene)
-        return value * tau**2 if value is not None and tau is not None else None
+        found, tau = self.threshold(where), duration(self.scene)
+        return found.value * tau**2 if found.value is not None and found.is_close and tau is not None else None
 
     def holds(self, where: str) -> bool | None:
         """Whether a third of the tolerance says the same at both ends of the bracket; None where it does not say."""

@@ -47,7 +47,10 @@ _FITTED = """\
 distance changes its sign, or a single power."""
 _FORESEEN = """\
  The black line is the leading powers as predicted from the rigid motion, without any of the cases; """
-_FROM, _ONWARD = "it begins where they hold.", "they hold from some stiffness on that is not foretold here."
+_FROM, _ONWARD = (
+    "it begins where they are the beginning of a series.",
+    "they are from some stiffness on that is not foretold here.",
+)
 
 
 def captions(study: StiffnessStudy) -> dict[str, str]:
@@ -82,7 +85,7 @@ def write_figure(study: StiffnessStudy, name: str, folder: Path) -> Path | None:
 
 
 FOUND = """\
-<h2>The limit of the first pulse</h2>
+<h2>The limit of the first whole pulse</h2>
 {{ table(limit_heading, limits) }}
 <p>{{ extrapolation }} The rate is that of the distance to the rigid value where its sign no longer changes, a dash
 where the cases tell none; the last distance is that of the stiffest case.
@@ -105,7 +108,7 @@ its work let it.{{ unresolved }}</p>
 {% for note in notes %}<p>{{ note }}</p>
 {% endfor %}
 
-<h2>All measures of the first pulse, side by side</h2>
+<h2>All measures of the first whole pulse, side by side</h2>
 {{ table(side_heading, side) }}
 <p>The three e are restitutions of the pulse, by the vertical velocity of the mass centre: Newton's is the velocity
 behind it over that before it, with the other sign; Poisson's the normal impulse while the centre rises over that while

@@ -28,7 +28,7 @@ def fixed(study: StiffnessStudy, name: str, value: float, decimals: int) -> str:
 def case_heading(study: StiffnessStudy) -> list[str]:
     """Columns of the ladder, each with its unit on a second line."""
     ratio, loss, *rest = (MEASURES[name].heading(study.scene) for name in ("impulse_ratio", "friction_loss", *REST))
-    return ["foundation\nεR²/(mg)", "bending\nEI/(mgR²)", ratio, "±", loss, "±", *rest, "run\n[s]"]
+    return ["foundation\nε_n R²/(mg)", "bending\nEI/(mgR²)", ratio, "±", loss, "±", *rest, "run\n[s]"]
 
 
 def case_cells(study: StiffnessStudy, rung: Rung) -> list[str]:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 _MEANING = {
-    "impulse_ratio": "J_F/J_N (friction impulse over normal impulse, of the first pulse)",
+    "impulse_ratio": "J_F/J_N (friction impulse over normal impulse, of the first whole pulse)",
     "friction_loss": "the friction loss (energy that sliding takes in it)",
 }
 
@@ -191,8 +191,9 @@ def prediction_sentence(study: StiffnessStudy) -> str:
         said += " A patch of so little damping does not come to rest between the events, and it holds at none of these."
     elif study.separate > study.ladder.low:
         said += (
-            f" It holds from a foundation of {number(study.separate, 2)} on: at softer ones an event happens before the"
-            " patch has come to rest from the one before it, and no series in powers of ε describes these cases."
+            f" A series in powers of ε, of which this is the beginning, describes cases from a foundation of"
+            f" {number(study.separate, 2)} on, where terms behind may still be the larger ones: at softer ones an event"
+            " happens before the patch has come to rest from the one before it."
         )
     if study.otherwise:
         said += (

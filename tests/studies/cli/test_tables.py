@@ -69,7 +69,7 @@ def study(scene):
 def test_the_ladder_keeps_every_number(study, scene, screen, width):
     out = screen(width, study_tables(study))
     found = table_of(out)
-    assert found["foundation εR²/(mg)"][:5] == ["1e+07", "3.16e+08", "1e+10", "3.16e+11", "1e+13"]
+    assert found["foundation ε_n R²/(mg)"][:5] == ["1e+07", "3.16e+08", "1e+10", "3.16e+11", "1e+13"]
     ratio = [float(cell) for cell in found["J_F/J_N"][:5]]
     assert ratio == sorted(ratio, reverse=True)
     assert all(float(cell) < 1e-3 for cell in found["±"][:5])

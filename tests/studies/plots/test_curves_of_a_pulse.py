@@ -77,7 +77,7 @@ def test_what_lies_above_the_rigid_value_is_filled_and_what_lies_below_is_open()
     told = Distance(s, off, nothing, 1 / 3, (0.3, 0.4), "95 %", (0, 1, 2, 3), (s, off), None, "foundation")
     (axes,) = draw({"impulse_ratio": told})
     marks = {line.get_label(): line for line in axes.lines if line.get_marker() == "o"}
-    above, below = marks["above the rigid value"], marks["below it"]
+    above, below = marks["above the rigid value"], marks["below the rigid value"]
     assert above.get_xydata().tolist() == [[s[2], 2e-3], [s[3], 1e-3]]
     assert below.get_xydata().tolist() == [[s[0], 3e-2], [s[1], 1e-2]]
     assert above.get_markerfacecolor() == above.get_color()

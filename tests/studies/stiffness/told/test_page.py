@@ -132,7 +132,7 @@ def test_the_page_says_what_restitutions_it_lists(study, tmp_path):
 def test_captions_speak_of_what_is_drawn(study):
     """Of a line that is foreseen where one is, and of how many cases have a curve where not all have."""
     assert ["black" in report.captions(each)["distance"] for each in (study, foreseen(study))] == [False, True]
-    for separate, words in ((1e8, "begins where they hold"), (0.0, "is not foretold here")):
+    for separate, words in ((1e8, "begins where they are the beginning of a series"), (0.0, "is not foretold here")):
         assert words in report.captions(replace(foreseen(study), separate=separate))["distance"]
     drawn = [dict.fromkeys(("t", "phi"), np.zeros(1))]
     six = [replace(rung, outcome=replace(rung.outcome, histories=tuple(drawn))) for rung in study.rungs[:6]]
