@@ -189,7 +189,8 @@ def _rates(table: Table, known: _Known, h: float, end: int, drag: float, length:
         slip += table.end_rate[i] * known.slip_velocity[i]
     if abs(known.pos[end, 2] - known.pos[0, 2]) < RENEWED * length:
         feet = _sum(1 / h, table.end_rate, known.feet, known.normal.shape[0])
-    return Rates(known.elastic_rate[end] + damped / h, -drag * slip / h, feet)
+    elastic = known.elastic_rate[end]
+    return Rates(elastic + damped / h, elastic, -drag * slip / h, feet)
 
 
 @part

@@ -105,12 +105,17 @@ def excess(law: Parameters, state: Any, force: float, velocity: float) -> float:
     if res.normal == 0 or law.mu_s == 0:
         return -inf
     rates, beyond = state.rates, state.mode * state.slip_velocity
-    if res.eta <= 1 and res.length > 0:
+    if res.length > 0:
         stiffness = law.eps_t * res.length
-        lags = state.mode * rates.feet - beyond
+        lags, lets_go = state.mode * rates.feet - beyond, -state.mode * rates.drag / stiffness
         if isnan(lags):
-            lags = law.mu * rates.normal / stiffness
-        beyond += min(lags + max(-state.mode * rates.drag / stiffness, 0.0), 0.0)
+            lags = law.mu * (rates.elastic if res.eta > 1 else rates.normal) / stiffness
+        if res.eta > 1:  # bristles hold nothing of what a damper adds to N
+            beyond += max(min(lags, law.mu * rates.normal / stiffness + lets_go), 0.0)
+        elif res.eta == 1 and lags > 0:
+            beyond += lags
+        else:
+            beyond += min(lags + max(lets_go, 0.0), 0.0)
     return float(beyond / velocity)
 
 

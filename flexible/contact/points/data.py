@@ -188,11 +188,12 @@ class Rates(NamedTuple):
     """How a sliding patch changes at the end of a step, as far as it tells whether that would hold if it stuck."""
 
     normal: float  # of N
+    elastic: float  # of N_el
     drag: float  # of what the damper would drag
     feet: float  # of the feet of its bristles, along the floor; nan where these entered in the same step
 
 
-UNKNOWN = Rates(0.0, 0.0, nan)
+UNKNOWN = Rates(0.0, 0.0, 0.0, nan)
 
 
 class Contact(NamedTuple):
