@@ -205,6 +205,7 @@ class FlexibleMotion(Motion):
         scene, books = self.scene, self.ledger
         lost = {"friction": books.friction_loss, "damper": books.damping_loss, "landings": books.landing_loss,
                 "integrator": books.numerical_loss}  # fmt: skip
+        lost |= {"hand-overs": books.hand_over} if books.hand_over else {}
         return [
             *Motion._lines(self),
             ("ring", f"E I/(m g R^2) = {scene.ring.bending_stiffness:g}, foundation {scene.contact.stiffness:g}, "

@@ -166,9 +166,13 @@ def simulate(scene: SceneLike, aloft: Aloft = ON_THE_FLOOR) -> Motion:
         height, rise = aloft
     except (TypeError, ValueError):
         raise SceneError(f"aloft = {shown(aloft)} is not possible: it is a height and a velocity upward.") from None
-    height = require("aloft's height", height, 0.0, 1e9, "the hoop is on the floor or over it")
+    height = require(
+        "aloft's height", height, 0.0, 1e9, "the height of its lowest point over the floor is a number from 0 to 1e9"
+    )
     least = 0.0 if height == 0 else -1e9
-    rise = require("aloft's rise", rise, least, 1e9, "a hoop on the floor moves along it, or up")
+    rise = require(
+        "aloft's rise", rise, least, 1e9, "its velocity upward is a number up to 1e9, of a hoop on the floor at least 0"
+    )
     if (height or rise) and is_point_mass(scene.hoop.constants):
         raise SceneError("A point mass on a massless hoop is on the floor: what lands of it has no inertia.")
     return _motion(scene, _run(scene, (height / scene.hoop.R, rise * scene.time_unit / scene.hoop.R)))

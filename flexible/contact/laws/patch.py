@@ -91,9 +91,10 @@ def tractions(
 def excess(law: Parameters, state: Any, force: float, velocity: float) -> float:
     """How far |F| is beyond mu_s N, or the slip beyond zero: see :func:`flexible.contact.laws.listing.excess`.
 
-    A patch sticks up to ``|F| = mu_s N``. It slides as long as it moves against its friction, and beyond that where
-    mu N falls faster than what bristles and damper would pull if it stuck: it would break in the same instant. A damper
-    that adds to N leaves no such doubt.
+    A patch sticks up to ``|F| = mu_s N``. It slides as long as the feet of its bristles move against its friction:
+    where N rises they stand before the patch does, and bristles that were stretched further with N all the same would
+    take energy from nowhere; where mu N falls faster than what bristles and damper would pull if it stuck, it slides on
+    beyond v = 0, as it would break in the same instant. Where a damper adds to N both have to be so.
 
     Bristles let go by their stiffness times the slip. Those at the points of a patch that narrows do so by a little
     more or less; in very short steps their feet tell, without which a patch would stick and break time and again.
@@ -145,7 +146,7 @@ def care(law: Parameters, state: Any) -> float:
 
 @loop
 def free(state: Any) -> int:
-    """A patch off the floor comes down sliding, the way it moves: one that stuck would break as it touches."""
+    """A patch off the floor comes down sliding, the way it moves, if only until its feet are seen to stand."""
     if state.res.elastic > 0 or state.slip_velocity == 0:
         return int(state.mode)
     return SLIDE_LEFT if state.slip_velocity > 0 else SLIDE_RIGHT

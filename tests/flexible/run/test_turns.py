@@ -128,3 +128,17 @@ def test_a_hoop_that_creeps_turns_where_one_does_that_sticks():
     slid = scene.contact.slip_velocity_scale * other.t
     assert turn.t > 5
     assert turn.phi == pytest.approx(other.phi, abs=3 * slid)
+
+
+@pytest.mark.parametrize("angle", [-2.0, -1.2, 1.2])
+def test_a_patch_that_bears_next_to_nothing_tells_of_no_turn(angle):
+    """Let go undeformed a hoop without mass falls freely at first; its rim's friction is as small as N is."""
+    scene = SOFT.replace(
+        hoop={"r": 1.03, "mass_ratio": 0.0},
+        release={"phi0": angle},
+        run={"t_end": 0.02},
+        ring={"bending_stiffness": 3.0},
+        contact={"stiffness": 2.6e8, "damping": 0.0},
+        solve={"resolve": "all", "start": "undeformed", "rtol": 1e-3, "level": "auto"},
+    )
+    assert not flexible.simulate(scene).turns
