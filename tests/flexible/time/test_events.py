@@ -258,7 +258,8 @@ def test_one_coefficient_of_friction_does_not_stick_and_slip_without_end():
 def test_order_across_the_start_of_slip():
     """Equal steps over a stick that breaks: its event is located, so the end keeps the order 3 of the integrator.
 
-    A soft floor and two modes, as for the order without events; the time of the event is of that order too.
+    A soft floor and two modes, as for the order without events; the time of the event is of that order too. At 0.077 it
+    leaves the floor, and by 0.07 the error of phi, which is the other way than what that of omega adds, is none.
     """
     scene = HOOP.replace(
         hoop={"mass_ratio": 0.0}, release={"phi0": 1.5, "omega0": 1.0}, contact={"stiffness": 1e4},
@@ -269,7 +270,7 @@ def test_order_across_the_start_of_slip():
     steps = 0.1 / np.array([50, 100, 200, 1600])
     ends = []
     for step in steps:
-        last, records, _, ended, _ = march(hoop, start, Ends(t=0.1), 0.5, Limits(step, step))
+        last, records, _, ended, _ = march(hoop, start, Ends(t=0.04), 0.5, Limits(step, step))
         assert not ended
         breaks = [b.t for a, b in itertools.pairwise(records) if a.mode == STICK != b.mode]
         assert breaks
