@@ -136,6 +136,7 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
         window = hoop.window(pose.phi, 0.0, 0.0, 0.1 * hoop.element)
         u = settle_free(ring, window)
         if u is None:
+            lost = ": no shape of the ring was found that its own inertia leaves at rest as it flies"
             raise MarchError(Stop(lost, phi=pose.phi, what="no start", by_ring=True))
         # just clear of the floor, and as high over that as the rigid hoop is
         height = pose.height - min(0.0, float(upward(u[:, 0], u[:, 1], s, c).min()))

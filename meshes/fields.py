@@ -120,7 +120,7 @@ def disk_block(centre: ArrayLike, radius: float, angle: float, sectors: int = 12
     Raises
     ------
     SeriesError
-        A radius that is not above 0, or fewer than 3 sectors.
+        A radius that is not above 0, a centre or an angle that is none, or fewer than 3 sectors.
     """
     if not (0 < radius < inf and sectors >= 3 and isfinite(angle) and np.all(np.isfinite(centre))):
         raise SeriesError(

@@ -264,9 +264,8 @@ def scene_tables(source: str | PathLike[str]) -> dict[str, Any]:
         raise SceneError(f"{source!r} is neither the name of a scene nor the path of a file.")
     path = Path(source)
     try:
-        text = (
-            path.read_text(encoding="utf-8-sig") if path.exists() and not path.is_dir() else None
-        )  # an editor may begin it with a mark
+        # a pipe too; an editor may begin it with a mark
+        text = path.read_text(encoding="utf-8-sig") if path.exists() and not path.is_dir() else None
     except UnicodeDecodeError:
         raise SceneError(f"{path} is not a scene: it is not text.") from None
     except OSError as error:

@@ -122,10 +122,10 @@ def sweep_from_dict(data: Mapping[str, Any], solvers: str | Sequence[str] = (), 
     laid = {part: table for part, table in data.items() if part != "sweep"}
     base = _base(settings["scene"], laid) if "scene" in settings else {}
     keys, choices, tables, repeated = _varied(laid, base)
-    who = dict.fromkeys((solvers,) if isinstance(solvers, str) or not isinstance(solvers, Iterable) else solvers)
+    who = (solvers,) if isinstance(solvers, str) or not isinstance(solvers, Iterable) else tuple(solvers)
     for name in who:
         solver(name)
-    sweep = Sweep(tuple(keys), tuple(choices), tables, tuple(who) or named, histories, repeated)
+    sweep = Sweep(tuple(keys), tuple(choices), tables, tuple(dict.fromkeys(who)) or named, histories, repeated)
     if sweep.cases > max_cases:
         raise SceneError(
             f"{sweep.announcement()}. That is more than {max_cases}: shorten the lists, or allow it:"

@@ -226,7 +226,7 @@ def advance(
         if lacking or (aims.alone and not solved):
             why, window, attempts = LACKS if lacking else NO_FORCES, taken.window, attempts - 1
             break
-        before, seen = sight(model, state, state, way), sight(model, taken, state, way)
+        before, seen = sight(model, law, state, state, way), sight(model, law, taken, state, way)
         length = (state.t + tries) - state.t
         if search.event == NO_EVENT:
             error = max(taken.error / aims.tolerance, _of_a_break(law, aims, before, seen, asked)) if solved else inf

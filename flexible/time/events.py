@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 from rigid.kernel.compile import loop, part
 
-from ..contact.laws.listing import excess, may_end
+from ..contact.laws.listing import excess, is_smoothed, may_end
 from ..contact.points.data import EXACTLY, Rates, Resultants
 from ..models.state import rotation
 
@@ -59,7 +59,7 @@ class Sight(NamedTuple):
 
 
 @part
-def sight(model: Any, there: Any, old: Any, way: float) -> Sight:
+def sight(model: Any, law: Any, there: Any, old: Any, way: float) -> Sight:
     """What tells of events before a step from ``old``, or behind it, of a hoop that goes that way (:func:`onward`).
 
     Whether it rolls is asked once in a step: where bristles that enter are short of their bound a patch that slides has
@@ -67,7 +67,9 @@ def sight(model: Any, there: Any, old: Any, way: float) -> Sight:
     """
     omega, by_momentum = there.vel[2], way
     if there.res.elastic > 0 and (way == 0 or way * omega <= 0):
-        by_momentum = rotation(model, there.pos, there.vel, old.res.stuck > 0, there.slip_velocity)
+        # a patch on bristles that rolls slips to and fro by their vibration alone
+        creep = there.slip_velocity if is_smoothed(law) else 0.0
+        by_momentum = rotation(model, there.pos, there.vel, old.res.stuck > 0, creep)
     return Sight(old.mode, there.pos[2], omega, by_momentum, there.res, there.slip_velocity, there.rates)
 
 

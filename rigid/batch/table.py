@@ -66,10 +66,9 @@ def table_of(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
 
 def _numbers(name: str, values: ArrayLike | None) -> Array:
     try:
-        # what is masked is no number, and refused as one that is none
-        return (
-            np.ma.asarray(values, dtype=float).filled(np.nan) if np.ma.isMA(values) else np.asarray(values, dtype=float)
-        )
+        if np.ma.isMA(values):  # what is masked is no number, and refused as one that is none
+            return np.ma.asarray(values, dtype=float).filled(np.nan)
+        return np.asarray(values, dtype=float)
     except (TypeError, ValueError):
         raise SceneError(f"{name} = {shown(values)} is not possible: a batch takes a number, or an array.") from None
 

@@ -27,10 +27,11 @@ SIDE = 1024
 
 LARGEST = 8192
 """Most squares along a side: the map takes a gigabyte then."""
+
 SHADE = 1 / 256
 """How far a value may be off in the middle between hoops that were run, where one is run to see it: a shade of a
-picture, of its range. Beside the middle it may be some half more, three
-times that at one hoop of some thousand."""
+picture, of its range. Beside the middle it may be some half more, and
+up to 3.3/256 at a few of 10 000 hoops."""
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)

@@ -31,7 +31,7 @@ from .shared.results import begin_results, results_folder
     type=Finite(0, min_open=True),
     multiple=True,
     metavar="S",
-    help="Observe the flexible solver at this foundation, eps R^2/(m g), too; may be given several times.",
+    help="Observe the flexible solver at this foundation, eps_n R^2/(m g), too; may be given several times.",
 )
 @click.option("--map", "mapped", is_flag=True, help="J_F/J_N over damping ratio and foundation too; a minute or two.")
 @click.option(

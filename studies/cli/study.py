@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 POSITIVE = Finite(0, min_open=True)
 
-RAISED = "the foundation eps R^2/(m g), with --along bending E I/(m g R^2)"
+RAISED = "the foundation eps_n R^2/(m g), with --along bending E I/(m g R^2)"
 
 CODE = (
     "The module is imported (PYTHONPATH says from where) and its function called in every worker as "

@@ -16,10 +16,11 @@ DAMPING = 0.0, 0.001, 0.01, 0.02, 0.05  # ratio, of the vibration that the pulse
 def main(out: Path = Path(), count: int = 7) -> Path:
     k = np.geomspace(0.05, 0.5, 12)[:count]  # as the map has them
     massless, paper = rigid.load_scene("paper-3.3-massless"), rigid.load_scene("paper-3.3-heavier")  # m_h/m = 0.1
+    print("N in front of the first slip over N behind it, mu_s = 0.35")
     for each in (0.1, 0.2, 0.25, 0.3, 0.35):
-        print(f"m_h/m = 0, k = {each}, mu = 0.3: N falls by {drop(massless.replace(hoop={'k': each})) or nan:.2f}")
+        print(f"m_h/m = 0, k = {each}, mu = 0.3: {drop(massless.replace(hoop={'k': each})) or nan:.2f}")
     for mu in (0.1, 0.15, 0.3):
-        print(f"m_h/m = 0.1, k = 0.1, mu = {mu}: N falls by {drop(paper.replace(friction={'mu': mu})) or nan:.2f}")
+        print(f"m_h/m = 0.1, k = 0.1, mu = {mu}: {drop(paper.replace(friction={'mu': mu})) or nan:.2f}")
     print("k, m_h/m: E I/(m g R^2) below which it hops with damping", *DAMPING)
     for one, mass in (*((each, 0.1) for each in k), *((0.1, mass) for mass in (0.03, 0.05, 0.1, 0.2, 0.3, 0.5))):
         scene = paper.replace(hoop={"k": one, "mass_ratio": mass})

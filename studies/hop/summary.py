@@ -36,7 +36,7 @@ def _lines_with(study: HopStudy, where: str) -> list[Line]:
 
 
 def _of_all_lines(study: HopStudy, where: str) -> str:
-    """Least and largest threshold over the lines of the map."""
+    """Least and largest threshold over the lines of the map; the ends of all brackets where one is wide."""
     found = [line.threshold(where) for line in _lines_with(study, where)]
     values = sorted(value for value in (bracket.value for bracket in found) if value is not None)
     still = max((bracket.low for bracket in found if not isfinite(bracket.high)), default=0.0)
@@ -44,7 +44,7 @@ def _of_all_lines(study: HopStudy, where: str) -> str:
     if any(bracket.value is not None and not bracket.is_close for bracket in found):
         closed = [bracket for bracket in found if bracket.value is not None]
         low, high = min(bracket.low for bracket in closed), max(bracket.high for bracket in closed)
-        told.append(f"below something between {number(low, 3)} and {number(high, 3)}")
+        told.append(f"below a stiffness between {number(low, 3)} and {number(high, 3)}")
     elif values:
         least, largest = number(values[0], 3), number(values[-1], 3)
         told.append(f"below {least}" if least == largest else f"below {least} to {largest}")

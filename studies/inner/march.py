@@ -8,7 +8,9 @@ the same equations are the whole rigid ring on a foundation of eps^-3, to relati
 
 Friction, by law: ``patch`` sticks (F = -kappa times the total stretch of the bristles, less theta kappa 2 A V of the
 damper) until |F| > mu_s N, slides with F = -+ mu N until V changes sign, and then begins to stick with bristles that
-hold mu N. ``brush`` has that threshold at each bristle. ``regularised`` is F = -mu N V/sqrt(V^2 + V_s^2).
+hold mu N (where N rings, undamped, the flexible solver's patch sticks a little before, as it asks when the feet of its
+bristles stand; a slip that comes to its end by the rigid motion has N' = 0 here). ``brush`` has that threshold at each
+bristle. ``regularised`` is F = -mu N V/sqrt(V^2 + V_s^2).
 Explicit Runge-Kutta of order four, its step a fraction of the patch's own period; events end a step.
 """
 

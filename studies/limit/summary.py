@@ -168,7 +168,9 @@ def damping_sentences(study: LimitStudy) -> list[str]:
         if largest == 0:
             said.append("The layer of no event breaks the patch anew, even undamped.")
             if not all(other.tends for other in study.others):
-                said.append("Undamped it goes on ringing, and breaks its stick early all the same: no limit is seen.")
+                said.append(
+                    "But undamped it rings on, and no limit of J_F/J_N is seen: the stick may break early by that."
+                )
         else:
             above = "above" if ratio > largest else "below"
             said.append(

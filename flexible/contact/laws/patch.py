@@ -94,7 +94,8 @@ def excess(law: Parameters, state: Any, force: float, velocity: float) -> float:
     A patch sticks up to ``|F| = mu_s N``. It slides as long as the feet of its bristles move against its friction:
     where N rises they stand before the patch does, and bristles that were stretched further with N all the same would
     take energy from nowhere; where mu N falls faster than what bristles and damper would pull if it stuck, it slides on
-    beyond v = 0, as it would break in the same instant. Where a damper adds to N both have to be so.
+    beyond v = 0, as it would break in the same instant. Where a damper adds to N both have to be so;
+    where it takes from N, it slides to v = 0 at least.
 
     Bristles let go by their stiffness times the slip. Those at the points of a patch that narrows do so by a little
     more or less; in very short steps their feet tell, without which a patch would stick and break time and again.

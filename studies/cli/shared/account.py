@@ -18,8 +18,8 @@ NOTED = 1e-3
 """Share of the energy from which on a hand-over is spoken of."""
 
 TAKEN = 2.0
-"""What the integrator may take for each pulse, over rtol times the energy, before it is spoken of: 0.5 at most where no
-vibration is left behind by its steps."""
+"""What the integrator may take for each pulse, over rtol times the energy, before it is spoken of; without vibrations
+that its steps do not follow it takes 0.5 at most."""
 
 
 def account(motion: FlexibleMotion) -> list[tuple[str, str]]:
@@ -58,8 +58,9 @@ def _taken(motion: FlexibleMotion) -> str:
     held, rtol = max(abs(motion.ledger.initial), scene.energy_unit), scene.solve.rtol
     if took <= TAKEN * rtol * held * max(1, len(motion.pulses)):
         return ""
+    way = "took" if motion.ledger.numerical_loss > 0 else "gave"
     return (
-        f"Numerical loss: the steps took {took / held:.2g} of the energy, for vibrations faster than they follow. "
+        f"Numerical loss: the steps {way} {took / held:.2g} of the energy, in vibrations faster than they follow. "
         f"What hangs on those may be further off than solve.rtol = {rtol:g}; a run with a smaller one shows how far."
     )
 

@@ -63,7 +63,7 @@ def hops_in(motion: Mapping[str, Any], window: Window | None, least: float = 1.0
 
 
 CLOSE = 1.25
-"""Ratio of the ends of a bracket up to which the threshold in it is told as a number."""
+"""Ratio of the ends of a bracket up to which ranges and rules are told of the threshold in it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -240,12 +240,16 @@ class Line:
         return None if window is None else [release + down * swept for swept in (window.low, window.high)]
 
     def turning(self, where: str) -> float | None:
-        """omega_1 t* at the threshold, see :mod:`studies.hop.rolling.scaling`; None without one, or without a mass."""
+        """omega_1 t* at the threshold, see :mod:`studies.hop.rolling.scaling`; None without one
+        that is closely known, or without a mass.
+        """
         found, sudden = self.threshold(where), suddenness(self.scene)
         return sqrt(found.value / sudden) if found.value is not None and found.is_close and sudden > 0 else None
 
     def times_duration(self, where: str) -> float | None:
-        """E I tau^2 at the threshold, E I over m g R^2 and tau, the time of the rigid pulse, over sqrt(R/g)."""
+        """E I tau^2 at the threshold, E I over m g R^2 and tau, the time of the rigid pulse, over sqrt(R/g); None
+        without a threshold that is closely known.
+        """
         found, tau = self.threshold(where), duration(self.scene)
         return found.value * tau**2 if found.value is not None and found.is_close and tau is not None else None
 

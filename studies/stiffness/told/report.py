@@ -49,7 +49,7 @@ _FORESEEN = """\
  The black line is the leading powers as predicted from the rigid motion, without any of the cases; """
 _FROM, _ONWARD = (
     "it begins where they are the beginning of a series.",
-    "they are from some stiffness on that is not foretold here.",
+    "they are the beginning of a series from some stiffness on that is not foretold here.",
 )
 
 

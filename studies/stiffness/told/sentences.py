@@ -173,10 +173,9 @@ def prediction_sentence(study: StiffnessStudy) -> str:
         term = study.prediction.terms[name]
         powers = " ".join(f"{c:+.4g} {power_of('ε', p)}" for p, c in term.powers if c)
         if not powers:
-            # sliding one way throughout J_F is mu J_N, J_N and the loss are what they come to be
-            exact = name == "impulse_ratio" and study.prediction.parameter == "eps"
-            frictionless = study.scene.friction.mu_s == 0
-            powers = "at any stiffness" if exact or frictionless else "without a term of the order of ε"
+            # one that slides one way throughout has J_F = mu J_N; J_N and the loss change at a higher order
+            exact = name == "impulse_ratio" or study.scene.friction.mu_s == 0
+            powers = "at any stiffness" if exact else "without a term of the order of ε"
         seen = study.coefficient(name)
         heading = MEASURES[name].heading(study.scene).replace("\n", " ")
         words = f"{heading} = {number(term.limit)} {powers}"

@@ -81,11 +81,12 @@ def test_whether_a_hoop_rolls_is_asked_once_in_a_step():
     A turn was found at such a jump, in steps of 1e-12, for ever.
     """
     hoop, state, _ = on_the_floor(ReducedHoop)
+    law = hoop.law.parameters
     some, none = (state._replace(res=state.res._replace(stuck=stuck)) for stuck in (0.5, 0.0))
-    rolling, sliding = (rotation(hoop, state.pos, state.vel, rolls, state.slip_velocity) for rolls in (True, False))
+    rolling, sliding = (rotation(hoop, state.pos, state.vel, rolls, 0.0) for rolls in (True, False))
     assert rolling != pytest.approx(sliding, rel=1e-3)
-    assert [sight(hoop, there, some, 0.0).rotation for there in (some, none)] == [rolling, rolling]
-    assert [sight(hoop, there, none, 0.0).rotation for there in (some, none)] == [sliding, sliding]
+    assert [sight(hoop, law, there, some, 0.0).rotation for there in (some, none)] == [rolling, rolling]
+    assert [sight(hoop, law, there, none, 0.0).rotation for there in (some, none)] == [sliding, sliding]
 
 
 def test_a_disk_that_vibrates_does_not_turn():

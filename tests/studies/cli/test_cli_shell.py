@@ -110,7 +110,7 @@ def test_the_shell_takes_the_script(hoop, shell):
         (("view",), {"--field": "von_mises by default", "--factor": "by default", "--zoom": "default"}),
         (("flexible",), {"--times": "seconds"}),
         (("stress",), {"--seed": "0 by default", "--soft": "0 by default", "--scenes": "3000 by default"}),
-        (("study", "stiffness"), {"--low": "eps R^2/(m g)", "--high": "by default"}),
+        (("study", "stiffness"), {"--low": "eps_n R^2/(m g)", "--high": "by default"}),
         (("study", "hop"), {"--turns": "by default"}),
     ],
 )
