@@ -35,6 +35,22 @@ def settle(ring: RestingRing, patch: Patch) -> float:
     return 1.0 if _from_soft(ring, patch) else reached
 
 
+class _Nothing:
+    """In place of a patch, of a ring that nothing touches."""
+
+    low = high = 0.0
+
+    def __init__(self, window: Window) -> None:
+        self.window, self.nodal = window, np.zeros((2 * window[1] + 1, 2))
+
+    def solve(self, ring: RestingRing, share: float) -> bool:
+        """It bears no force, whatever the ring does."""
+        return True
+
+    def roll(self, angle: float) -> None:
+        """It is everywhere."""
+
+
 def settle_free(ring: RestingRing, window: Window) -> Array | None:
     """Bring a ring that nothing touches to rest under the inertia of its frame.
 
@@ -43,40 +59,16 @@ def settle_free(ring: RestingRing, window: Window) -> Array | None:
     (nodes, 2) array or None
         Displacements of a window of rim nodes; nothing where it comes to no rest.
     """
-    share, step = 0.0, 1.0
-    while share < 1:
-        start = ring.coordinates
-        try:
-            came = _hangs(ring, window, share + step)
-        except np.linalg.LinAlgError:
-            came = False
-        if came:
-            share, step = share + step, min(2 * step, 1 - share - step)
-            continue
-        ring.coordinates, step = start, step / 2
-        if step < SHORTEST:
-            return None
+    if _in_shares(ring, _Nothing(window)) < 1:
+        return None
     ring.linearise(1.0)
     return ring.response(window)[0].reshape(-1, 2)
-
-
-def _hangs(ring: RestingRing, window: Window, share: float) -> bool:
-    nothing, change = np.zeros(2 * (2 * window[1] + 1)), np.inf
-    for _ in range(15):
-        answer()
-        ring.linearise(share)
-        last, change = change, ring.move(window, nothing)
-        if change < 1e-11 or (change < 1e-7 and change > last / 4):
-            return True
-        if not change < 10:
-            return False
-    return False
 
 
 class _Way:
     """Equilibria under more and more of the loads: where the next one is guessed to lie."""
 
-    def __init__(self, ring: RestingRing, patch: Patch) -> None:
+    def __init__(self, ring: RestingRing, patch: Patch | _Nothing) -> None:
         self.ring, self.patch = ring, patch
         self.last: list[tuple[float, Array, float]] = []
 
@@ -93,7 +85,7 @@ class _Way:
             self.patch.roll(far * (here - middle))
 
 
-def _in_shares(ring: RestingRing, patch: Patch) -> float:
+def _in_shares(ring: RestingRing, patch: Patch | _Nothing) -> float:
     """In steps of all loads if one is too much."""
     share, step, way = 0.0, 1.0, _Way(ring, patch)
     lost = False  # by the step before: twice the length that was found is then one that was not
@@ -126,7 +118,7 @@ def _from_soft(ring: RestingRing, patch: Patch) -> bool:
     return True
 
 
-def _try(ring: RestingRing, patch: Patch, share: float, change: Callable[[], None] = lambda: None) -> bool:
+def _try(ring: RestingRing, patch: Patch | _Nothing, share: float, change: Callable[[], None] = lambda: None) -> bool:
     """Whether ring and patch come to rest under a share of the loads; if not they stay what they were."""
     start, known = ring.coordinates, dict(patch.__dict__)
     with suppress(np.linalg.LinAlgError):
@@ -137,7 +129,7 @@ def _try(ring: RestingRing, patch: Patch, share: float, change: Callable[[], Non
     return False
 
 
-def _settled(ring: RestingRing, patch: Patch, share: float) -> bool:
+def _settled(ring: RestingRing, patch: Patch | _Nothing, share: float) -> bool:
     change = np.inf
     for _ in range(15):
         answer()  # of all nodes of an exact ring one of these takes seconds

@@ -189,7 +189,7 @@ def close_pulse(par, state, events):
         return False
     state[P_OPEN] = 0.0
     if state[P_CROSSED] == 0.0:
-        if is_rest(state):
+        if is_remainder(state):
             write_pulse(par, state, events)
         return False
     write_pulse(par, state, events)
@@ -198,7 +198,7 @@ def close_pulse(par, state, events):
 
 
 @kernel
-def is_rest(state):
+def is_remainder(state):
     """Whether the stretch is what is left of a pulse: of a hoop released below its centre, on the way up."""
     rising = state[TOP] != 0.0 or state[P_ANGLE] * (state[ANGLE] - state[P_ANGLE]) >= 0.0
     return state[P_CUT] != 0.0 and state[P_TOP] == 0.0 and rising
@@ -208,7 +208,7 @@ def is_rest(state):
 def cut_pulse(par, state, events):
     """At the end of a run: put the pulse in which it ends into the event log."""
     falling = state[TOP] == 0.0 and state[ANGLE] * state[OMEGA] < 0.0
-    if state[P_OPEN] != 0.0 and (state[P_CROSSED] != 0.0 or falling or is_rest(state)):
+    if state[P_OPEN] != 0.0 and (state[P_CROSSED] != 0.0 or falling or is_remainder(state)):
         state[P_CUT] = 1.0
         write_pulse(par, state, events)
     state[P_OPEN] = 0.0

@@ -26,7 +26,7 @@ OVER = (("hoop.k", 0.02, 0.9), ("friction.mu", 0.02, 1.0))
 SIDE = 1024
 
 LARGEST = 8192
-"""Most squares along a side: the map takes a gigabyte then."""
+"""Most squares along a side, as of ``hoop study atlas --side``."""
 
 SHADE = 1 / 256
 """How far a value may be off in the middle between hoops that were run, where one is run to see it: a shade of a

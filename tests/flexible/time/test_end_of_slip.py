@@ -111,8 +111,8 @@ def energy_of(motion):
 
 @pytest.mark.parametrize("damping", [0.0, 0.03, 1.0])
 def test_a_landing_gives_no_energy(damping):
-    """Bristles stretched as far as mu p has them would be given more than the hoop lost, up to 5/6 mu^2/kappa of what
-    the foundation holds, and the hoop gets it when they stick.
+    """Bristles stretched as far as mu p has them would be given more than the hoop lost, mu^2/kappa of what the
+    foundation holds, and the hoop would get 5/6 of it when they stick.
     """
     motion = landing("patch", damping)
     steps = motion.history
