@@ -138,7 +138,7 @@ def _title(scene: Scene) -> str:
     return (
         f"k = {hoop.k:g}, r = {hoop.r:g}, m_h/m = {hoop.mass_ratio:g}, "
         f"μ_s = {friction.mu_s:g}, μ = {friction.mu:g}, "
-        f"EI = {_short(scene.ring.bending_stiffness)} m g R², ε = {_short(scene.contact.stiffness)} m g/R²"
+        f"EI = {_short(scene.ring.bending_stiffness)} m g R², ε_n = {_short(scene.contact.stiffness)} m g/R²"
     )
 
 
