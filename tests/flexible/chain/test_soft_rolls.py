@@ -264,6 +264,7 @@ THROWN = Scene(
 )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["patch", "regularised"])
 def test_friction_goes_by_the_slip_of_a_bending_wall(law):
     """Impulses at rtol are within it of those at a hundredth of it; and the ledger of the smoothed friction closes.
