@@ -94,7 +94,7 @@ def hop(
         return _beside(ctx, results_folder(out), as_json)
     from ..hop.rolling.roll import RTOL
     from ..hop.study import hop_study
-    from ..running.progress import announce, bar
+    from ..running.progress import announce, bar, complain
     from ..running.workers import pool
 
     described = load_scene(scene)
@@ -122,7 +122,10 @@ def hop(
         show(*hop_sheets(found))
         if target is not None:
             click.echo(f"{left} are in {target}; open {target / 'report.html'}.")
-    return 1 if found.unfinished else 0
+    early = len(found.unfinished)
+    if early:
+        complain(f"{early} of {len(found.cases)} rolls stopped before their end; the study says why the first did.")
+    return 1 if early else 0
 
 
 def _beside(ctx: click.Context, target: Path | None, as_json: bool) -> int:

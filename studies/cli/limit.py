@@ -60,7 +60,7 @@ def limit(
     from ..limit.damping import damping_map
     from ..limit.study import limit_study
     from ..limit.summary import limit_sheets, map_sheet
-    from ..running.progress import bar
+    from ..running.progress import bar, complain
     from ..running.workers import pool
 
     described = load_scene(scene)
@@ -103,4 +103,7 @@ def limit(
         show(*limit_sheets(found), *more)
         if target is not None:
             click.echo(f"Figures and limit.json are in {target}; open {target / 'report.html'}.")
-    return 1 if any(sight.failure for sight in found.sights) else 0
+    failed = [sight.foundation for sight in found.sights if sight.failure]
+    if failed:
+        complain(f"{len(failed)} of {len(foundations)} foundations failed; the study says why.")
+    return 1 if failed else 0

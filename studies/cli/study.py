@@ -93,7 +93,7 @@ def stiffness(
     scheduler: str | None,
 ) -> None:
     """The flexible hoop against the rigid one as stiffness grows."""
-    from ..running.progress import bar
+    from ..running.progress import bar, complain
     from ..running.solvers import ensure_accepts
     from ..running.workers import pool
     from ..stiffness.ladder import Ladder
@@ -128,7 +128,9 @@ def stiffness(
             click.echo(f"Figures, tables and report are in {target}; open {target / 'report.html'}.")
     if lost is not None:
         raise lost
-    if found.failures or found.stopped:
+    lacking = len(found.failures) + len(found.stopped)
+    if lacking:
+        complain(f"{lacking} of {len(found.rungs)} cases failed or stopped early; the study says why.")
         ctx.exit(1)
 
 
@@ -212,7 +214,7 @@ def sweep(
 
     How many cases there are is said first, and what they will take once the first are done.
     """
-    from ..running.progress import announce, bar
+    from ..running.progress import announce, bar, complain
     from ..running.solvers import solver
     from ..running.workers import pool
     from ..sweep import run_sweep
@@ -239,10 +241,5 @@ def sweep(
         show(*sweep_tables(table))
         click.echo(f"The table is in {target / 'table.csv'}.")
     if table.failures:
-        _say(f"{table.failures} of {len(table.rows)} cases failed; their rows say why.")
+        complain(f"{table.failures} of {len(table.rows)} cases failed; their rows say why.")
         ctx.exit(1)
-
-
-def _say(sentence: str) -> None:
-    """What a script need not read."""
-    click.echo(f"hoop: {sentence}", err=True)

@@ -31,6 +31,13 @@ def announce(sentence: str) -> None:
         click.echo(f"hoop: {sentence}", err=True)
 
 
+def complain(sentence: str) -> None:
+    """Say on stderr what went wrong, to those too who asked for quiet."""
+    import click
+
+    click.echo(f"hoop: {sentence}", err=True)
+
+
 @contextmanager
 def bar(title: str) -> Iterator[Callable[[float], None]]:
     """A bar that is told the fraction done, 0 to 1; it shows itself only if stderr is a terminal."""

@@ -191,8 +191,9 @@ def test_limits_that_are_found_in_two_ways_are_told_in_both(study):
 @pytest.mark.parametrize("how", ["failing", "unfinished"])
 def test_failing_rungs_are_told_and_the_rest_is_used(hoop, how):
     line = ["study", "stiffness", "paper-3.3-massless", "--solver", f"third_solver:{how}", "--workers", 1, "--json"]
-    status, out, _ = hoop(*line)
+    status, out, err = hoop(*line)
     assert status == 1
+    assert err == "hoop: 4 of 9 cases failed or stopped early; the study says why.\n"
     found = json.loads(out)
     assert ["failure" in case for case in found["cases"]] == [False] * 5 + [True] * 4
     assert "no step could be found" in found["cases"][-1]["failure"]
