@@ -18,7 +18,7 @@ from .points.data import Bristles, PointForces
 from .points.detection import Points
 from .points.normal import Foundation
 
-POINTS, FOUNDATION, EARLIER, CARRIED, FORCES, PULL, SCRATCH, ROWS = 0, 16, 19, 22, 29, 34, 35, 37  # in the rows
+FOUNDATION, EARLIER, CARRIED, FORCES, PULL, SCRATCH, ROWS = 16, 19, 22, 29, 34, 35, 37  # in the rows, behind points
 BASES, UNKNOWNS = 6, 6
 SHARING, SPREADING, WAY = 3, 4, 5  # of the unknowns: what goes like eta, what spreads like the pressure, the way's
 

@@ -37,9 +37,7 @@ class ChainHoop(RimContact):
 
     Parameters
     ----------
-    parts : int, optional
-        Of the chain; one to ``PER_PART`` rim elements by default.
-    points : int, optional
+    points : float, optional
         See :class:`flexible.models.rim_contact.RimContact`.
     through : int
         Elements through the wall of the mesh.
@@ -47,11 +45,9 @@ class ChainHoop(RimContact):
 
     linear = False
 
-    def __init__(
-        self, scene: Scene, parts: int | None = None, points: int | None = None, through: int = THROUGH
-    ) -> None:
+    def __init__(self, scene: Scene, points: float | None = None, through: int = THROUGH) -> None:
         ring = ring_of(scene, through, self.linear)
-        self.ring = ChainRing(scene, ring, ring.mesh.around // PER_PART if parts is None else parts)
+        self.ring = ChainRing(scene, ring, ring.mesh.around // PER_PART)
         super().__init__(scene, self.ring.vertex, points, self.ring.within)
         #: momenta of the slow vibrations, by which steps are chosen, of a rate of the sections
         self._slow = np.zeros((0, self.coordinates))

@@ -106,13 +106,13 @@ class FullHoop(RimContact):
 
     Parameters
     ----------
-    points : int, optional
+    points : float, optional
         See :class:`flexible.models.rim_contact.RimContact`.
     through : int
         Least number of elements through the wall, unless the scene says how many.
     """
 
-    def __init__(self, scene: Scene, points: int | None = None, through: int = 1) -> None:
+    def __init__(self, scene: Scene, points: float | None = None, through: int = 1) -> None:
         self.ring = self._make_ring(scene, ring_of(scene, through, self.linear))
         super().__init__(scene, self.ring.vertex, points)
         self._factored: _Factored | None = None
@@ -150,6 +150,8 @@ class FullHoop(RimContact):
         first: bool,
     ) -> Stage:
         """See :class:`flexible.models.state.Model`."""
+        if first and not (self.linear and self.ring.massless):
+            self._factored = None  # a step depends on nothing but the state from which it goes
         if self.ring.massless:  # no inertia to go by: from where the ring was
             guess = predictor.guess.copy()
             guess[3:] = old.pos[3:] - predictor.pos[3:]

@@ -8,10 +8,11 @@ import numpy as np
 
 from ..motion import FlexibleMotion
 
+BETWEEN = 400  # samples where the hoop is rigid
 _NAMES = ("normal_force", "friction_force", "slip_velocity")
 
 
-def curves(motion: FlexibleMotion, start: float, stop: float, between: int = 400) -> dict[str, Any]:
+def curves(motion: FlexibleMotion, start: float, stop: float) -> dict[str, Any]:
     """Curves from ``start`` to ``stop``: every step of the flexible segments, samples elsewhere.
 
     Returns
@@ -22,7 +23,7 @@ def curves(motion: FlexibleMotion, start: float, stop: float, between: int = 400
     """
     ends = np.array([start, stop])
     elastic = [np.array([k.states[0].t, k.states[-1].t]) * motion.scene.time_unit for k in motion.kept]
-    outside = np.linspace(start, stop, between)
+    outside = np.linspace(start, stop, BETWEEN)
     for first, last in elastic:
         outside = outside[(outside < first) | (outside > last)]
     sampled = motion.at(np.unique(np.concatenate([ends, outside])))

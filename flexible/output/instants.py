@@ -15,6 +15,7 @@ from ..airborne import rise
 from ..models.state import State
 from ..motion import FlexibleMotion, Kept
 from ..time.adaptive import attempt
+from ..time.methods import METHODS
 
 Array = NDArray[np.float64]
 
@@ -101,6 +102,11 @@ def _around(motion: FlexibleMotion, pulse: Pulse) -> tuple[float, float]:
     return start, end
 
 
+def _within(kept: Kept, before: State, t: float) -> State | None:
+    """The state at a time within the step from ``before``, by a shorter step of the same method."""
+    return attempt(kept.hoop, before, t - before.t, METHODS[kept.hoop.scene.solve.integrator])
+
+
 def _instant(motion: FlexibleMotion, clocks: list[Array], t: float, told: float) -> Instant:
     """The state at ``t``, in the solver's units; ``told`` is the same time in the scene's.
 
@@ -115,7 +121,7 @@ def _instant(motion: FlexibleMotion, clocks: list[Array], t: float, told: float)
         state: State | None = before
         slack = 1e-15 * last  # a step's time comes back from the scene's unit so far off
         if t > before.t + slack:
-            state = after if t >= after.t - slack else attempt(kept.hoop, before, t - before.t)
+            state = after if t >= after.t - slack else _within(kept, before, t)
         if state is None:
             state = min(before, after, key=lambda s: abs(s.t - t))
         place = Placement(float(state.pos[2]), state.x_C, 1 + float(state.pos[1]))

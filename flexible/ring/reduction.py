@@ -149,12 +149,12 @@ def modes_for(rtol: float, wall: float) -> int:
     return max(LEAST, ceil(MODES * max(1.0, wall / WALL) ** WIDER * (FINE / rtol) ** (1 / ORDER)))
 
 
-def reduce(scene: Scene, modes: int | None = None, ring: Ring | None = None) -> ReducedRing:
+def reduce(scene: Scene, modes: int | None = None) -> ReducedRing:
     """Reduce the ring of a scene to its modes (none if it has no mass) and residual static compliance.
 
     As many ``modes`` as its tolerance asks for, unless their number is given.
     """
-    ring = ring_of(scene) if ring is None else ring
+    ring = ring_of(scene)
     stiffness = membrane_stiffness(scene)
     mass = scene.hoop.mass_ratio
     count = 0 if mass == 0 else modes_for(scene.solve.rtol, scene.wall) if modes is None else modes

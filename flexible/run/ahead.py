@@ -32,7 +32,8 @@ def from_here(scene: Scene, hoop: Hoop, state: State, run: Run) -> Motion:
     """The motion of the rigid hoop that takes over from a flexible one where that stands, on the floor or in a hop."""
     omega, slip, aloft = taken_over(hoop, state)
     release = Release(float(state.pos[2]), omega, slip)
-    return rigid.simulate(rigid_limit(replace(scene, release=release, run=run)), aloft)
+    begun = replace(scene.solve, start="equilibrium")  # undeformed it is let go once
+    return rigid.simulate(rigid_limit(replace(scene, release=release, run=run, solve=begun)), aloft)
 
 
 def slips_no_more(motion: Motion) -> bool:

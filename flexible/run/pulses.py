@@ -38,9 +38,9 @@ def lead(motion: Motion, pulse: Pulse, rolls_to: float = 1.0) -> float:
         times = np.linspace(max(roll.t_start, behind), min(roll.t_end, start), INSTANTS)
         states = motion.at(times, "left")
         most = motion.scene.friction.mu * states.normal_force
-        (holds,) = np.nonzero(np.abs(states.friction_force) <= rolls_to * most)
-        if len(holds) < INSTANTS:
-            return float(times[holds[-1]] if len(holds) else times[0])
+        (beyond,) = np.nonzero(np.abs(states.friction_force) > rolls_to * most)
+        if len(beyond):
+            return float(times[max(beyond[0] - 1, 0)])
     return start
 
 

@@ -36,7 +36,7 @@ from .course import (
     Stop,
     beginning,
 )
-from .events import Ends
+from .events import BEARS, Ends
 from .methods import ESDIRK3, Method, Table
 
 Array = NDArray[np.float64]
@@ -184,7 +184,8 @@ def march(
         if keep is not None:
             keep(now.state)
     tolerance = method.tolerance(rtol) * model.steps
-    aims = Aims(tolerance, 1 / method.estimates, float(limits.longest), limits.most, model.relaxation)
+    bears = 0.0 if records[0].normal_force > 0 else BEARS
+    aims = Aims(tolerance, 1 / method.estimates, float(limits.longest), limits.most, model.relaxation, bears)
     ends = Ends(float(ends.t), float(ends.low), float(ends.high), ends.turns)
     why, stood, behind, lost = PAUSED, now, len(records), -np.inf
     stop: Stop | None = None

@@ -75,6 +75,7 @@ class Aims(NamedTuple):
     longest: float
     most: int  # steps, those tried in vain too
     relaxation: float  # of the normal damper, sqrt(R/g)
+    bears: float = 0.0  # what a patch has to, to tell which way the hoop goes
     alone: bool = False  # a single step, whatever its error and its events
 
 
@@ -265,7 +266,7 @@ def advance(
         if event != MODE_ENDS or length >= SHORTEST:
             books = _entered(books, state.res.bristle_energy, taken)
             holds, state = taken.held, _reached(state, tries, taken, state.mode if aims.alone else free(law, seen))
-        (way, turns), energies = onward(way, turns, event, before, seen), energies_of(model, state, holds)
+        (way, turns), energies = onward(way, turns, event, before, seen, aims.bears), energies_of(model, state, holds)
         write(rows[written], state, energies, books, turns, turned(model.theta, state.window, state.u))
         attempts, written = attempts + search.tries, written + 1
         stalls, h, pace = _stalled(stalls, length, event == MODE_ENDS and not sticks(law, state.mode)), grown, this

@@ -41,7 +41,7 @@ class Ends(NamedTuple):
 VELOCITY = 1e-9  # of sqrt(gR): the slip of a step of 1e-6, whose ends are known to 1e-15
 ANGLE = 1e-9  # of the end of a pulse, where N is about M g: 1e-9 of its impulse
 RATE = 1e-9  # of the rotation at a turn, whose energy is then below 1e-18 m g R
-BEARS = 0.1  # of m g: a patch that bears less, as that of a ring let go undeformed at first, tells of no rotation
+BEARS = 0.1  # of m g: a patch of a ring that began to bear nothing, let go undeformed, tells of no rotation below it
 TIME = 1e-15  # sqrt(R/g): what t itself can tell apart
 SHARE = 1e-10  # of the step: the bracket of an event may also be this part of its step
 
@@ -97,13 +97,14 @@ def passed(event: int, law: Any, ends: Ends, way: float, before: Sight, now: Sig
 
 
 @loop
-def onward(way: float, turns: int, event: int, before: Sight, now: Sight) -> tuple[float, int]:
+def onward(way: float, turns: int, event: int, before: Sight, now: Sight, bears: float) -> tuple[float, int]:
     """After a step, and the event at its end: the way that a hoop goes, 1 or -1, 0 until disk and momentum agreed over
-    a patch that bears something; and its turns. A landing, or a slide that ends, may have turned the momentum at once.
+    a patch that ``bears`` so much; and its turns. A landing, or a slide that ends, may have turned the momentum at
+    once.
     """
     if way == 0:
         agreed = 1.0 if now.omega > 0 else -1.0
-        return agreed if now.omega * now.rotation > 0 and now.res.normal > BEARS else 0.0, turns
+        return agreed if now.omega * now.rotation > 0 and now.res.normal > bears else 0.0, turns
     if event == TURN or past_turn(way, before) >= 0:
         return -way, turns + 1
     return way, turns

@@ -105,7 +105,7 @@ def times(
     crowd = length * np.logspace(-9, 0, min(46, limit // (2 * max(len(bottoms), 1))))
     grid = [np.linspace(start, end, 129)]
     grid += [side for middle in bottoms for side in (np.array([middle]), middle - crowd, middle + crowd)]
-    nearest = 1e-12 * max(1.0, abs(end))
+    nearest = 1e-12 * max(abs(start), abs(end))
     jumps = np.asarray(edges, dtype=float)
     known = np.asarray(steps, dtype=float)
     known = known[(known >= start) & (known <= end)]

@@ -225,15 +225,18 @@ def draw_hoop(axes: Axes, scene: Scene, steps: Roll, i: int) -> Drawn:
     return drawn
 
 
+PARTS = 8  # of a curve's way from one point to the next
+
+
 def _closed(points: np.ndarray) -> np.ndarray:
     return np.concatenate([points, points[:1]])
 
 
-def smooth(points: np.ndarray, parts: int = 8) -> np.ndarray:
+def smooth(points: np.ndarray) -> np.ndarray:
     """The curve through a closed ring of points."""
     index = np.arange(len(points) + 1)
     fine: np.ndarray = CubicSpline(index, _closed(points), bc_type="periodic")(
-        np.linspace(0, len(points), parts * len(points) + 1)
+        np.linspace(0, len(points), PARTS * len(points) + 1)
     )
     return fine
 

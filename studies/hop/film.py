@@ -21,13 +21,13 @@ FRAMES = 72
 PER_SECOND = 15
 
 
-def film(found: Chosen, path: Path, frames: int = FRAMES) -> Path:
+def film(found: Chosen, path: Path) -> Path:
     """Write the hop as an animated GIF, its frames evenly in time; whole or not at all."""
     steps, history = found.steps, found.steps.history
     index = np.array(found.shown)
     t = history.t[index] - history.t[found.first]
     gaps = np.array([lowest(steps.hoop, steps.states[i]) for i in index])
-    shown = np.searchsorted(t, np.linspace(t[0], t[-1], frames)).clip(0, len(t) - 1)
+    shown = np.searchsorted(t, np.linspace(t[0], t[-1], FRAMES)).clip(0, len(t) - 1)
     top = max(2.5 * float(gaps.max()), 1e-3)
     half = min(sqrt(2 * top), 0.5)  # of a circle that height is reached there
     with matplotlib.rc_context(STYLE | {"font.size": 11}):
@@ -53,5 +53,5 @@ def film(found: Chosen, path: Path, frames: int = FRAMES) -> Path:
             passed.set_data(t[: i + 1], history.normal_force[index][: i + 1])
             whole.set_title(f"t = {t[i]:+.3f}", family="monospace")
 
-        moving = FuncAnimation(figure, draw, frames=frames)
+        moving = FuncAnimation(figure, draw, frames=FRAMES)
         return write_whole(path, lambda part: moving.save(str(part), writer=PillowWriter(fps=PER_SECOND), dpi=110))

@@ -147,6 +147,8 @@ def rolls(
         found += [_ours(scene, rtol) for rtol in rtols]
         if not installed("exudyn"):
             found.append(Rolled(scene, THEIRS, "-", note="exudyn is not installed"))
+            if progress is not None:
+                progress((done + 1) / len(cases))
             continue
         for number_of, cut in enumerate(cuts):
             found.append(_theirs(scene, cut))

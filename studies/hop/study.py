@@ -8,6 +8,8 @@ from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from rigid import Scene, scene_to_dict
 from rigid.allowed import shown
 from rigid.output import summary
@@ -164,18 +166,27 @@ def hop_study(
     """
     if not isinstance(asked, HopMap):
         raise StudyError(f"{shown(asked)} is not what a hop study rolls: it must be a HopMap.")
-    rounds = 1 + asked.bisections + 1
+    rounds = asked.bisections + 1 if asked.bisections else 0  # behind the map, which is most of the work
+    shares = [0.0, *np.linspace(0.8, 1.0, rounds + 1).tolist()] if rounds else [0.0, 1.0]
     stage = 0
+    done = 0.0
+
+    def tell(share: float) -> None:
+        """Never back: what has to be rolled on is rolled in the same stage."""
+        nonlocal done
+        done = max(done, share)
+        if progress is not None:
+            progress(done)
 
     def run(asks: list[Ask]) -> list[tuple[int, HopCase]]:
         """Rolls, those that are not asked whole only through the pulse where that decides."""
         scenes = [asked.scene_of(ask) for ask in asks]
         cases = [Case(WHOLE if asked.whole else SOLVER, scene, cut=True) for scene in scenes]
-        # the map is most of the work
-        low, high = (0.0, 0.8) if stage == 0 else (0.8 + 0.2 * (stage - 1) / rounds, 0.8 + 0.2 * stage / rounds)
-        told = None if progress is None else (lambda share: progress(low + (high - low) * share))
+        low, high = shares[stage : stage + 2]
         part = " of the map" if stage == 0 and asked.bisections else ""
-        outcomes = run_cases(cases, pool or Here(), out, told, say=say, part=part)
+        outcomes = run_cases(
+            cases, pool or Here(), out, lambda share: tell(low + (high - low) * share), say=say, part=part
+        )
         found = [
             (ask.line, HopCase(ask.stiffness, scene, outcome, ask.whole and _to_its_end(outcome)))
             for ask, scene, outcome in zip(asks, scenes, outcomes, strict=True)

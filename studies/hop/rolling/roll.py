@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from flexible import FlexibleMotion, simulate
+from flexible import FlexibleMotion, rigid_limit, simulate
 from flexible.output.body import lowest
 from rigid import Run, Scene
 from rigid import simulate as rigid_motion
@@ -83,7 +83,8 @@ class RollingMotion(FlexibleMotion):
 
 
 def from_rest(scene: Scene) -> Scene:
-    """The scene as a roll runs it: flexible throughout, from equilibrium, for as long as the rigid hoop is run.
+    """The scene as a roll runs it: flexible throughout, from equilibrium, for as long as the rigid hoop is run to which
+    it tends.
 
     The end is a time: the disk of a soft hoop rocks, and every reversal of its rotation is a turn.
 
@@ -95,7 +96,8 @@ def from_rest(scene: Scene) -> Scene:
     release = scene.release
     if release.omega0 or release.slip0:
         raise StudyError("A hop is asked of a hoop released at rest: release.omega0 and release.slip0 must be 0.")
-    end = rigid_motion(scene.replace(run=Run(until="pulse"))) if scene.run.until == "rest" else rigid_motion(scene)
+    limit = rigid_limit(scene)
+    end = rigid_motion(limit.replace(run=Run(until="pulse")) if scene.run.until == "rest" else limit)
     if not end.t_end:
         raise StudyError(
             f"A hop is asked of a hoop that rolls: at rest at phi0 = {degrees(release.phi0):g}° it stands still."
@@ -109,7 +111,7 @@ def through_the_pulse(scene: Scene) -> Scene:
     What hops by then is decided a few times as cheaply as to a second turn: most steps are taken in the chatter later.
     """
     assert scene.run.t_end is not None
-    motion = rigid_motion(scene)
+    motion = rigid_motion(rigid_limit(scene))
     pulse = next((p for p in motion.pulses if not p.cut), None)
     if pulse is None:
         return scene
@@ -148,7 +150,7 @@ def roll_until_decided(
 def _looks(scene: Scene) -> list[float]:
     """When it is asked whether all is decided: behind the pulse, at the rigid hoop's first turn, at the end."""
     assert scene.run.t_end is not None
-    turns = [turn.t for turn in rigid_motion(scene).turns[:1]]
+    turns = [turn.t for turn in rigid_motion(rigid_limit(scene)).turns[:1]]
     pulse = through_the_pulse(scene).run.t_end
     assert pulse is not None
     return sorted(t for t in {pulse, *turns, scene.run.t_end} if t <= scene.run.t_end)
@@ -197,7 +199,7 @@ def _flight(steps: Roll, first: int, last: int, scales: Scales) -> Flight:
     around = range(max(first - 1, 0), min(last + 1, len(t) - 1) + 1)
     gap = {i: lowest(steps.hoop, steps.states[i]) for i in around}
     up = _passes(gap, first - 1, first) if first - 1 in gap else 0.0
-    down = _passes(gap, last + 1, last) if last + 1 in gap and last + 1 != last else 0.0
+    down = _passes(gap, last + 1, last) if last + 1 in gap else 0.0
     start = t[first] - up * (t[first] - t[max(first - 1, 0)])
     end = t[last] + down * (t[min(last + 1, len(t) - 1)] - t[last])
     angle = phi[first] - up * (phi[first] - phi[max(first - 1, 0)])

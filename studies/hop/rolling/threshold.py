@@ -1,7 +1,7 @@
 """The bending stiffness below which a hoop hops: between neighbours of a map, then by bisection.
 
-Where it hops is told three ways: anywhere between release and end; in the first pulse, the interval of phi in which the
-rigid hoop's N exceeds the weight; and at the bottom, while the contact is under the disk.
+Where it hops is told three ways: anywhere between release and end; in the first pulse, the interval of phi in which N
+of the rigid hoop to which it tends exceeds the weight; and at the bottom, while the contact is under the disk.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from itertools import pairwise
 from math import asin, isfinite, pi, sin, sqrt
 from typing import Any, Protocol
 
+from flexible import rigid_limit
 from rigid import Kind, Run, Scene, simulate
 
 from ...plots.sheet import number
@@ -37,7 +38,7 @@ class Window:
 def windows(scene: Scene) -> dict[str, Window | None]:
     """Where a lift-off counts, by name; None is no restriction. Without a rigid pulse there is only "anywhere"."""
     found: dict[str, Window | None] = {"anywhere": None}
-    pulses = [pulse for pulse in simulate(scene.replace(run=Run(until="pulse"))).pulses if not pulse.cut]
+    pulses = [pulse for pulse in simulate(rigid_limit(scene).replace(run=Run(until="pulse"))).pulses if not pulse.cut]
     if pulses:
         first, last = (abs(phi - scene.release.phi0) for phi in (pulses[0].phi_start, pulses[0].phi_end))
         found["pulse"] = Window(first, last)
@@ -204,8 +205,8 @@ class HopCase:
 
 
 def rigid_hops(scene: Scene) -> int:
-    """Flights of the rigid hoop of a scene over the same time."""
-    return sum(phase.kind == Kind.FLIGHT for phase in simulate(scene).phases)
+    """Flights of the rigid hoop to which a scene's tends, over the same time."""
+    return sum(phase.kind == Kind.FLIGHT for phase in simulate(rigid_limit(scene)).phases)
 
 
 @dataclass(frozen=True, slots=True)

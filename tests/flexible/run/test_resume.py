@@ -22,6 +22,10 @@ SCENES = {
         solve={"resolve": "all", "rtol": 3e-3},
     ),
     "brush": HOOP.replace(contact={"law": "brush", "damping": 1.0, "stiffness": 1e7}),
+    "exact": HOOP.replace(
+        hoop={"mass_ratio": 0.0}, ring={"bending_stiffness": 300.0}, contact={"stiffness": 1e5, "damping": 1.0},
+        solve={"level": "exact", "rtol": 1e-2, "elements": 48},
+    ),
     "chain": HOOP.replace(
         ring={"bending_stiffness": 30.0}, contact={"stiffness": 1e6, "damping": 1.0},
         solve={"level": "chain", "rtol": 1e-2},

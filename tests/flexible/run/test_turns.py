@@ -143,3 +143,14 @@ def test_a_patch_that_bears_next_to_nothing_tells_of_no_turn(angle):
         solve={"resolve": "all", "start": "undeformed", "rtol": 1e-3, "level": "auto"},
     )
     assert not flexible.simulate(scene).turns
+
+
+def test_a_hoop_that_begins_pressed_on_the_floor_turns_however_little_it_bears():
+    """Of a ring in equilibrium the momentum tells which way it goes from the first: it bears 0.06 mg until it turns."""
+    scene = rigid.load_scene("paper-3.3-heavier").replace(
+        hoop={"k": 0.15105, "mass_ratio": 0.0}, friction={"mu": 0.52937, "mu_s": 0.55292},
+        release={"phi0": 3.52851, "omega0": 0.33621, "slip0": -2.13025}, ring={"bending_stiffness": 1e5},
+        run={"t_end": 0.3}, solve={"resolve": "all"},
+    )  # fmt: skip
+    (turn,), (other,) = flexible.simulate(scene).turns, rigid.simulate(scene).turns
+    assert turn.t == pytest.approx(other.t, rel=scene.contact.stiffness ** (-1 / 3))
