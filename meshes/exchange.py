@@ -11,7 +11,7 @@ from rigid.output.whole import write_whole
 
 from .ring import MeshError, RingMesh
 
-HOLD = (".msh", ".vtu", ".vtk", ".inp", ".mdpa", ".e", ".ex2", ".exo")
+HOLD = (".msh", ".vtu", ".vtk", ".inp", ".mdpa", ".e", ".ex2", ".exo", ".hmf")
 """Formats in which meshio writes nine-node quads and reads them again; others it writes without them, or breaks off."""
 
 

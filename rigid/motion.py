@@ -207,9 +207,9 @@ class Motion(summary.Summarised):
 
     def times(self, start: float = 0.0, end: float | None = None) -> Array:
         """Times at which to sample the motion for a picture or a table, both sides of every jump among them: N and F
-        are straight between them to two thousandths of their range, as far as some 20 000 times allow (200 pulses). All
-        steps of a flexible motion are among them: there N, F, omega and slip velocity are straight between two, and
-        impulses are the steps' own, of a higher order than the areas under these lines.
+        are straight between them to two thousandths of their range, as far as some 20 000 times allow (200 pulses) and
+        doubles tell them apart. All steps of a flexible motion are among them: there N, F, omega and slip velocity are
+        straight between two, and impulses are the steps' own, of a higher order than the areas under these lines.
         """
         return sampling.instants(self, start, self.t_end if end is None else end)
 

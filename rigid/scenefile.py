@@ -274,7 +274,7 @@ def scene_tables(source: str | PathLike[str]) -> dict[str, Any]:
         text = (files("rigid.scenes") / f"{source}.toml").read_text(encoding="utf-8")
     if text is None:
         near = get_close_matches(str(source), scene_names(), n=3) or scene_names()
-        raise SceneError(f"{source} is neither a file nor the name of a scene: try {', '.join(near)}.")
+        raise SceneError(f"{str(source) or repr('')} is neither a file nor the name of a scene: try {', '.join(near)}.")
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # a number of thousands of digits is a ValueError

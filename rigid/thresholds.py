@@ -44,6 +44,8 @@ def rolling_mu_s(hoop: Hoop, release: Release) -> float:
     if release.slip0 != 0.0:
         raise SceneError(f"release.slip0 = {release.slip0!r} is not possible here: what is released so does not roll.")
     par, state = _at_release(hoop, release)
+    if release.omega0 == 0 and state[1] == 0:
+        return 0.0  # upside down it stands: the swing that would begin there never does
     par[MU_S] = 1.0
     _, _, h, low = trig(state[1], state[2])
     g, below = ceiling(par[ZETA], state[4], h, low)

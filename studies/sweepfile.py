@@ -95,6 +95,8 @@ def load_sweep(path: str | PathLike[str], solvers: str | Sequence[str] = (), max
         data = tomllib.loads(path.read_text(encoding="utf-8-sig"))
     except OSError as error:
         raise SceneError(trouble(error, path)) from None
+    except UnicodeDecodeError:
+        raise SceneError(f"{path} is not a sweep: it is not text.") from None
     except (ValueError, RecursionError) as error:
         raise SceneError(f"{path} is not TOML: {error}.") from None
     settings = data.get("sweep")

@@ -106,6 +106,7 @@ def times(
     grid = [np.linspace(start, end, 129)]
     grid += [side for middle in bottoms for side in (np.array([middle]), middle - crowd, middle + crowd)]
     nearest = 1e-12 * max(abs(start), abs(end))
+    apart = 32 * np.spacing(max(abs(start), abs(end)))  # below, values are of other times than they are asked for
     jumps = np.asarray(edges, dtype=float)
     known = np.asarray(steps, dtype=float)
     known = known[(known >= start) & (known <= end)]
@@ -117,7 +118,7 @@ def times(
     values = forces(t)
     fresh = np.ones(t.size - 1, dtype=bool)
     while fresh.any() and t.size < limit:
-        where = np.flatnonzero(fresh & (np.diff(t) > 4 * nearest))
+        where = np.flatnonzero(fresh & (np.diff(t) > apart))
         middle = 0.5 * (t[where] + t[where + 1])
         found = forces(middle)
         scale = np.ptp(values, axis=1, keepdims=True) + 1e-300

@@ -115,7 +115,7 @@ def flexible(
 ) -> int:
     """Motion of the flexible hoop, measured like the rigid one, and where the energy went.
 
-    Interrupted (Ctrl-C) it keeps in --out what it has, and --continue goes on from there.
+    Interrupted (Ctrl-C, SIGTERM) it keeps in --out what it has, and --continue goes on from there.
     """
     from .shared.output import field_wishes
 

@@ -174,7 +174,7 @@ def parse_over(text: str) -> tuple[str, tuple[Any, ...]]:
 
     key, equals, values = text.partition("=")
     key = key.strip()
-    wrong = SceneError(f"--over {text} is not possible: it is KEY=LOW:HIGH:COUNT or KEY=VALUE,VALUE,...")
+    wrong = SceneError(f"--over {text} is not possible: it is KEY=LOW:HIGH:COUNT or KEY=VALUE,VALUE,... of numbers.")
     if not equals:
         raise wrong
     if "." not in key:

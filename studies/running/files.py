@@ -41,6 +41,8 @@ def trouble(error: OSError, path: str | Path | None = None) -> str:
     if name is not None and os.path.islink(name) and not os.path.exists(name):
         return f"{name} cannot be used: it is a link that leads nowhere."
     reason = _TROUBLES.get(error.errno or 0, (error.strerror or str(error)).lower())
+    if error.errno is None and " requested and " in str(error):  # numpy's, which has it from no system
+        reason = "the disk is full, or the file would grow past the size this system allows"
     return f"{name} cannot be used: {reason}." if name is not None else f"Output cannot be written: {reason}."
 
 

@@ -10,7 +10,7 @@ from meshes import MeshError, ring_mesh, save_mesh
 from meshes.exchange import HOLD
 
 
-@pytest.mark.parametrize("suffix", sorted(set(HOLD) - {".e", ".ex2", ".exo"}))
+@pytest.mark.parametrize("suffix", sorted(set(HOLD) - {".e", ".ex2", ".exo", ".hmf"}))
 def test_the_quads_come_back_in_every_format(suffix, tmp_path):
     """Those that need netCDF4 aside."""
     ring = ring_mesh(0.98, 1.0, 24)
@@ -67,7 +67,7 @@ def test_a_unit_of_length_that_cannot_be(length, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "suffix", [".nonsense", ".stl", ".med", ".hmf", ".xdmf", ".mesh", ".su2", ".svg", ".wkt", ".bdf", ".f3grid", ""]
+    "suffix", [".nonsense", ".stl", ".med", ".xdmf", ".mesh", ".su2", ".svg", ".wkt", ".bdf", ".f3grid", ""]
 )
 def test_a_suffix_without_nine_node_quads_is_a_sentence(suffix, tmp_path):
     """meshio writes some of these without any cell, and breaks off in others."""

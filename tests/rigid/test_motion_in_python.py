@@ -8,7 +8,7 @@ import json
 import pickle
 import subprocess
 import sys
-from math import pi
+from math import inf, pi
 from pathlib import Path
 
 import matplotlib as mpl
@@ -24,6 +24,7 @@ from rigid import (
     Scene,
     SceneError,
     States,
+    inception_mu_s,
     load_scene,
     rolling_mu_s,
     simulate,
@@ -320,6 +321,12 @@ def test_what_is_asked_in_the_wrong_words(motion):
         simulate("paper-3.1", 1.0)
     with pytest.raises(SceneError, match="it must be a Release"):
         rolling_mu_s(Hoop(0.1), 0.2)
+
+
+def test_upside_down_it_stands_on_any_floor():
+    """At rest on its top the disk needs no friction; a breath beside it rolls to where N vanishes."""
+    assert rolling_mu_s(Hoop(0.1), Release(0.0)) == inception_mu_s(Hoop(0.1), 0.0) == 0
+    assert rolling_mu_s(Hoop(0.1), Release(1e-9)) == inf
 
 
 def test_what_is_masked_is_no_number():

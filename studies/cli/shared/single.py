@@ -98,7 +98,8 @@ def _earlier(folder: Path) -> FlexibleMotion:
 
 @contextmanager
 def _interrupts(caught: bool) -> Iterator[Callable[[], bool]]:
-    """Ctrl-C asks the motion to stop, once; a second one is as usual. Whether it was asked is what comes out.
+    """Ctrl-C, or what a batch system ends a job with, asks the motion to stop, once; a second one is as usual. Whether
+    it was asked is what comes out.
 
     What takes both stays in place: signals wait while compiled code runs, and one put in its place would not.
     """
@@ -108,15 +109,20 @@ def _interrupts(caught: bool) -> Iterator[Callable[[], bool]]:
         return
 
     def note(number: int, frame: FrameType | None) -> None:
-        if asked.is_set() and callable(before):
-            before(number, frame)
+        handler = before[signal.Signals(number)]
+        if asked.is_set() and callable(handler):
+            handler(number, frame)
+        elif asked.is_set():
+            signal.signal(number, handler)
+            signal.raise_signal(signal.Signals(number))
         asked.set()
 
-    before = signal.signal(signal.SIGINT, note)
+    before = {number: signal.signal(number, note) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         yield asked.is_set
     finally:
-        signal.signal(signal.SIGINT, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def _told(motion: Motion, target: Path | None, as_json: bool, wishes: dict[str, Any] | None) -> int:

@@ -7,6 +7,7 @@ import shlex
 import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
+from functools import partial
 
 import pytest
 from command_line import SCENE, is_one_sentence
@@ -29,31 +30,33 @@ rtol = 1e-2
 
 
 @contextmanager
-def interrupting(title: str) -> Iterator[Callable[[float], None]]:
+def interrupting(title: str, by: signal.Signals = signal.SIGINT) -> Iterator[Callable[[float], None]]:
     """A bar at which somebody types Ctrl-C a fifth of the way, once."""
     typed = []
 
     def told(fraction: float) -> None:
         if fraction > 0.2 and not typed:
             typed.append(fraction)
-            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal(by)
 
     yield told
 
 
-def test_ctrl_c_keeps_what_there_is_and_continue_goes_on(hoop, tmp_path, monkeypatch):
+@pytest.mark.parametrize("by", [signal.SIGINT, signal.SIGTERM])
+def test_who_stops_it_keeps_what_there_is_and_continue_goes_on(hoop, tmp_path, monkeypatch, by):
+    """Ctrl-C, or the end of a batch job."""
     scene, out = tmp_path / "my scene.toml", tmp_path / "out"
     scene.write_text(MOTION.format(run="turns = 2"), encoding="utf-8")
     status, whole, _ = hoop("flexible", scene, "--json", "--out", tmp_path / "whole")
     assert status == 0
-    before = signal.getsignal(signal.SIGINT)
+    before = signal.getsignal(by)
     with monkeypatch.context() as patched:
-        patched.setattr(single, "bar", interrupting)
+        patched.setattr(single, "bar", partial(interrupting, by=by))
         status, part, err = hoop("flexible", scene, "--json", "--out", out)
     assert status == 130
     assert not json.loads(part)["completed"]
     assert f"--continue {shlex.quote(str(out))}" in err
-    assert signal.getsignal(signal.SIGINT) is before
+    assert signal.getsignal(by) is before
     status, rest, err = hoop("flexible", scene, "--json", "--continue", out)
     assert (status, err) == (0, "")
     assert rest == whole

@@ -188,6 +188,14 @@ def test_limits_that_are_found_in_two_ways_are_told_in_both(study):
     assert extrapolation_sentence(study).startswith("The limit is L in L + c s^-p, ")  # of this solver theory has none
 
 
+def test_an_undamped_contact_has_no_yes(study):
+    """An interval may hold the rigid hoop and an undamped patch ring about the jumps of N at any stiffness."""
+    assert verdict(study).startswith("Yes: ")
+    undamped = study.scene.replace(contact={"damping": 0.0})
+    assert verdict(replace(study, scene=undamped)).startswith("Open: ")
+    assert "of an undamped contact" in verdict(replace(study, scene=undamped))
+
+
 @pytest.mark.parametrize("how", ["failing", "unfinished"])
 def test_failing_rungs_are_told_and_the_rest_is_used(hoop, how):
     line = ["study", "stiffness", "paper-3.3-massless", "--solver", f"third_solver:{how}", "--workers", 1, "--json"]
