@@ -7,12 +7,11 @@ import pytest
 import rigid
 from flexible import rigid_limit
 from rigid import Scene
-from studies.hop.rolling.asked import HopMap
+from studies import HopMap, hop_study
 from studies.hop.rolling.drop import drop
 from studies.hop.rolling.roll import from_rest, through_the_pulse
 from studies.hop.rolling.scaling import duration, relief
 from studies.hop.rolling.threshold import windows
-from studies.hop.study import hop_study
 
 
 def wide(law: str) -> Scene:
