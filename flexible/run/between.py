@@ -9,7 +9,7 @@ from rigid import Motion, Pulse, Scene
 
 from ..builder import Builder
 from ..contact.laws.listing import rigid_limit
-from ..handover import ensure_stands_in, hand_over, one_of
+from ..handover import hand_over, one_of
 from ..models.select import Hoop
 from ..models.state import State
 from ..segment import Segment
@@ -17,7 +17,7 @@ from ..time.adaptive import MarchError
 from ..time.advance import SHORTEST
 from ..time.course import Stop
 from ..time.events import Ends
-from .ahead import from_here, rest_of, slips_no_more, whirls
+from .ahead import ensure_stands_in, from_here, rest_of, slips_no_more, whirls
 from .pulses import comes_to, goes_through_turns, lead, over_bottom
 from .told import Ending, Progress, pulse_over, run_over, swept
 

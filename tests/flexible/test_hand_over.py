@@ -14,7 +14,7 @@ from flexible.models.reduced import ReducedHoop
 from flexible.models.select import hoop_of
 from flexible.time.adaptive import attempt, march
 from flexible.time.course import Ends
-from rigid import Friction, Hoop, Kind, Release, Run, Scene
+from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
 
 
 def stiff(k):
@@ -38,13 +38,15 @@ def test_a_pose_at_a_boundary_is_of_one_phase():
 
 @pytest.mark.parametrize("k", [0.1, 0.01, 1e-3])
 @pytest.mark.parametrize("place", ["early", "late", "at a boundary"])
-def test_rate_of_the_patch(k, place):
-    """Under N = (4/3) eps d sqrt(2 d) a rigid ring sinks at d' = (2/3) d N'/N, with the rigid hoop's N'.
+@pytest.mark.parametrize("damping", [0.0, 1.0])
+def test_rate_of_the_patch(k, place, damping):
+    """Under N = (4/3) eps d sqrt(2 d) a rigid ring sinks at d' = (2/3) d N'/N, with the rigid hoop's N'; where a damper
+    bears a part of that by the springs' own N and N'.
 
     Its pulse takes k^2, and N jumps where its phases meet. The patch's 18 points ripple by parts of a thousand, the
     ring yields a little: 1 %.
     """
-    scene = stiff(k)
+    scene = stiff(k).replace(contact={"damping": damping})
     motion = rigid.simulate(scene)
     pulse = motion.pulses[0]
     shares = {"early": 0.1, "late": 0.6}
@@ -56,6 +58,11 @@ def test_rate_of_the_patch(k, place):
     h = 1e-4 * k**2
     n = motion.at(t + h * np.arange(3)).normal_force
     rate = (-3 * n[0] + 4 * n[1] - n[2]) / (2 * h)
+    if state.elastic_rate:
+        assert damping > 0
+        hoop = ReducedHoop(scene)
+        assert state.res.elastic + hoop.relaxation * state.elastic_rate == pytest.approx(float(n[0]), rel=1e-9)
+        rate, n[0] = state.elastic_rate, state.res.elastic
     assert state.vel[1] == pytest.approx(2 / 3 * state.pos[1] * rate / n[0], rel=1e-2)
 
 
@@ -297,3 +304,21 @@ def test_a_roll_is_handed_over_with_the_slip_of_its_patch(foundation):
     state = hand_over(hoop, motion, phase.t_start + 0.8 * (phase.t_end - phase.t_start))
     after = attempt(hoop, state, 1e-5)
     assert after.slip_velocity == pytest.approx(state.slip_velocity, rel=5e-3)
+
+
+@pytest.mark.parametrize(("damping", "stiffness"), [(1.0, 1e4), (3.0, 1e4), (3.0, 1e7)])
+@pytest.mark.parametrize("omega0", [5.0, -5.0])
+def test_a_damped_floor_bears_from_the_first_what_the_rigid_hoop_does(damping, stiffness, omega0):
+    """N = N_el + theta dN_el/dt: a hoop thrown where N falls fast (behind the bottom) or rises (before it).
+
+    With springs pressed by all of N it began with 0.3 of that, or left the floor at once. The patch is some hundredths
+    of R wide, and N of the rigid hoop changes by a few of its hundredths over that.
+    """
+    scene = Scene(
+        Hoop(0.1, 1.02), Friction(0.35, 0.3), Release(radians(185), omega0), Run(t_end=1e-3),
+        ring=Ring(stiffness), contact=Contact(stiffness=1e7, damping=damping), solve=Solve(resolve="all", rtol=1e-5),
+    )  # fmt: skip
+    motion, limit = flexible.simulate(scene, history=True), rigid.simulate(scene)
+    assert [phase.kind for phase in motion.phases] == [phase.kind for phase in limit.phases]
+    expected = limit.at(motion.history.t).normal_force
+    assert motion.history.normal_force == pytest.approx(expected, rel=0.03)
