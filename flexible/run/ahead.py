@@ -15,11 +15,7 @@ from ..builder import Builder
 from ..contact.laws.listing import rigid_limit
 from ..models.select import Hoop
 from ..models.state import State
-from ..time.adaptive import MarchError
 from ..time.advance import SHORTEST
-from ..time.course import Stop
-
-GAINS = 0.01  # share of the energy that rigid hoops may add; what one lacks to go over the top from 10 degrees is 0.008
 
 
 def rest_of(run: Run, builder: Builder) -> Run | None:
@@ -38,25 +34,6 @@ def from_here(scene: Scene, hoop: Hoop, state: State, run: Run) -> Motion:
     release = Release(float(state.pos[2]), omega, slip)
     begun = replace(scene.solve, start="equilibrium")  # undeformed it is let go once
     return rigid.simulate(rigid_limit(replace(scene, release=release, run=run, solve=begun)), aloft)
-
-
-def ensure_stands_in(lost: float, energy: float, t: float) -> None:
-    """Of a motion that began with ``energy`` and has ``lost`` so much to hand-overs, negative if it was added.
-
-    A soft ring sags, and a rigid one that takes over stands higher at the same velocity; one that so goes over the top
-    never turns.
-
-    Raises
-    ------
-    MarchError
-        The rigid hoop is no stand-in between pulses.
-    """
-    if -lost > GAINS * energy:
-        why = (
-            ": the rigid hoop, which stands for the flexible one between pulses, would add"
-            f" {-100 * lost / energy:.2g} % of the energy; with solve.resolve = 'all' it is flexible throughout"
-        )
-        raise MarchError(Stop(why, t, by_ring=False))
 
 
 def slips_no_more(motion: Motion) -> bool:

@@ -25,10 +25,8 @@ def quietly() -> Iterator[None]:
 
 def announce(sentence: str) -> None:
     """Say on stderr what a script need not read."""
-    import click
-
     if not _quiet.get():
-        click.echo(f"hoop: {sentence}", err=True)
+        complain(sentence)
 
 
 def complain(sentence: str) -> None:

@@ -3,6 +3,7 @@
 ``roll``       one roll, and every time that the hoop is off the floor in it
 ``asked``      what a study rolls, and the scene of each roll
 ``energies``   what ring and floor stored before a hop, and where it went
+``limit``      the rigid hoop to which an elastic one tends
 ``rule``       which flights are hops and which are chatter
 ``threshold``  a roll of the map, a line of them, and the stiffness below which it hops
 ``scaling``    how sudden a pulse is for the ring

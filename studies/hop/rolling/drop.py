@@ -9,15 +9,16 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from flexible import rigid_limit
-from rigid import Kind, Run, Scene, simulate
+from rigid import Kind, Run, Scene
+
+from .limit import rigid_motion
 
 
 def drop(scene: Scene) -> float | None:
     """N in front of over N behind the first slip out of a roll of the rigid hoop to which a scene's tends, up to its
     first turn; None without one.
     """
-    motion = simulate(rigid_limit(scene).to_dimensionless().replace(run=Run(turns=1)))
+    motion = rigid_motion(scene.to_dimensionless(), Run(turns=1))
     for phase, after in pairwise(motion.phases):
         if phase.kind is Kind.ROLL and after.kind in (Kind.SPIN, Kind.SKID):
             front, behind = (float(motion.at(after.t_start, side).normal_force) for side in ("left", "right"))

@@ -13,14 +13,14 @@ from typing import Any
 
 import numpy as np
 
-from flexible import FlexibleMotion, rigid_limit, simulate
+from flexible import FlexibleMotion, simulate
 from flexible.output.body import lowest
 from rigid import Run, Scene
-from rigid import simulate as rigid_motion
 from rigid.output.units import Length, Number, Time, in_units, without_units
 
 from ...running.files import StudyError
 from .energies import HopEnergies, Roll, hop_energies
+from .limit import rigid_motion
 from .rule import DECADE, Scales, scales_of
 from .threshold import hops_in, windows
 
@@ -96,8 +96,7 @@ def from_rest(scene: Scene) -> Scene:
     release = scene.release
     if release.omega0 or release.slip0:
         raise StudyError("A hop is asked of a hoop released at rest: release.omega0 and release.slip0 must be 0.")
-    limit = rigid_limit(scene)
-    end = rigid_motion(limit.replace(run=Run(until="pulse")) if scene.run.until == "rest" else limit)
+    end = rigid_motion(scene, Run(until="pulse") if scene.run.until == "rest" else None)
     if not end.t_end:
         raise StudyError(
             f"A hop is asked of a hoop that rolls: at rest at phi0 = {degrees(release.phi0):g}° it stands still."
@@ -111,7 +110,7 @@ def through_the_pulse(scene: Scene) -> Scene:
     What hops by then is decided a few times as cheaply as to a second turn: most steps are taken in the chatter later.
     """
     assert scene.run.t_end is not None
-    motion = rigid_motion(rigid_limit(scene))
+    motion = rigid_motion(scene)
     pulse = next((p for p in motion.pulses if not p.cut), None)
     if pulse is None:
         return scene
@@ -150,7 +149,7 @@ def roll_until_decided(
 def _looks(scene: Scene) -> list[float]:
     """When it is asked whether all is decided: behind the pulse, at the rigid hoop's first turn, at the end."""
     assert scene.run.t_end is not None
-    turns = [turn.t for turn in rigid_motion(rigid_limit(scene)).turns[:1]]
+    turns = [turn.t for turn in rigid_motion(scene).turns[:1]]
     pulse = through_the_pulse(scene).run.t_end
     assert pulse is not None
     return sorted(t for t in {pulse, *turns, scene.run.t_end} if t <= scene.run.t_end)

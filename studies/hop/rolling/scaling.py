@@ -23,10 +23,10 @@ from math import asinh, cos, cosh, log, pi, sqrt
 import numpy as np
 from scipy.integrate import quad
 
-from flexible import rigid_limit
-from rigid import Run, Scene, simulate
+from rigid import Run, Scene
 from rigid.output.sampling import bottom
 
+from .limit import rigid_motion
 from .rule import slowest_period
 
 SYMMETRIC = 2.816
@@ -59,7 +59,7 @@ def suddenness(scene: Scene) -> float:
 @cache
 def duration(scene: Scene) -> float | None:
     """tau of the first pulse of the rigid hoop to which a scene's tends, in sqrt(R/g); None without one."""
-    motion = simulate(rigid_limit(scene).to_dimensionless().replace(run=Run(until="pulse")))
+    motion = rigid_motion(scene.to_dimensionless(), Run(until="pulse"))
     pulse = next((pulse for pulse in motion.pulses if not pulse.cut), None)
     return None if pulse is None else float(pulse.t_end - pulse.t_start)
 
@@ -69,7 +69,7 @@ def relief(scene: Scene) -> tuple[float, float] | None:
     """N_max/N_min of the rigid hoop, in its first pulse and behind it to its first turn, and how long N_min comes
     after the disk has passed over the floor, in sqrt(R/g); None without a pulse.
     """
-    motion = simulate(rigid_limit(scene).to_dimensionless().replace(run=Run(turns=1)))
+    motion = rigid_motion(scene.to_dimensionless(), Run(turns=1))
     pulse = next((pulse for pulse in motion.pulses if not pulse.cut), None)
     if pulse is None:
         return None

@@ -12,11 +12,11 @@ from itertools import pairwise
 from math import asin, isfinite, pi, sin, sqrt
 from typing import Any, Protocol
 
-from flexible import rigid_limit
-from rigid import Kind, Run, Scene, simulate
+from rigid import Kind, Run, Scene
 
 from ...plots.sheet import number
 from ...running.case import Outcome
+from .limit import rigid_motion
 from .scaling import duration, suddenness
 
 SYMBOL = "E I/(m g R²)"
@@ -38,7 +38,7 @@ class Window:
 def windows(scene: Scene) -> dict[str, Window | None]:
     """Where a lift-off counts, by name; None is no restriction. Without a rigid pulse there is only "anywhere"."""
     found: dict[str, Window | None] = {"anywhere": None}
-    pulses = [pulse for pulse in simulate(rigid_limit(scene).replace(run=Run(until="pulse"))).pulses if not pulse.cut]
+    pulses = [pulse for pulse in rigid_motion(scene, Run(until="pulse")).pulses if not pulse.cut]
     if pulses:
         first, last = (abs(phi - scene.release.phi0) for phi in (pulses[0].phi_start, pulses[0].phi_end))
         found["pulse"] = Window(first, last)
@@ -206,7 +206,7 @@ class HopCase:
 
 def rigid_hops(scene: Scene) -> int:
     """Flights of the rigid hoop to which a scene's tends, over the same time."""
-    return sum(phase.kind == Kind.FLIGHT for phase in simulate(rigid_limit(scene)).phases)
+    return sum(phase.kind == Kind.FLIGHT for phase in rigid_motion(scene).phases)
 
 
 @dataclass(frozen=True, slots=True)

@@ -40,7 +40,7 @@ def verdict(study: StiffnessStudy) -> str:
     elif False in inside:
         answer = f"Open: whether, {question} becomes {hoop}, a smaller rtol or more rungs decide"
     elif _rings_on(study):
-        answer = f"Open: whether, {question} becomes {hoop}, no rungs say of an undamped contact"
+        answer = f"Open: whether, {question} becomes {hoop}, its rungs cannot show with an undamped contact"
     else:
         answer = f"Yes: {question} becomes {hoop}"
     told = [_told(study, name, limit) for name, limit in tied.items()]
