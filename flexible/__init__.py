@@ -16,8 +16,8 @@ In the order in which they build on each other:
               ``contact.laws``, which also says which rigid hoop the flexible one becomes as its stiffness grows
 ``models``    a hoop that can be moved in time: reduced, all nodes, geometrically exact, chain
 ``time``      one implicit step; adaptive steps with located events
-``handover``  where a flexible segment begins: in the equilibrium of a rigid motion, brought there by ``settling``;
-              ``airborne`` in its flight
+``airborne``  how high over the floor a hoop is in flight, and how fast it rises
+``start``     where a flexible segment begins: in the equilibrium of a rigid motion
 ``builder``   puts a motion together: ``segment`` has records read as phases and pulses, ``pieces`` what it is made of,
               ``motion`` is what comes back, ``saved`` from a file and ``packed`` into one
 ``run``       simulate(scene): pulse by pulse or flexible throughout, which pulses it has, how it ends

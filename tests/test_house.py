@@ -277,3 +277,20 @@ def test_tests_lie_where_the_packages_have_their_rooms() -> None:
     folders = {path.parent.relative_to(ROOT / "tests") for path in (ROOT / "tests").rglob("test_*.py")}
     assert {folder for folder in folders if not (ROOT / folder).is_dir()} == set()
     assert {Path(package) for package in PACKAGES} <= folders
+
+
+NAMED = re.compile(r"`([\w/]+\.py)` ((?:`[A-Z][A-Z_0-9]+`[,; ]*)+)")  # `room/file.py` `ONE`, `TWO`
+
+
+@pytest.mark.parametrize("page", sorted(ROOT.glob("*/**/README.md")), ids=lambda page: page.parent.name)
+def test_numbers_that_a_page_names_are_there(page: Path) -> None:
+    """Files by their path from the page's folder, its package or the root."""
+    folders = {page.parent, ROOT / page.relative_to(ROOT).parts[0], ROOT}
+    for file, numbers in NAMED.findall(page.read_text(encoding="utf-8")):
+        sources = [folder / file for folder in folders if (folder / file).is_file()]
+        assert len(sources) == 1, file
+        source = sources[0].read_text(encoding="utf-8")
+        missing = [
+            number for number in re.findall(r"\w+", numbers) if not re.search(rf"^(\w+, )*{number}\b", source, re.M)
+        ]
+        assert not missing, file

@@ -9,10 +9,11 @@ from rigid import Motion, Pulse, Scene
 
 from ..builder import Builder
 from ..contact.laws.listing import rigid_limit
-from ..handover import hand_over, one_of
 from ..models.select import Hoop
 from ..models.state import State
 from ..segment import Segment
+from ..start.handover import hand_over
+from ..start.pose import one_of
 from ..time.adaptive import MarchError
 from ..time.advance import SHORTEST
 from ..time.course import Stop

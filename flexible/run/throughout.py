@@ -11,10 +11,10 @@ from rigid import Motion, Pulse, Run, Scene
 
 from ..builder import Builder
 from ..contact.laws.listing import rigid_limit
-from ..handover import hand_over
 from ..models.select import Hoop
 from ..models.state import State
 from ..segment import Segment
+from ..start.handover import hand_over
 from ..time.adaptive import MarchError
 from ..time.course import Stop
 from ..time.events import Ends

@@ -52,8 +52,8 @@ def _mesh(elements: int) -> Contestant:
 
 def _long_run(steps: int) -> Contestant:
     """A flexible run of so many steps without history."""
-    from flexible.handover import hand_over
     from flexible.models.reduced import ReducedHoop
+    from flexible.start.handover import hand_over
     from flexible.time.adaptive import Limits, march
     from flexible.time.events import Ends
 

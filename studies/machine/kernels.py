@@ -91,8 +91,8 @@ def compile_alone(name: str, told: bool) -> None:
     if name in APART:
         getattr(import_module(name), APART[name]).load()
         return
-    from flexible.handover import compile_ahead
     from flexible.models.select import hoop_of
+    from flexible.start.equilibrium import compile_ahead
 
     compile_ahead(hoop_of(_short().replace(solve={"level": name}).to_dimensionless()))
 

@@ -11,8 +11,9 @@ from flexible.contact.forces import contact_forces
 from flexible.contact.laws.listing import LAWS
 from flexible.contact.points.data import UNDAMPED, Before, Bristles, Parameters, Rim, no_bristles
 from flexible.contact.points.rim import element_at
-from flexible.handover import Pose, equilibrium
 from flexible.models.reduced import ReducedHoop
+from flexible.start.equilibrium import equilibrium
+from flexible.start.pose import Pose
 from rigid import Contact, Friction, Hoop, Kind, Release, Scene
 from rigid import Ring as RingOf
 

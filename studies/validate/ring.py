@@ -17,9 +17,10 @@ from scipy.optimize import brentq
 from scipy.sparse.linalg import eigsh, splu
 from skfem import ElementQuad2, ElementVector, FacetBasis, LinearForm
 
-from flexible.handover import Pose, equilibrium
 from flexible.models.select import hoop_of
 from flexible.ring.fem import Ring
+from flexible.start.equilibrium import equilibrium
+from flexible.start.pose import Pose
 from meshes import ring_mesh
 from rigid import Contact, Friction, Hoop, Kind, Release, Scene
 from rigid import Ring as Elastic

@@ -5,8 +5,8 @@ from math import pi
 import numpy as np
 
 from flexible.contact.points.data import NOTHING, no_bristles
-from flexible.handover import _pose
 from flexible.models.state import Touching, in_motion
+from flexible.start.pose import pose_of
 from flexible.time.adaptive import Limits, march
 from flexible.time.events import Ends
 from flexible.time.methods import ESDIRK3
@@ -27,7 +27,7 @@ HOOP = Scene(
 
 def pose_at(motion, t, side="right"):
     """The rigid motion at time ``t``, without its units; where phases meet, in the one that ``side`` says."""
-    return _pose(without_units(motion.at(t, side), motion.scene), motion.phase_at(t, side).kind)
+    return pose_of(without_units(motion.at(t, side), motion.scene), motion.phase_at(t, side).kind)
 
 
 def flying(hoop, pos, vel):

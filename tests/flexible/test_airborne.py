@@ -8,10 +8,10 @@ import pytest
 import flexible
 import rigid
 from flexible.airborne import taken_over
-from flexible.handover import hand_over
 from flexible.models.chain import ChainHoop
 from flexible.models.reduced import ReducedHoop
 from flexible.run.ahead import from_here
+from flexible.start.handover import hand_over
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene
 
 #: thrown up, it flies over the top and lands at t = 1.67 where its disk is low enough for a pulse to begin

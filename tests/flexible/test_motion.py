@@ -9,9 +9,11 @@ from scenes import HOOP, energy, flying, pose_at, steps_of
 import flexible
 import rigid
 from flexible.contact.laws.patch import SLIDE_LEFT, SLIDE_RIGHT, STICK, Patch
-from flexible.handover import Pose, equilibrium, hand_over
 from flexible.models.reduced import ReducedHoop
 from flexible.pieces import on_clock
+from flexible.start.equilibrium import equilibrium
+from flexible.start.handover import hand_over
+from flexible.start.pose import Pose
 from flexible.time.adaptive import march, restart
 from flexible.time.events import Ends
 from flexible.time.methods import ESDIRK3, METHODS, TR_BDF2

@@ -113,9 +113,9 @@ def run_hoop(scene: Scene, hoop: Any) -> Measured:
     RuntimeError
         The run did not come to its end.
     """
-    from flexible.handover import hand_over
     from flexible.run.pulses import LEAD
     from flexible.segment import peak
+    from flexible.start.handover import hand_over
     from flexible.time.adaptive import march
     from flexible.time.events import Ends
     from rigid import simulate

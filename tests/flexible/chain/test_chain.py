@@ -8,11 +8,12 @@ import flexible
 from flexible.chain.bordered import no_blocks
 from flexible.chain.mass.inertia import energies, inertia, inertia_tangent, momenta
 from flexible.chain.whole import moved, sections
-from flexible.handover import Pose, equilibrium
 from flexible.models.chain import ChainHoop
 from flexible.models.exact import ExactHoop
 from flexible.models.reduced import ReducedHoop
 from flexible.models.select import hoop_of
+from flexible.start.equilibrium import equilibrium
+from flexible.start.pose import Pose
 from flexible.time.adaptive import restart
 from rigid import Kind
 

@@ -5,11 +5,12 @@ import pytest
 from scenes import HOOP
 
 import flexible
-from flexible.handover import Pose, equilibrium
 from flexible.models.chain import ChainHoop
 from flexible.models.exact import ExactHoop
 from flexible.output import fields
 from flexible.output.interior import interior_of
+from flexible.start.equilibrium import equilibrium
+from flexible.start.pose import Pose
 from meshes import hoop_stress, von_mises
 from rigid import Kind
 

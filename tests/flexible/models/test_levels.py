@@ -9,7 +9,6 @@ from flexible.contact.forces import contact_forces
 from flexible.contact.laws.patch import SLIDE_RIGHT
 from flexible.contact.points.data import UNDAMPED, Before, Rim
 from flexible.contact.points.rim import turned
-from flexible.handover import Pose, equilibrium, undeformed
 from flexible.models import select
 from flexible.models.chain import ChainHoop
 from flexible.models.exact import ExactHoop
@@ -19,6 +18,8 @@ from flexible.models.select import FAR, Range, hoop_of
 from flexible.ring.choice import ring_of
 from flexible.ring.exact import ExactElasticity
 from flexible.ring.nodal import inertia
+from flexible.start.equilibrium import equilibrium, undeformed
+from flexible.start.pose import Pose
 from flexible.time.adaptive import MarchError, march
 from flexible.time.events import Ends
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve

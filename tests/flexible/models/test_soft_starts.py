@@ -8,8 +8,8 @@ from scenes import pose_at
 from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 
-from flexible.handover import equilibrium
 from flexible.models.select import hoop_of
+from flexible.start.equilibrium import equilibrium
 from rigid import scene_from_dict, simulate
 
 WALL, PHI, WELD = 0.005, np.radians(10), np.radians(3)

@@ -6,13 +6,14 @@ from scipy.sparse.linalg import spsolve
 
 from flexible import simulate, write_fields
 from flexible.contact.laws.listing import sticks
-from flexible.handover import Pose, equilibrium
 from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
 from flexible.output.interior import interior_of
 from flexible.output.patch import profile
 from flexible.output.recovery import ExactInterior, Interior
 from flexible.ring.fem import Ring
+from flexible.start.equilibrium import equilibrium
+from flexible.start.pose import Pose
 from meshes import hoop_stress, read, ring_mesh
 from rigid import Kind, load_scene
 from rigid import simulate as simulate_rigid

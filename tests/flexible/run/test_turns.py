@@ -8,10 +8,10 @@ import pytest
 import flexible
 import rigid
 from flexible.airborne import taken_over
-from flexible.handover import hand_over
 from flexible.models.chain import ChainHoop
 from flexible.models.reduced import ReducedHoop
 from flexible.models.state import momentum, rotation
+from flexible.start.handover import hand_over
 from flexible.time.events import sight
 from rigid import Friction, Hoop, Release, Run, Scene
 

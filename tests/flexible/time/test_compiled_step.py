@@ -6,10 +6,11 @@ import pytest
 from scenes import HOOP, flying
 
 import rigid
-from flexible.handover import compile_ahead, hand_over
 from flexible.models.chain import ChainHoop
 from flexible.models.reduced import ReducedHoop
 from flexible.ring.fem import COLUMNS
+from flexible.start.equilibrium import compile_ahead
+from flexible.start.handover import hand_over
 from flexible.time import adaptive
 from flexible.time.adaptive import attempt, machine
 from flexible.time.advance import COLUMNS as OF_A_ROW

@@ -12,8 +12,8 @@ import flexible
 import rigid
 from flexible.contact.laws.patch import SLIDE_LEFT, SLIDE_RIGHT, STICK, excess
 from flexible.contact.points.data import Parameters, Rates
-from flexible.handover import hand_over
 from flexible.models.reduced import ReducedHoop
+from flexible.start.handover import hand_over
 from flexible.time.adaptive import march
 from flexible.time.events import VELOCITY, Ends
 

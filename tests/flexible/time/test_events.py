@@ -12,9 +12,11 @@ import flexible.time.advance
 import rigid
 from flexible.contact.laws.patch import SLIDE_RIGHT, STICK
 from flexible.contact.vectors import largest
-from flexible.handover import Pose, equilibrium, hand_over
 from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
+from flexible.start.equilibrium import equilibrium
+from flexible.start.handover import hand_over
+from flexible.start.pose import Pose
 from flexible.time.adaptive import Limits, MarchError, attempt, march, restart
 from flexible.time.events import HIGH_END, MODE_ENDS, Ends, chosen, is_lost, is_open, search_of, told, unsolved
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve

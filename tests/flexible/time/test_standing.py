@@ -12,9 +12,10 @@ from scenes import HOOP, flying, steps_of
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
-from flexible.handover import Pose, equilibrium
 from flexible.models.reduced import ReducedHoop
 from flexible.models.rim_contact import relaxation_time
+from flexible.start.equilibrium import equilibrium
+from flexible.start.pose import Pose
 from flexible.time.adaptive import restart
 from rigid import Kind
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rigid.kernel.interrupts import answer
 
-from .models.equilibrium import Patch, RestingRing, Window
+from ..models.equilibrium import Patch, RestingRing, Window
 
 Array = NDArray[np.float64]
 

@@ -8,10 +8,11 @@ from scenes import HOOP, pose_at
 
 import flexible
 import rigid
-from flexible.handover import equilibrium, hand_over
 from flexible.models.chain import ChainHoop
 from flexible.models.reduced import ReducedHoop
 from flexible.models.select import hoop_of
+from flexible.start.equilibrium import equilibrium
+from flexible.start.handover import hand_over
 from flexible.time.adaptive import attempt, march
 from flexible.time.course import Ends
 from rigid import Contact, Friction, Hoop, Kind, Release, Ring, Run, Scene, Solve
