@@ -18,6 +18,8 @@ import numpy as np
 
 C = TypeVar("C")
 
+MOST_DEGREES = 5e10  # 1e9 radians or so: of a larger angle too few digits would be left within a turn
+
 _LINE = 60  # characters of a value that a sentence shows
 
 _MEANT = {
@@ -44,10 +46,9 @@ def in_radians(key: str, value: Any) -> float:
     """An angle given in degrees."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise SceneError(f"{key} = {shown(value)} is not possible: it must be a number, in degrees.")
-    try:
-        return radians(value)
-    except OverflowError:
-        raise SceneError(f"{key} = {shown(value)} is not possible: it must be finite.") from None
+    if not abs(value) <= MOST_DEGREES:
+        raise SceneError(f"{key} = {shown(value)} is not possible: it must lie between -5e10 and 5e10 degrees.")
+    return radians(value)
 
 
 def plain(key: str, value: Any) -> Any:

@@ -75,7 +75,8 @@ class Hoop:
     mass_ratio : float
         Mass of the hoop over mass of the disk, m_h/m >= 0.
     R, m, g : float
-        Outer radius, mass of the disk and gravity; 1, 1, 1 is the paper's scaling.
+        Outer radius, mass of the disk and gravity; 1, 1, 1 is the paper's scaling. A file has all three or none; here
+        each is 1 unless it is given, so ``Hoop(0.1, R=0.5)`` is one of half a metre where m = 1 kg and g = 1 m/s^2.
     """
 
     k: float

@@ -139,7 +139,7 @@ def _work_of_those_that_left(
         was, left = next_dent(was, before, rim, j * law.spacing), next_dent(left, before, rim, theta)
         rolled += displaced(left, theta)[0] - displaced(was, j * law.spacing)[0]
         pull = bristles.pull[i] / 2
-        if stuck > 0 and bristles.sliding[i] == 0 and bristles.stretch[i] != 0:
+        if stuck > 0 and abs(bristles.sliding[i]) != 1 and bristles.stretch[i] != 0:
             pull = bristles.pull[i] - law.eps_t * law.spacing * (rolled + share * moved) / 2
         work += pull * (rolled - share * (slip.way - moved))
     return work

@@ -45,7 +45,7 @@ def _sticking(bristles: Bristles) -> int:
     """How many points stick."""
     number = 0
     for i in range(bristles.sliding.shape[0]):
-        number += bristles.sliding[i] == 0
+        number += abs(bristles.sliding[i]) != 1
     return number
 
 

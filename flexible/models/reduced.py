@@ -29,6 +29,7 @@ from .state import Energies, State
 
 Array = NDArray[np.float64]
 
+FALLS_ON = 1e4  # m g: a step that falls so deep through the floor that the foundation would push more is too long
 SNAPS = 1e-8  # a stage's beta, sqrt(R/g), below which a patch may be let go of: longer steps are cut instead
 
 
@@ -104,10 +105,12 @@ def _solved(
         moved = np.zeros(arrays.rim.shapes.shape[0])
         _bend(moved, arrays.rim.shapes, expected)
         low, high = below_floor(arrays.theta, expected[2], expected[1], moved)
-    margin = 0.3 * (high - low) + 0.1 * arrays.element
-    deepest = least_gap(near.pos[1], near.pos[2], near.u, NearFloor(near.window[0], arrays.vertex))
     unknown = np.empty((0, 0)), np.empty(0, np.int64)
     found = Stage(False, expected, expected, expected, unknown, old.window, old.u, old.nodal, old.res, old.bristles)
+    if old.res.normal == 0 and arrays.law.eps_n * (high - low) ** 3 / 12 > FALLS_ON:
+        return found
+    margin = 0.3 * (high - low) + 0.1 * arrays.element
+    deepest = least_gap(near.pos[1], near.pos[2], near.u, NearFloor(near.window[0], arrays.vertex))
     for _ in range(4):
         window = window_around(arrays.vertex, expected[2], low, high, margin)
         if not is_known(arrays.rim, window_dofs(arrays.vertex.shape[0], window)):

@@ -28,6 +28,7 @@ class Table(NamedTuple):
     work: Any  # (stages, stages)
     end_rate: Any  # (stages,)
     trend: Any  # (stages,)
+    span: Any  # (stages,) part of a step that is nearest to each stage
     order: Any  # (stages,) of the stages in time
     nearest: Any  # (stages, 2) to each stage in time, among those before it
     share: Any  # (stages,) of the change between the two at which a line through them is at the stage
@@ -106,6 +107,15 @@ class Method:
         return found
 
     @cached_property
+    def span(self) -> Array:
+        """(stages,) The part of a step of unit length that is nearest to each stage: for what is there or not, of which
+        weights that are negative, as ``b`` may be, would make more than all of the step, or less than nothing."""
+        order, within = np.argsort(self.c, kind="stable"), np.clip(np.sort(self.c), 0.0, 1.0)
+        found = np.empty(len(self.c))
+        found[order] = np.diff(np.concatenate([[0.0], (within[1:] + within[:-1]) / 2, [1.0]]))
+        return found
+
+    @cached_property
     def table(self) -> Table:
         """All of it as named arrays."""
         nearest, share = np.zeros((len(self.c), 2), np.int64), np.zeros(len(self.c))
@@ -114,7 +124,7 @@ class Method:
             nearest[i] = near, next_near
             share[i] = (self.c[i] - self.c[near]) / (self.c[near] - self.c[next_near])
         return Table(
-            self.a, self.b.copy(), self.c, self.gamma, self.error, self.work, self.end_rate, self.trend,
+            self.a, self.b.copy(), self.c, self.gamma, self.error, self.work, self.end_rate, self.trend, self.span,
             np.argsort(self.c), nearest, share,
         )  # fmt: skip
 

@@ -274,7 +274,7 @@ def take(model: Any, old: Any, h: float, table: Table, damping: Any, known_to: f
     off_floor = 0.0
     for i in range(stages):
         if known.normal[i] == 0:
-            off_floor += h * table.b[i]
+            off_floor += h * table.span[i]
     drag_work = work(table.work, known.drag, known.way)
     numerical, after = 0.0, before
     if ok and h > 0:

@@ -12,6 +12,7 @@ import shlex
 import sys
 import time
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -43,12 +44,21 @@ Try, in this order:
   hoop study stiffness paper-3.3-massless --out study
                                      the limit; then open study/report.html
   hoop scenes                        what else is ready to run
-  hoop view paper-3.1 --gif a.gif    a moving picture
+  hoop view paper-3.1 --gif a.gif    a moving picture, with the extra [view]
   hoop COMMAND -h                    the options of a command
 
 SCENE is the name of a shipped scene or a TOML file; `hoop scenes NAME` prints one to start from.
 """
 
+
+EXTRAS = {
+    "pyvista": "view",
+    "vtkmodules": "view",
+    "imageio_ffmpeg": "film",
+    "dask": "cluster",
+    "distributed": "cluster",
+}
+"""What brings a package that is not there."""
 
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 110}
 
@@ -235,7 +245,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
         kept = "; ".join(["Interrupted", *map(str, (interrupt.__cause__ or interrupt).args)])
         return _say(f"{kept}.", 130)
     except ImportError as error:
-        return _say(f"A part of hoop cannot be loaded: {error}.", 2)
+        extra = EXTRAS.get((error.name or "").partition(".")[0])
+        hint = f" It comes with the extra [{extra}]: pip install '.[{extra}]' where the README is." if extra else ""
+        return _say(f"A part of hoop cannot be loaded: {error}.{hint}", 2)
     except (Unread, OSError) as error:
         _forget_stdout()
         if isinstance(error, Unread | BrokenPipeError):
@@ -244,7 +256,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 
 def _say(sentence: str, status: int) -> int:
-    click.echo(f"hoop: {sentence}", err=True)
+    with suppress(OSError):  # nobody can be told
+        click.echo(f"hoop: {sentence}", err=True)
     return status
 
 

@@ -57,7 +57,9 @@ def set_stretch(kept: Any, half: float, curve: Any, brush: bool) -> None:
             kept.label[n] = s
             kept.way[n] = -curve[0] - s * (curve[1] + s * curve[2])
             gone = half - s
-            total = curve[0] * gone + curve[1] * (half**2 - s**2) / 2 + curve[2] * (half**3 - s**3) / 3
+            total = (
+                curve[0] * gone + curve[1] * (half * half - s * s) / 2 + curve[2] * (half * half * half - s * s * s) / 3
+            )
             kept.area[n] = -total
         kept.ends[0], kept.ends[1] = 0, ENTRIES
     kept.edges[SLIPPED], kept.edges[TRAILING], kept.edges[LEADING] = 0.0, half, -half

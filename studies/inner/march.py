@@ -50,8 +50,8 @@ def _normal(state: Any, theta: float) -> tuple[float, float, float]:
     if state[HEIGHT] >= 0:
         return 0.0, 0.0, 1.0
     half = np.sqrt(-2 * state[HEIGHT])
-    eta = max(0.0, 1 - 3 * theta * state[RATE] / half**2)
-    return half, eta * 2 / 3 * half**3, eta
+    eta = max(0.0, 1 - 3 * theta * state[RATE] / (half * half))
+    return half, eta * 2 / 3 * (half * half * half), eta
 
 
 @part
@@ -62,7 +62,7 @@ def _forces(state: Any, contact: Any, mode: int, kept: Any) -> tuple[float, floa
         return 0.0, 0.0
     slip = state[SLIP]
     if contact.law == REGULARISED:
-        return normal, -contact.mu * normal * slip / np.sqrt(slip**2 + contact.slip_scale**2)
+        return normal, -contact.mu * normal * slip / np.sqrt(slip * slip + contact.slip_scale * contact.slip_scale)
     if contact.law == BRUSH:
         return normal, brush_pull(kept, contact, half, state[ROLLED], state[WAY], eta, False)[0]
     if mode != STICK:
@@ -77,7 +77,7 @@ def _rates(state: Any, system: Any, mode: int, kept: Any) -> Any:
     body, eps = system.body, system.eps
     normal, friction = _forces(state, system.contact, mode, kept)
     a, b, ec = _arms(body.e, body.one_minus_e, state[PSI])
-    w = state[OMEGA] ** 2
+    w = state[OMEGA] * state[OMEGA]
     alpha = (normal * a - friction * b) / body.gyration
     out = np.empty(STATE)
     out[PSI], out[OMEGA] = eps * state[OMEGA], eps * alpha
@@ -142,7 +142,7 @@ def _switch(state: Any, contact: Any, mode: int, kept: Any) -> int:
     # move has let go of what was too much, and sticks again
     most = turned * contact.mu * min(eta, 1.0) / contact.kappa
     state[WAY], state[ROLLED] = 0.0, 0.0
-    set_stretch(kept, half, np.array([-most * half**2 / 2, 0.0, most / 2]), False)
+    set_stretch(kept, half, np.array([-most * half * half / 2, 0.0, most / 2]), False)
     return STICK
 
 

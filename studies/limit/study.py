@@ -26,6 +26,7 @@ from ..inner.scales import damping_of
 from ..inner.separate import separate_from, stiff_from
 from ..plots.sheet import power_of
 from ..running.case import Case
+from ..running.files import StudyError
 from ..running.measures import MEASURES, known
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
@@ -266,8 +267,11 @@ def _others(scene: Scene) -> tuple[Other, ...]:
             found.append(Other(f"{name}, any damping", (pulse.impulse_ratio,) * 2, foreseen(scene, name)))
     ideal = next(name for name, law in LAWS.items() if law.code == PATCH)
     undamped = scene.replace(contact={"law": ideal, "damping": 0.0})
-    limit = predict(undamped).terms["impulse_ratio"].limit
-    seen = [go_through(at_foundation(undamped, foundation)).impulse_ratio for foundation in FOUNDATIONS]
+    try:
+        limit = predict(undamped).terms["impulse_ratio"].limit
+        seen = [go_through(at_foundation(undamped, foundation)).impulse_ratio for foundation in FOUNDATIONS]
+    except StudyError:  # the pulse of this law is another, and none that can be foreseen
+        return tuple(found)
     near = max(abs(seen[0] - limit) / 2, ROUND_OFF)  # it comes to a fifth, where it has a limit
     comes = abs(seen[-1] - limit) <= near
     return (*found, Other(f"{ideal}, no damping", (limit, limit) if comes else (min(seen), max(seen)), tends=comes))

@@ -1,5 +1,13 @@
 """The brush: a bristle breaks at mu_s p, p the pressure at its point, and slides at mu p.
 
+One that slides stands again as soon as what it may carry, mu p, grows faster than the rim stretches it. If it would
+while the damper adds the same share to p, it sticks, and breaks at mu_s p. If not it only rests, and breaks at mu p:
+it stands since the damper presses it harder from one instant to the next. As a brush breaks loose that goes on and on
+otherwise: friction falls from mu_s to mu, a wall without mass gives way to that, at once, and N falls with it, since
+the damper lets no depth jump; N comes back within the damper's time on the wall, some 1e-6, all points stand, break
+together, and N falls again. How often hangs on the steps, the points and the wall, and the impulses with it, by up to
+a hundredth. The stiffer the wall the more of it there is, and none on a rigid one.
+
 A rolling patch then breaks away from its rear. With pressure p = 4 p_0 u (1 - u), u from 0 at the leading to 1 at the
 trailing edge, and bristles stretched in proportion to the way from the leading edge, the points with u < b stick and
 the rest slides when c b = 4 mu_s p_0 b (1 - b) at u = b; so
@@ -47,7 +55,7 @@ def tractions(
             continue
         pressure = -law.eps_n * min(points.gap[i], 0.0)
         was = sliding[i]
-        limit = (law.mu if sliding[i] != 0 else law.mu_s) * load.eta * pressure
+        limit = (law.mu if was != 0 else law.mu_s) * load.eta * pressure
         if abs(law.eps_t * stretch[i]) > limit:
             sliding[i] = 1 if stretch[i] < 0 else -1
             forces.share[i] = weight * sliding[i] * law.mu * pressure
@@ -55,10 +63,14 @@ def tractions(
             stretch[i] = -traction / law.eps_t
             forces.by_gap[i, 2] = -weight * sliding[i] * law.mu * load.eta * law.eps_n
         else:
-            sliding[i] = 0
+            if was != 0:
+                grows = pressure + law.eps_n * min(points.gap_old[i], 0.0)
+                side_of = 1 if was > 0 else -1
+                sticks = -side_of * law.eps_t * carried.way[i] <= law.mu * load.eta * grows
+                sliding[i] = 0 if sticks else 2 * side_of
             traction = cling(forces, carried, i, law.eps_t)
             stuck += weight
-        slides = slides and sliding[i] != 0 and was == sliding[i] and (side == 0 or side == was)
+        slides = slides and abs(sliding[i]) == 1 and was == sliding[i] and (side == 0 or side == was)
         side = was
         add_pull(forces, i, traction)
         energy += weight * traction**2 / (2 * law.eps_t)
@@ -112,7 +124,7 @@ class Brush(Law):
 
     def slipping(self, state: PatchState, sliding: Array) -> NDArray[np.bool_]:
         """See :class:`~flexible.contact.laws.law.Law`."""
-        return sliding != 0
+        return np.abs(sliding) == 1
 
     @classmethod
     def static_coefficient(cls, friction: Friction) -> float:

@@ -5,5 +5,6 @@
 ``dent``       how far sideways the rim was displaced when a step began, by the angle
 ``detection``  which points touch, where they are, how they moved since the step began
 ``normal``     the foundation under them
+``entry``      when and where one touched in a step
 ``bristles``   the bristles that they carry along the floor
 """

@@ -15,10 +15,9 @@ from rigid.kernel.compile import jit, loop
 
 from .data import Before, Bristles, Damper, Parameters, PointForces, Resultants, Rim, Slip
 from .dent import dent_at, displaced, next_dent
-from .rim import lift
+from .entry import Point, entry_of
 
 HELD = 1 / 64  # of the square of the points' distance: a spot of the rim less deep lets go of its bristles
-ENTERS = 1e-9  # of a step: Newton's last change to the instant of an entry, whose error is then its square
 
 
 class Carried(NamedTuple):
@@ -29,69 +28,10 @@ class Carried(NamedTuple):
     by_gap: Any  # by the point's gap and
     by_phi: Any  # by phi, through the instant of entry
     touched: Any  # whether the point has touched the floor in this visit
-    sliding: Any  # direction in which friction pushes a sliding point, 0 while it sticks
+    sliding: Any  # direction in which friction pushes a sliding point, 0 while it sticks, twice it while it rests
     way: Any  # along the floor since the step began or the point touched, rolling included
     mean: Any  # what the patch as a whole has slipped in that time
     pull: Any  # tangential force on the point when the step began
-
-
-class _Point(NamedTuple):
-    """A point that may have touched: numbers, since to hand over arrays costs more than all that is done with them."""
-
-    gap_old: float
-    gap: float
-    psi: float
-    sine: float
-    lifted: float
-
-
-class _Entry(NamedTuple):
-    """When a point touched, and where."""
-
-    rest: float  # fraction of the step since then, negative where it never touched
-    psi: float  # angle from the bottom at which it did
-    lifted: float  # height of the undeformed circle there over its lowest point
-    by_gap: float  # derivatives of the fraction by the new gap and by phi
-    by_phi: float
-    speed: float  # of the angle against the fraction
-    shift: float  # derivative of that angle by phi, the fraction fixed
-
-
-@loop
-def _entry(point: _Point, dphi: float, turn: float, ratio: float) -> _Entry:
-    """When a point that was off the floor when the step began touched.
-
-    Its angle is the parabola in time that ends with ``turn`` a step: over a step in which the whole patch is renewed a
-    constant rate would misplace all entries by as much as phidot changes, and the creep with them. What of the gap is
-    not the circle's is linear in time.
-    """
-    never = _Entry(-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    g_old, g_new, psi, lifted = max(point.gap_old, 0.0), point.gap, point.psi, point.lifted
-    a = dphi * dphi / 2
-    b = g_new - g_old - a
-    disc = b * b - 4 * a * g_old
-    if disc <= 0 or b >= 0:
-        return never
-    s = 1 - 2 * g_old / (sqrt(disc) - b)
-    if s <= 0:
-        return never
-    bend = turn - dphi
-    own = g_old - g_new - (lift(psi - dphi) - lifted)
-    step = 1.0
-    for iteration in range(5):
-        angle = psi - turn * s + bend * s * s
-        speed = -turn + 2 * bend * s
-        half, other = sin(angle / 2), cos(angle / 2)
-        slope = 2 * half * other * speed + own
-        if slope <= 0:
-            return never
-        if iteration == 4 or abs(step) < ENTERS:
-            break
-        step = (g_new + (2 * half * half - lifted) + own * s) / slope
-        s = min(max(s - step, 0.0), 1.0)
-    shift = 1 - ratio * s + (ratio - 1) * s * s
-    by_phi = -(2 * half * other * shift - (1 - s) * point.sine) / slope
-    return _Entry(s, angle, 2 * half * half, -(1 - s) / slope, by_phi, speed, shift)
 
 
 @loop
@@ -123,8 +63,8 @@ def carry(
             rate[i] = 1.0
             sliding[i] = flags[p]
             continue
-        point = _Point(points.gap_old[i], points.gap[i], points.psi[i], points.sine[i], points.lifted[i])
-        entry = _entry(point, dphi, turn, ratio)
+        point = Point(points.gap_old[i], points.gap[i], points.psi[i], points.sine[i], points.lifted[i])
+        entry = entry_of(point, dphi, turn, ratio)
         rest, psi_in = entry.rest, entry.psi
         if rest >= 0:
             touched[i] = True
@@ -144,7 +84,8 @@ def carry(
             by_gap[i] = by_rest * entry.by_gap
             by_phi[i] = by_rest * entry.by_phi + (1 - rate[i]) * lifted - entry.shift * lifted_in
             if flags.shape[0] > 0:
-                sliding[i] = flags[0] if j < number[0] else flags[-1]
+                edge = flags[0] if j < number[0] else flags[-1]
+                sliding[i] = edge if abs(edge) == 1 else 0
 
 
 @jit

@@ -39,7 +39,9 @@ class Bristles(NamedTuple):
     number: Any  # of the point, int64
     stretch: Any  # of its bristle
     pull: Any  # tangential force on it
-    sliding: Any  # direction in which friction pushes it where it slides, 0 where it sticks; int8
+    sliding: (
+        Any  # direction in which friction pushes it where it slides, 0 where it sticks, twice it where it rests; int8
+    )
 
 
 NO_DENT = np.empty((0, 2))

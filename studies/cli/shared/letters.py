@@ -5,6 +5,7 @@ from __future__ import annotations
 import codecs
 import sys
 import unicodedata
+from contextlib import suppress
 
 _SIGNS = {
     "−": "-", "–": "-", "·": "*", "×": "x", "±": "+-", "°": " deg", "√": "sqrt", "≤": "<=", "≥": ">=", "→": "->",
@@ -17,7 +18,8 @@ def spell_out() -> None:
     codecs.register_error("hoop", _spelled)
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="hoop")
+            with suppress(OSError):  # it is closed
+                stream.reconfigure(errors="hoop")
 
 
 def as_printed(text: str) -> str:

@@ -213,6 +213,13 @@ class Commands(click.Group):
         """As they were added."""
         return list(self.commands)
 
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Each with all of its first sentence, over as many lines as that takes."""
+        with formatter.section("Commands"):
+            formatter.write_dl(
+                [(name, command.get_short_help_str(limit=1000)) for name, command in self.commands.items()]
+            )
+
     def add_command(self, cmd: click.Command, name: str | None = None) -> None:
         """Add a command; one that computes gets the option that silences it."""
         if not isinstance(cmd, click.Group) and not any(param.name == "quiet" for param in cmd.params):

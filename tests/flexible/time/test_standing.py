@@ -12,12 +12,13 @@ from scenes import HOOP, flying, steps_of
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
+from flexible import simulate
 from flexible.models.reduced import ReducedHoop
 from flexible.models.rim_contact import relaxation_time
 from flexible.start.equilibrium import equilibrium
 from flexible.start.pose import Pose
 from flexible.time.adaptive import restart
-from rigid import Kind
+from rigid import Kind, load_scene
 
 EPS = 1e6
 
@@ -109,3 +110,26 @@ def test_a_patch_that_its_damper_lets_go_of_is_off_the_floor():
     pressed = off & np.array([r.contact_spring > 0 for r in records])
     assert pressed.sum() > 20
     assert records[-1].off_floor == pytest.approx(np.diff(t)[off[1:]].sum(), abs=3e-5)  # its edges lie within steps
+
+
+@pytest.mark.parametrize("integrator", ["tr-bdf2", "esdirk3", "esdirk4"])
+def test_the_time_off_the_floor_is_a_part_of_each_step(integrator):
+    """None of those in which the hoop is down, all of those in which it is up, and a part of those between.
+
+    Summed up with weights of which one is negative, a step of esdirk3 in which the hoop lands has -0.16 to 1.16 of it.
+    """
+    scene = load_scene("paper-3.3-light").replace(
+        ring={"bending_stiffness": 60.0},
+        contact={"damping": 0.0},
+        solve={"integrator": integrator},
+        run={"until": "pulse"},
+    )
+    (pulse,) = (motion := simulate(scene, history=True)).pulses
+    segment = next(piece.segment for piece in motion.sample.pieces if piece.segment is not None)
+    length, off = np.diff(segment["t"]), np.diff(segment["off_floor"])
+    up = segment["normal_force"] == 0
+    assert (off >= 0).all()
+    assert (off <= length * (1 + 1e-9) + 1e-15).all()
+    assert off[up[1:] & up[:-1]] == pytest.approx(length[up[1:] & up[:-1]])
+    assert 0 < off.sum() == pytest.approx(pulse.time_off_floor)
+    assert ((off > 0) & (off < 0.999 * length)).any()

@@ -35,6 +35,7 @@ def test_a_newcomer_is_told_what_to_do_next(hoop, arguments):
     assert err == ""
     for word in ("hoop rigid paper-3.1", "hoop flexible", "hoop study stiffness", "hoop scenes"):
         assert word in out
+    assert "..." not in out.partition("Commands:")[2].replace("(.msh, .vtu, ...)", "")  # nothing is cut off
 
 
 def test_scenes_are_listed_and_printed(hoop, monkeypatch):
@@ -94,6 +95,7 @@ BAD_SCENES = {
     "key": ("mu_s = 0.35", "mus = 0.35", "friction.mus"),
     "part": ("[release]", "[releese]", "releese"),
     "toml": ("[release]", "[release", "is not TOML"),
+    "angle": ("phi0_deg = 10", "phi0_deg = 1e300", "release.phi0_deg = 1e+300 is not possible"),
 }
 
 
@@ -232,6 +234,23 @@ def test_a_closed_stdout_is_one_sentence(more):
     assert done.returncode == 2
     assert is_one_sentence(done.stderr)
     assert "closed" in done.stderr
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+@pytest.mark.parametrize("how", ["closed", "full"])
+def test_what_nobody_can_be_told_has_its_status(how):
+    with open("/dev/full", "w") as full:
+        closed = {"preexec_fn": lambda: os.close(2)} if how == "closed" else {"stderr": full}
+        done = process("rigid", "no-scene", capture_output=False, stdout=subprocess.PIPE, **closed)
+    assert (done.returncode, done.stdout) == (2, "")
+
+
+def test_a_package_that_is_missing_is_told_with_what_brings_it(hoop, monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "pyvista", None)
+    status, _, err = hoop("view", "paper-3.1", "--png", tmp_path / "a.png")
+    assert status == 2
+    assert "'.[view]'" in err
+    assert not list(tmp_path.iterdir())
 
 
 def close_stdout() -> None:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from rigid import Contact, Friction, Hoop, Release, Run, Scene, simulate
+from rigid.kernel.compile import Patience
 from studies import StudyError
 from studies.inner.body import Body, accelerations, arms, body_of, contact_mobility, sliding_force
 from studies.inner.bristles import bristles, brush_pull, set_stretch
@@ -50,6 +51,21 @@ def end_of_spin():
     """k = 0.1, massless: the spin ends in a short roll."""
     way = passage(scene_of(0.1))
     return way.body, way.contact, way.events[0]
+
+
+@pytest.mark.parametrize("law", ["patch", "regularised"])
+def test_a_layer_is_the_same_to_the_last_bit_whether_compiled_or_not(law, monkeypatch):
+    """The interpreter takes powers by another routine than compiled code; here there are none, but products."""
+    way = passage(scene_of(0.25, 0.01, law))
+    found = []
+    for patience in (10**9, 0):
+        monkeypatch.setattr("studies.inner.layers._patience", Patience(patience))
+        found.append([layer(way.body, way.contact, event) for event in way.events])
+    assert found[0]
+    for one, other in zip(*found, strict=True):
+        assert one.tau.tobytes() == other.tau.tobytes()
+        assert one.normal_force.tobytes() == other.normal_force.tobytes()
+        assert one.slip.tobytes() == other.slip.tobytes()
 
 
 @pytest.mark.parametrize(("k", "mass_ratio"), [(0.1, 0.0), (0.1, 0.1), (0.25, 0.01)])

@@ -6,7 +6,8 @@ from math import isfinite, pi, radians
 
 import pytest
 
-from rigid import Contact, Friction, Hoop, Release, Run, Scene, load_scene, simulate
+import flexible
+from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve, load_scene, simulate
 from studies import StudyError, limit_study
 from studies.inner.events import START, passage
 from studies.inner.separate import separate_from
@@ -97,3 +98,31 @@ def test_an_event_is_where_the_rigid_motion_has_it(phi0_deg):
 def test_what_is_far_faster_than_the_patch_is_a_sentence():
     with pytest.raises(StudyError, match=r"takes more than .* steps: its damper"):
         limit_study("paper-3.3-massless", damping=1000)
+
+
+def test_another_law_whose_pulse_is_not_foreseen_is_left_out():
+    """The study of a smoothed friction says what the three laws tend to, of which a patch is released in its pulse."""
+    scene = Scene(
+        Hoop(0.3, 1.02, 0.05), Friction(1.2, 0.3), Release(radians(150), 1.0), contact=Contact(law="regularised")
+    )
+    with pytest.raises(StudyError):
+        predict(scene.replace(contact={"law": "patch", "damping": 0.0}))
+    found = limit_study(scene)
+    assert found.others
+    assert not any("no damping" in other.name for other in found.others)
+
+
+@pytest.mark.parametrize(("mu_s", "rtol"), [(0.35, 5e-7), (0.4, 2e-6), (0.45, 1e-5)])
+def test_a_brush_on_a_thin_wall_breaks_loose_as_on_a_rigid_ring(mu_s, rtol):
+    """By another model, of another's bristles: 1e-4, what a patch of 5e-3 R leaves of it.
+
+    Were all its points static as soon as they rest, the brush would break loose twenty times over, for a J_N that is 1
+    to 5e-3 larger, on a wall however stiff, but for a rigid one (:mod:`flexible.contact.laws.brush`).
+    """
+    scene = Scene(
+        Hoop(0.1, 1.02), Friction(mu_s, 0.3), Release(radians(10)), Run(until="pulse"),
+        contact=Contact(law="brush", stiffness=1e8, damping=1.0), ring=Ring(1e4), solve=Solve(rtol=rtol),
+    )  # fmt: skip
+    rigid, (wall,) = go_through(scene), flexible.simulate(scene).pulses
+    assert wall.normal_impulse == pytest.approx(rigid.normal_impulse, rel=1e-4)
+    assert wall.friction_impulse == pytest.approx(rigid.friction_impulse, abs=1e-4 * rigid.normal_impulse)
