@@ -150,7 +150,7 @@ def _solved(
     return found
 
 
-solved, solved_in_step = jit(_solved, needs=(contact_forces,)), part(_solved)
+solved, solved_in_step = jit(_solved, needs=(contact_forces, solve_stage)), part(_solved)
 
 
 @part

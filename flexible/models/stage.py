@@ -9,15 +9,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from rigid.kernel.compile import loop, part
+from rigid.kernel.compile import apart, loop, part
 
 from ..contact.forces import contact_forces
+from ..contact.forces import example as of_contact
 from ..contact.guess import GUESSES, as_deep, guess_again, on_its_way, shift, slipping_on, too_deep
 from ..contact.newton import before_bend, breaks_loose, goes, left_by_kept, left_by_newton, move, reached, round_off
 from ..contact.points.data import MOST_ITERATIONS, Before, Contact, Damper, Parameters, Rim, pulling
 from ..contact.stage import Predictor
 from ..contact.vectors import eliminate, largest, plus, solved_by
-from ..ring.frame import Frame, inertia
+from ..ring.frame import Body, Frame, inertia
 
 MOST_POINTS = 5000  # to a patch, forty times as wide as under the weight or more: 1e5 weights are no solution
 
@@ -139,7 +140,17 @@ def _along(begins: int, slipping: float, held: float) -> float:
     return slipping if begins == FORESEEN else 0.0
 
 
-@part
+def example() -> tuple[tuple[Any, ...], Solved]:
+    """Arguments and a result, of the types that compiled code has."""
+    (row, table, rim, law, mode, before, damper, _), contact = of_contact()
+    frame = Frame(Body(0.0, 0.0, 0.0, 0.0), table, table)
+    start = From(table, 0.0, 0.0, 0.0, 0.0, 0)
+    solved = Solved(0, row, row, row, table, (table, np.empty(0, np.int64)), contact)
+    window = Window(rim, table, table)
+    return (frame, window, law, mode, before, damper, Predictor(row, row, 0.0, row), start), solved
+
+
+@apart(example)
 def solve_stage(
     frame: Frame, window: Window, law: Parameters, mode: int, before: Before, damper: Damper, predictor: Predictor,
     start: From,

@@ -19,6 +19,7 @@ from ..contact.points.bristles import drag_of
 from ..contact.points.data import EXACTLY, Parameters
 from ..contact.points.rim import turned
 from ..models import reduced
+from ..models.stage import solve_stage
 from ..models.state import Books, Energies, Record, State, held, rotation
 from .control import AFRESH, Pace, longer, shorter
 from .course import (
@@ -287,6 +288,6 @@ take_reduced = part(
     momentum_error=reduced.momentum_error,
 )  # fmt: skip
 advance_reduced = jit(
-    advance, needs=(contact_forces,), tried=take_reduced, held=reduced.held, energies_of=reduced.energies_of,
-    lacks=reduced.lacks, sight=sight_reduced,
+    advance, needs=(contact_forces, solve_stage), tried=take_reduced, held=reduced.held,
+    energies_of=reduced.energies_of, lacks=reduced.lacks, sight=sight_reduced,
 )  # fmt: skip

@@ -45,7 +45,7 @@ def test_a_period_is_in_the_unit_of_its_scene(resolve):
 
 
 def test_a_run_that_is_stopped_says_when_in_its_own_unit():
-    scene = load_scene("printed").replace(solve={"rtol": 1e-2})
+    scene = load_scene("printed").replace(solve={"rtol": 1e-2, "level": "reduced"})
     asked = iter(range(5))
     motion = simulate(scene, stop=lambda: next(asked, None) is None)
     assert motion.ended.startswith(f"stopped at t = {motion.t_end:.6g} s as asked")

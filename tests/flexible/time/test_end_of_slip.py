@@ -1,5 +1,6 @@
 """Where a patch that slides sticks: at slip zero, or behind it where N falls faster than what would hold the patch."""
 
+from functools import cache
 from itertools import pairwise
 from math import nan
 from types import SimpleNamespace
@@ -89,6 +90,7 @@ def test_a_damped_patch_sticks_at_slip_zero(rtol):
     assert np.all(np.abs(caught) <= VELOCITY)
 
 
+@cache
 def landing(law, damping, foundation=1e8):
     """A hoop comes down at an angle, a little slip and a large velocity downward, and is thrown up again."""
     scene = rigid.Scene(
