@@ -123,7 +123,10 @@ def passage(scene: Scene, rolls_to: float | None = None) -> Passage:
     pulls = {Kind.ROLL: None, Kind.SPIN: scene.friction.mu, Kind.SKID: -scene.friction.mu}
     for number, phase in enumerate(inside):
         if phase.kind not in pulls:
-            raise StudyError(f"The pulse has a {phase.kind.value} in it: there is no inner problem for that yet.")
+            article = "an" if phase.kind.value[0] in "aeiou" else "a"
+            raise StudyError(
+                f"The pulse has {article} {phase.kind.value} in it: there is no inner problem for that yet."
+            )
         t = max(phase.t_start, first)
         omega, psi = _state(motion, t, turn)[:2]
         if omega == 0:

@@ -19,6 +19,7 @@ import sqlite3
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
+from math import isinf
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +31,9 @@ from .history import Columns
 
 FILE = "study.sqlite"
 """Name of the file of rows."""
+
+NUMBERS = ("pulses", "numerical_error")
+"""What of an outcome is measures by name, once for each pulse."""
 
 _FORMAT = 2
 """Of the file; another number is another version's."""
@@ -101,7 +105,10 @@ class Store:
             packed = _packed(columns)
             write_whole(self._history(outcome.key, number), partial(_put, packed))
             digests.append(hashlib.sha256(packed).hexdigest())
-        text = to_json(dataclasses.asdict(dataclasses.replace(outcome, histories=())), indent=None)
+        told = dataclasses.asdict(dataclasses.replace(outcome, histories=()))
+        for name in NUMBERS:
+            told[name] = [{measure: _told(value) for measure, value in entry.items()} for entry in told[name]]
+        text = to_json(told, indent=None)
         files = json.dumps(digests)
         about = (outcome.key, outcome.solver, outcome.version, outcome.failure, outcome.seconds)
         row = (*about, text, files, _checksum(outcome.key, outcome.failure, text, files))
@@ -163,7 +170,7 @@ class Store:
             raise Damaged(key)
         columns = [self._verified(key, number, digest) for number, digest in enumerate(json.loads(files))]
         values: dict[str, Any] = json.loads(text)
-        for name in ("pulses", "numerical_error"):
+        for name in NUMBERS:
             values[name] = tuple(
                 {measure: _number(value) for measure, value in entry.items()} for entry in values[name]
             )
@@ -201,8 +208,13 @@ def _text(stored: bytes) -> str:
     return stored.decode("utf-8", "surrogateescape")
 
 
-def _number(value: float | None) -> float:
-    return float("nan") if value is None else value
+def _told(value: float) -> float | str:
+    """A number in JSON, which has no infinity; what is not known is null there."""
+    return str(value) if isinf(value) else value
+
+
+def _number(value: float | str | None) -> float:
+    return float("nan") if value is None else float(value)
 
 
 def _packed(columns: Mapping[str, Any]) -> bytes:

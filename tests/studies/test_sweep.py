@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import errno
 import json
+import math
 import os
 import pickle
 import re
@@ -317,6 +318,21 @@ def test_the_store_gives_back_what_it_was_given(tmp_path):
     assert len(back.histories) == len(outcome.histories) > 0
     for mine, theirs in zip(outcome.histories, back.histories, strict=True):
         assert all(np.array_equal(mine[name], theirs[name]) for name in mine)
+
+
+def test_the_store_keeps_an_infinite_force_of_a_jam_and_what_is_not_known(tmp_path):
+    """JSON has neither."""
+    outcome = run_case(Case("rigid", load_scene("paper-3.1")))
+    entry = {
+        "peak_normal_force": math.inf,
+        "impulse_ratio": -math.inf,
+        "friction_loss": math.nan,
+        "normal_impulse": 1.5,
+    }
+    Store(tmp_path).add(dataclasses.replace(outcome, pulses=(entry,), numerical_error=(entry,)))
+    back = Store(tmp_path).get(outcome.key)
+    for (found,) in (back.pulses, back.numerical_error):
+        assert found == pytest.approx(entry, nan_ok=True)
 
 
 def test_a_row_is_never_there_without_its_arrays(tmp_path, monkeypatch):

@@ -36,10 +36,13 @@ class Window:
 
 
 def windows(scene: Scene) -> dict[str, Window | None]:
-    """Where a lift-off counts, by name; None is no restriction. Without a rigid pulse there is only "anywhere"."""
+    """Where a lift-off counts, by name; None is no restriction.
+
+    Without a rigid pulse, or with one that is not over when the run ends, there is only "anywhere".
+    """
     found: dict[str, Window | None] = {"anywhere": None}
     pulses = [pulse for pulse in rigid_motion(scene, Run(until="pulse")).pulses if not pulse.cut]
-    if pulses:
+    if pulses and (scene.run.t_end is None or pulses[0].t_end <= (1 + 1e-9) * scene.run.t_end):
         first, last = (abs(phi - scene.release.phi0) for phi in (pulses[0].phi_start, pulses[0].phi_end))
         found["pulse"] = Window(first, last)
         bottom = abs(pi + 2 * pi * round((pulses[0].phi_start - pi) / (2 * pi)) - scene.release.phi0)

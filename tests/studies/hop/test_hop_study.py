@@ -10,7 +10,7 @@ import pytest
 from command_line import is_one_sentence
 from third_hop import LIFTS
 
-from rigid import SceneError, load_scene, simulate
+from rigid import Run, SceneError, load_scene, simulate
 from studies import HopStudy, StudyError, hop_study
 from studies.cli.hop import map_of, parse_over
 from studies.hop.maps import place
@@ -72,6 +72,13 @@ def test_windows_are_the_rigid_pulse_and_the_disk_over_the_floor():
     mirrored = windows(scene.replace(release={"phi0": -scene.release.phi0}))
     for name in ("pulse", "bottom"):
         assert (mirrored[name].low, mirrored[name].high) == pytest.approx((found[name].low, found[name].high))
+
+
+def test_a_run_that_ends_before_its_pulse_says_nothing_of_it():
+    scene = load_scene(SCENE)
+    (pulse, *_) = [pulse for pulse in simulate(scene).pulses if not pulse.cut]
+    for t_end, known in ((0.9 * pulse.t_start, {"anywhere"}), (pulse.t_end, {"anywhere", "pulse", "bottom"})):
+        assert set(windows(from_rest(scene.replace(run=Run(t_end=t_end))))) == known
 
 
 def test_a_roll_that_stopped_decides_only_what_it_has_seen():
