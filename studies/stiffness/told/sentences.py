@@ -91,13 +91,22 @@ def _unit(study: StiffnessStudy, name: str) -> str:
 
 
 def ladder_sentence(study: StiffnessStudy) -> str:
-    """What was raised, from where to where."""
-    ladder = study.ladder
+    """What was raised, from where to where, and what the friction law ties to it."""
+    from flexible.contact.laws.listing import LAWS
+
+    ladder, contacts = study.ladder, [rung.contact for rung in study.ladder.rungs(study.scene)]
+    law = LAWS[study.scene.contact.law]
+    names = law.stiffened(study.scene.contact, 1.0) if ladder.along != "bending" else {}
+    tied = [
+        f"contact.{name} goes with it, from {number(getattr(contacts[0], name), 3)} to "
+        f"{number(getattr(contacts[-1], name), 3)}; "
+        for name in names
+    ]
     along = {"both": "Both stiffnesses are raised in the scene's ratio", "contact": "The floor alone is stiffened",
              "bending": "The ring alone is stiffened"}[ladder.along]  # fmt: skip
     return (
         f"{along}: {ladder.count} cases, the {ladder.label} from {number(ladder.low, 3)} to {number(ladder.high, 3)}; "
-        "all else is as the scene below says."
+        f"{''.join(tied)}all else is as the scene below says."
     )
 
 

@@ -10,6 +10,7 @@ import re
 import tomllib
 from concurrent.futures import Future
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pandas
@@ -36,7 +37,7 @@ from studies.stiffness.extrapolation.limits import fitted_series
 from studies.stiffness.told import report
 from studies.stiffness.told.figures import distances, impulse_space
 from studies.stiffness.told.rows import case_cells, case_heading, rigid_cells, side_heading
-from studies.stiffness.told.sentences import prediction_sentence, verdict
+from studies.stiffness.told.sentences import ladder_sentence, prediction_sentence, verdict
 
 THIRD = "third_solver:softened"
 LINE = ("study", "stiffness", "paper-3.3-massless", "--solver", THIRD, "--workers", 1, "--count", 5)
@@ -424,3 +425,16 @@ def test_a_figure_whose_process_died_is_drawn_all_the_same(hoop, tmp_path, monke
     assert (status, stderr) == (0, "")
     assert drawn == list(report.CAPTIONS)
     assert (tmp_path / "report.html").is_file()
+
+
+@pytest.mark.parametrize(("law", "along"), [("patch", "both"), ("regularised", "both"), ("regularised", "bending")])
+def test_what_a_law_ties_to_the_foundation_is_told(law, along):
+    scene = load_scene("paper-3.3-massless").replace(contact={"law": law})
+    ladder = Ladder.around(scene, along)
+    said = ladder_sentence(SimpleNamespace(scene=scene, ladder=ladder))
+    velocities = [rung.contact.slip_velocity_scale for rung in ladder.rungs(scene)]
+    if law == "regularised" and along == "both":
+        assert f"slip_velocity_scale goes with it, from {velocities[0]:.3g} to {velocities[-1]:.3g}; " in said
+    else:
+        assert "goes with it" not in said
+        assert len(set(velocities)) == 1
