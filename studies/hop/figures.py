@@ -41,10 +41,10 @@ class Chosen:
         motion = roll(case.scene.replace(run=Run(t_end=last)), history=True)
         self.steps: Roll = steps_of(motion)
         self.unit = case.scene.time_unit
-        start = self.hop["t"] / self.unit
+        self.start = self.hop["t"] / self.unit
         flying = spans(self.steps.history.normal_force == 0)
         t = self.steps.history.t
-        self.first, self.last = min(flying, key=lambda span: abs(t[span[0]] - start))
+        self.first, self.last = min(flying, key=lambda span: abs(t[span[0]] - self.start))
         margin = max(AROUND * (t[self.last] - t[self.first]), LEAST)
         shown = np.flatnonzero((t >= t[self.first] - margin) & (t <= t[self.last] + margin))
         self.shown = range(int(shown[0]), int(shown[-1]) + 1)
@@ -145,7 +145,7 @@ def energies_figure(found: Chosen) -> Figure:
     """What is stored, what vibrates, what is lost, through one hop; below the height of the rim and N."""
     steps, history = found.steps, found.steps.history
     index = np.array(found.shown)
-    t = history.t[index] - history.t[found.first]
+    t = history.t[index] - found.start
     shares = [whole(steps.hoop, steps.states[i]) for i in index]
     lost = history.friction_loss + history.damping_loss
     curves = {
@@ -158,7 +158,7 @@ def energies_figure(found: Chosen) -> Figure:
         figure = blank(8.0, 7.4)
         stored, gap, force = figure.subplots(3, 1, sharex=True, height_ratios=[3, 2, 2])
         for axes in (stored, gap, force):
-            axes.axvspan(0, history.t[found.last] - history.t[found.first], color="0.94", zorder=0)
+            axes.axvspan(0, found.hop["duration"] / found.unit, color="0.94", zorder=0)
         for name, (words, values) in curves.items():
             stored.plot(t, values, color=OKABE_ITO[name], label=words)
         stored.set(ylabel="energy$/(mgR)$", ylim=(0, None), title=found.title)
