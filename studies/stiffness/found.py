@@ -17,7 +17,7 @@ from ..running.history import rows_to_csv
 from ..running.measures import MEASURES, OF_THE_MEASURE, known, units_of_measures
 from .coefficient import Coefficient, coefficient
 from .extrapolation.limits import CONFIDENCE, Limit, fitted_series
-from .ladder import Ladder
+from .ladder import Ladder, errors_of
 
 if TYPE_CHECKING:
     import pandas
@@ -154,14 +154,8 @@ class StiffnessStudy(summary.Summarised):
         if self.prediction is None or not self.prediction.complete:
             return None
         rungs = [rung for rung in self.rungs_through if rung.contact_stiffness >= self.separate]
-        foundation, values, errors = (
-            np.array(column)
-            for column in (
-                [rung.contact_stiffness for rung in rungs],
-                [rung.measure(name) for rung in rungs],
-                [rung.error(name) for rung in rungs],
-            )
-        )
+        foundation, values = np.array([[rung.contact_stiffness, rung.measure(name)] for rung in rungs]).reshape(-1, 2).T
+        errors = errors_of(rungs, name, self.scene)
         return coefficient(self.prediction.terms[name], foundation, values, errors, self.prediction.rates)
 
     def distance(self, name: str) -> Distance:
@@ -172,7 +166,7 @@ class StiffnessStudy(summary.Summarised):
         unit = MEASURES[name].unit.of(self.scene)
         stiffness = np.array([rung.stiffness for rung in through])
         values, errors = (np.array([of(rung, name) for rung in through]) for of in (Rung.measure, Rung.error))
-        series = fitted_series(limit, stiffness, values, errors, self.separate)
+        series = fitted_series(limit, stiffness, values, errors_of(through, name, self.scene), self.separate)
         predicted = None
         softest, stiffest = max(through[0].contact_stiffness, self.separate), through[-1].contact_stiffness
         if self.prediction is not None and self.prediction.complete and softest < stiffest:

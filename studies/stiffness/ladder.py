@@ -5,12 +5,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from rigid import Scene, SceneError, SceneLike, as_scene
 from rigid.allowed import require, require_choice, require_whole
+
+from .extrapolation.cases import known_alike
+
+if TYPE_CHECKING:
+    from .found import Rung
 
 T = TypeVar("T")
 
@@ -104,6 +109,17 @@ class Ladder:
                 )
             )
         return rungs
+
+
+def errors_of(rungs: Sequence[Rung], name: str, scene: Scene) -> np.ndarray:
+    """(rungs,) numerical errors of a measure, as a limit is inferred with them.
+
+    Points of a patch that break one at a time do so in other steps in each run: two that agree do so by chance.
+    """
+    from flexible.contact.laws.listing import LAWS
+
+    errors = np.array([rung.error(name) for rung in rungs])
+    return known_alike(errors) if LAWS[scene.contact.law].breaks_by_points(scene.friction) else errors
 
 
 def spread(rungs: Sequence[T], most: int = 5) -> list[T]:

@@ -26,7 +26,7 @@ from ..running.solvers import ensure_accepts
 from ..running.workers import Here, Pool
 from .extrapolation.limits import limit_of
 from .found import LIMITS, Rung, StiffnessStudy
-from .ladder import Ladder
+from .ladder import Ladder, errors_of
 
 if TYPE_CHECKING:
     from ..limit.prediction import Prediction
@@ -134,7 +134,7 @@ def stiffness_study(
         rates, holds = foreseen.rates, separate
     limits = {}
     for name in LIMITS:
-        values, errors = [r.measure(name) for r in through], [r.error(name) for r in through]
+        values, errors = [r.measure(name) for r in through], errors_of(through, name, scene)
         limits[name] = limit_of([r.stiffness for r in through], values, pulse[name], errors, rates, holds)
     stiff = 0.0
     if foreseen is not None and any(rung.outcome.phases[0] != reference.phases[0] for rung in through):

@@ -132,6 +132,11 @@ class Brush(Law):
         return effective_mu_s(friction.mu_s, friction.mu)
 
     @classmethod
+    def breaks_by_points(cls, friction: Friction) -> bool:
+        """Where there is more to hold than to slide with."""
+        return friction.mu_s > friction.mu
+
+    @classmethod
     def explanation(cls, friction: Friction) -> str:
         """See :class:`~flexible.contact.laws.law.Law`."""
         if friction.mu_s == friction.mu:

@@ -120,6 +120,11 @@ class Law:
         return friction.mu
 
     @classmethod
+    def breaks_by_points(cls, friction: Friction) -> bool:
+        """Whether points break one at a time, so that what a step misses of it is a matter of chance."""
+        return False
+
+    @classmethod
     def explanation(cls, friction: Friction) -> str:
         """A sentence that says which rigid hoop that is."""
         raise NotImplementedError
