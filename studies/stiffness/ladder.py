@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
-from typing import TYPE_CHECKING, TypeVar
+from typing import Protocol, TypeVar
 
 import numpy as np
 
@@ -13,9 +13,6 @@ from rigid import Scene, SceneError, SceneLike, as_scene
 from rigid.allowed import require, require_choice, require_whole
 
 from .extrapolation.cases import known_alike
-
-if TYPE_CHECKING:
-    from .found import Rung
 
 T = TypeVar("T")
 
@@ -111,7 +108,14 @@ class Ladder:
         return rungs
 
 
-def errors_of(rungs: Sequence[Rung], name: str, scene: Scene) -> np.ndarray:
+class Known(Protocol):
+    """A rung that came through."""
+
+    def error(self, name: str) -> float:
+        """Numerical error of a measure."""
+
+
+def errors_of(rungs: Sequence[Known], name: str, scene: Scene) -> np.ndarray:
     """(rungs,) numerical errors of a measure, as a limit is inferred with them.
 
     Points of a patch that break one at a time do so in other steps in each run: two that agree do so by chance.

@@ -15,6 +15,7 @@ from studies.running.case import SHARE
 from studies.running.workers import cores
 from studies.stiffness.extrapolation.cases import CONFIDENCE
 from studies.stiffness.extrapolation.series import extrapolated
+from studies.stiffness.ladder import errors_of
 
 LAWS = [("patch", 0.35), ("brush", 0.35), ("brush", 0.3)]
 ENOUGH = 1e-3  # of the impulse ratio, and of m g R
@@ -67,7 +68,7 @@ def test_softer_rungs_foresee_the_stiffest(study):
     for name in ("impulse_ratio", "friction_loss"):
         limit = study.limits[name]
         assert limit.known
-        y, error = [rung.measure(name) for rung in soft], [rung.error(name) for rung in soft]
+        y, error = [rung.measure(name) for rung in soft], errors_of(soft, name, study.scene)
         foreseen = extrapolated(s, y, error, limit.exponents, CONFIDENCE, last.stiffness)
         assert abs(foreseen.value - last.measure(name)) <= foreseen.uncertainty + last.error(name)
         further = limit_of(s, y, limit.rigid, error, limit.exponents)
