@@ -111,6 +111,10 @@ class Ladder:
 class Known(Protocol):
     """A rung that came through."""
 
+    @property
+    def contact_stiffness(self) -> float:
+        """Its foundation."""
+
     def error(self, name: str) -> float:
         """Numerical error of a measure."""
 
@@ -123,7 +127,9 @@ def errors_of(rungs: Sequence[Known], name: str, scene: Scene) -> np.ndarray:
     from flexible.contact.laws.listing import LAWS
 
     errors = np.array([rung.error(name) for rung in rungs])
-    return known_alike(errors) if LAWS[scene.contact.law].breaks_by_points(scene.friction) else errors
+    if not LAWS[scene.contact.law].breaks_by_points(scene.friction):
+        return errors
+    return known_alike([rung.contact_stiffness for rung in rungs], errors)
 
 
 def spread(rungs: Sequence[T], most: int = 5) -> list[T]:

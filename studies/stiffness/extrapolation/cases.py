@@ -68,16 +68,15 @@ def ascending(
     return x[order], v[order], None if e is None else e[order]
 
 
-def known_alike(error: ArrayLike) -> Array:
-    """Errors of cases that come about by chance, each told by the difference of two runs: none is less than the root of
-    their mean square.
+def known_alike(foundation: ArrayLike, error: ArrayLike) -> Array:
+    """Errors of cases that come about by chance, each told by the difference of two runs, which may agree by chance.
 
-    Two runs may agree by chance. Taken one by one, such errors make of intervals at 95 % some that miss the limit in
-    one of six sequences, in one of four where errors fall with stiffness; so they miss it in one of twenty (tested).
+    Where points break one at a time they are parts of the patch, which goes like foundation^(-1/3): over that, no error
+    is less than the root of the mean square of all.
     """
-    e = np.asarray(error, float)
-    seen = e[np.isfinite(e)]
-    return np.maximum(e, np.sqrt(np.mean(seen**2))) if seen.size else e
+    patch, e = np.asarray(foundation, float) ** (-1 / 3), np.asarray(error, float)
+    seen = np.isfinite(e)
+    return np.maximum(e, np.sqrt(np.mean((e[seen] / patch[seen]) ** 2)) * patch) if seen.any() else e
 
 
 def finite(s: ArrayLike, y: ArrayLike, error: ArrayLike) -> tuple[Array, Array, Array]:
