@@ -51,15 +51,6 @@ SCENE is the name of a shipped scene or a TOML file; `hoop scenes NAME` prints o
 """
 
 
-EXTRAS = {
-    "pyvista": "view",
-    "vtkmodules": "view",
-    "imageio_ffmpeg": "film",
-    "dask": "cluster",
-    "distributed": "cluster",
-}
-"""What brings a package that is not there."""
-
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 110}
 
 
@@ -245,9 +236,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         kept = "; ".join(["Interrupted", *map(str, (interrupt.__cause__ or interrupt).args)])
         return _say(f"{kept}.", 130)
     except ImportError as error:
-        extra = EXTRAS.get((error.name or "").partition(".")[0])
-        hint = f" It comes with the extra [{extra}]: pip install '.[{extra}]' where the README is." if extra else ""
-        return _say(f"A part of hoop cannot be loaded: {error}.{hint}", 2)
+        return _say(f"A part of hoop cannot be loaded: {error}.", 2)
     except (Unread, OSError) as error:
         _forget_stdout()
         if isinstance(error, Unread | BrokenPipeError):

@@ -16,8 +16,9 @@ from ..running.case import SAME, SHARE, Outcome
 from ..running.history import rows_to_csv
 from ..running.measures import MEASURES, OF_THE_MEASURE, known, units_of_measures
 from .coefficient import Coefficient, coefficient
+from .errors import errors_of
 from .extrapolation.limits import CONFIDENCE, Limit, fitted_series
-from .ladder import Ladder, errors_of
+from .ladder import Ladder
 
 if TYPE_CHECKING:
     import pandas

@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
-from typing import Protocol, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
 from rigid import Scene, SceneError, SceneLike, as_scene
 from rigid.allowed import require, require_choice, require_whole
-
-from .extrapolation.cases import known_alike
 
 T = TypeVar("T")
 
@@ -106,30 +104,6 @@ class Ladder:
                 )
             )
         return rungs
-
-
-class Known(Protocol):
-    """A rung that came through."""
-
-    @property
-    def contact_stiffness(self) -> float:
-        """Its foundation."""
-
-    def error(self, name: str) -> float:
-        """Numerical error of a measure."""
-
-
-def errors_of(rungs: Sequence[Known], name: str, scene: Scene) -> np.ndarray:
-    """(rungs,) numerical errors of a measure, as a limit is inferred with them.
-
-    Points of a patch that break one at a time do so in other steps in each run: two that agree do so by chance.
-    """
-    from flexible.contact.laws.listing import LAWS
-
-    errors = np.array([rung.error(name) for rung in rungs])
-    if not LAWS[scene.contact.law].breaks_by_points(scene.friction):
-        return errors
-    return known_alike([rung.contact_stiffness for rung in rungs], errors)
 
 
 def spread(rungs: Sequence[T], most: int = 5) -> list[T]:

@@ -24,9 +24,10 @@ from ..running.files import StudyError
 from ..running.runs import run_cases
 from ..running.solvers import ensure_accepts
 from ..running.workers import Here, Pool
+from .errors import errors_of
 from .extrapolation.limits import limit_of
 from .found import LIMITS, Rung, StiffnessStudy
-from .ladder import Ladder, errors_of
+from .ladder import Ladder
 
 if TYPE_CHECKING:
     from ..limit.prediction import Prediction

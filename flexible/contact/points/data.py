@@ -39,9 +39,7 @@ class Bristles(NamedTuple):
     number: Any  # of the point, int64
     stretch: Any  # of its bristle
     pull: Any  # tangential force on it
-    sliding: (
-        Any  # direction in which friction pushes it where it slides, 0 where it sticks, twice it where it rests; int8
-    )
+    sliding: Any  # int8: direction in which friction pushes it where it slides; 0 where it sticks; twice it at rest
 
 
 NO_DENT = np.empty((0, 2))

@@ -245,14 +245,6 @@ def test_what_nobody_can_be_told_has_its_status(how):
     assert (done.returncode, done.stdout) == (2, "")
 
 
-def test_a_package_that_is_missing_is_told_with_what_brings_it(hoop, monkeypatch, tmp_path):
-    monkeypatch.setitem(sys.modules, "pyvista", None)
-    status, _, err = hoop("view", "paper-3.1", "--png", tmp_path / "a.png")
-    assert status == 2
-    assert "'.[view]'" in err
-    assert not list(tmp_path.iterdir())
-
-
 def close_stdout() -> None:
     """As ``>&-`` does in a shell."""
     os.close(1)

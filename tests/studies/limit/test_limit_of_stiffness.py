@@ -13,9 +13,9 @@ from rigid import Contact, Friction, Hoop, Release, Scene, scene_from_dict, simu
 from studies import Ladder, limit_of, pool, stiffness_study
 from studies.running.case import SHARE
 from studies.running.workers import cores
+from studies.stiffness.errors import errors_of
 from studies.stiffness.extrapolation.cases import CONFIDENCE
 from studies.stiffness.extrapolation.series import extrapolated
-from studies.stiffness.ladder import errors_of
 
 LAWS = [("patch", 0.35), ("brush", 0.35), ("brush", 0.3)]
 ENOUGH = 1e-3  # of the impulse ratio, and of m g R
