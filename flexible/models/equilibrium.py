@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..contact.forces import contact_forces
 from ..contact.laws.listing import sharing
 from ..contact.points.data import NOTHING, UNDAMPED, Before, Parameters, Rim, no_bristles
+from ..contact.points.normal import half_width
 from ..contact.points.rim import gap_at, upward
 from ..contact.vectors import largest
 from ..ring.nodal import factored
@@ -96,7 +97,7 @@ class Patch:
     def __init__(self, hoop: Any, phi: float, normal: float, friction: float) -> None:
         self.hoop, self.phi, self.normal = hoop, phi, normal
         self.law, self.mode = sharing(hoop.law.parameters, friction / normal)
-        self.half = (1.5 * normal / self.law.eps_n) ** (1 / 3)
+        self.half = half_width(normal, self.law.eps_n)
         self.low, self.high = -self.half, self.half
         self.height = -(self.half**2) / 2
         self.window: Window = (0, 0)
@@ -121,7 +122,7 @@ class Patch:
         self.law = law._replace(
             eps_n=law.eps_n / softness, eps_t=law.eps_t / softness, spacing=law.spacing * softness ** (1 / 3)
         )
-        before, self.half = self.half, (1.5 * self.normal / self.law.eps_n) ** (1 / 3)
+        before, self.half = self.half, half_width(self.normal, self.law.eps_n)
         self.height += (before**2 - self.half**2) / 2
         self.low, self.high = min(self.low, -self.half), max(self.high, self.half)
 

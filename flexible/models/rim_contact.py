@@ -13,6 +13,7 @@ from rigid import Scene
 from ..contact.laws.law import Law
 from ..contact.laws.listing import LAWS
 from ..contact.points.data import EXACTLY, Parameters
+from ..contact.points.normal import half_width
 from ..contact.points.rim import below_floor, window_around
 from .state import State
 
@@ -60,11 +61,10 @@ def contact_law(scene: Scene, elements: int, points: float, within: float = 0.0)
     """
     contact, friction = scene.contact, scene.friction
     eps = 1 / (1 / contact.stiffness + within)
-    half_width = (1.5 / eps) ** (1 / 3)
     law = LAWS[contact.law]
     parameters = Parameters(
         law=law.code,
-        spacing=min(2 * half_width / points, 2 * pi / elements / 8),
+        spacing=min(2 * half_width(1.0, eps) / points, 2 * pi / elements / 8),
         eps_n=eps,
         eps_t=1 / (1 / (contact.stiffness * contact.tangential_ratio) + within),
         mu_s=float(friction.mu_s),
@@ -76,9 +76,9 @@ def contact_law(scene: Scene, elements: int, points: float, within: float = 0.0)
 
 
 def patch_stiffness(scene: Scene) -> float:
-    """dN/ddelta of the patch of a rigid hoop under its own weight M g: 2 eps times its half-width (1.5 M/eps)^(1/3)."""
+    """dN/ddelta of the patch of a rigid hoop under its own weight M g: 2 eps times its half-width."""
     eps = scene.contact.stiffness
-    return 2 * eps * (1.5 * (1 + scene.hoop.mass_ratio) / eps) ** (1 / 3)
+    return 2 * eps * half_width(1 + scene.hoop.mass_ratio, eps)
 
 
 def patch_period(scene: Scene) -> float:

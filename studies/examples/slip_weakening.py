@@ -104,22 +104,17 @@ def ratio(scene: rigid.Scene, foundation: float, distance: float) -> float:
     return along / normal
 
 
-def half_width(foundation: float) -> float:
-    """Of the patch under the weight."""
-    return float((1.5 / foundation) ** (1 / 3))
+def half_width(foundation: float, force: float = 1.0) -> float:
+    """Of the patch under a force; the weight, where none is given."""
+    return float((1.5 * force / foundation) ** (1 / 3))
 
 
 def stretch_at_break(scene: rigid.Scene, foundation: float) -> float:
     """mu_s p_0/eps_t under the N at which the rigid hoop begins to slip."""
     motion = rigid.simulate(scene)
     force = float(motion.at(motion.phases[0].t_end, "left").normal_force)
-    return (
-        scene.friction.mu_s
-        * 0.75
-        * force
-        / (1.5 * force / foundation) ** (1 / 3)
-        / (scene.contact.tangential_ratio * foundation)
-    )
+    most = 0.75 * force / half_width(foundation, force)
+    return scene.friction.mu_s * most / (scene.contact.tangential_ratio * foundation)
 
 
 def limit(scene: rigid.Scene, distance: float) -> float:

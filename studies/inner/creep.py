@@ -52,13 +52,18 @@ def creep(contact: ScaledContact, normal: float, friction: float, omega: float) 
     )
 
 
+def strongest_part(mu_s: float, mu: float) -> float:
+    """b of the rolling brush that carries most."""
+    return 2 * (mu_s - mu) / (3 * mu_s - 2 * mu) if mu_s > mu else 0.0
+
+
 def sticking_part(mu_s: float, mu: float, ratio: float) -> float:
     """b of a rolling brush that carries F/N = ``ratio``, the larger of the two where there are two."""
 
     def carried(b: float) -> float:
         return 3 * mu_s * (b**2 - b**3) + mu * (1 - 3 * b**2 + 2 * b**3)
 
-    strongest = 2 * (mu_s - mu) / (3 * mu_s - 2 * mu) if mu_s > mu else 0.0
+    strongest = strongest_part(mu_s, mu)
     if ratio >= carried(strongest):
         return strongest
     if mu_s == mu:

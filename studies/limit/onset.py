@@ -26,7 +26,7 @@ from scipy.integrate import solve_ivp
 from scipy.special import ai_zeros
 
 from ..inner.body import Body, arms, rolling_forces, rolling_inertia
-from ..inner.creep import half_width
+from ..inner.creep import half_width, strongest_part
 from ..inner.events import Event
 from ..inner.march import ScaledContact
 from .outer import Shift, passed
@@ -104,7 +104,7 @@ def brush_delay(body: Body, contact: ScaledContact, event: Event, most: float) -
     """Derivative by eps^(2/3) behind the start of a slip, brush with mu_s > mu that carries ``most`` N."""
     _, normal, closing, mobility = _balance(body, event, most)
     mu_s, mu = contact.mu_s, contact.mu
-    b = 2 * (mu_s - mu) / (3 * mu_s - 2 * mu)
+    b = strongest_part(mu_s, mu)
     bend = normal * (3 * mu_s * (3 * b - 1) + mu * (3 - 6 * b))
     full = mu_s * half_width(normal) * abs(event.omega) / contact.kappa
     time = (mobility * full) ** (2 / 3) / (closing * bend) ** (1 / 3)

@@ -21,6 +21,11 @@ class Foundation(NamedTuple):
     length: float  # of the patch
 
 
+def half_width(normal_force: float, eps_n: float) -> float:
+    """Of the patch of a rigid rim, in R: N = (2/3) eps_n a^3."""
+    return float((1.5 * normal_force / eps_n) ** (1 / 3))
+
+
 @loop
 def _cell(ga: float, gb: float, unit: float) -> tuple[float, float, float, float, float, float]:
     """Energy of one cell with gap from ``ga`` to ``gb``, its gradient and second derivatives.

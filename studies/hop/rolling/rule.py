@@ -12,6 +12,7 @@ from math import inf, pi
 
 import numpy as np
 
+from flexible.contact.points.normal import half_width
 from rigid import Scene
 from rigid.output.units import Length, Time
 
@@ -60,5 +61,5 @@ def slowest_period(scene: Scene) -> float:
 
 def scales_of(scene: Scene, sag: float) -> Scales:
     """The scales of a scene in which the hoop's centre stands ``sag`` below R at its release."""
-    half_width = (1.5 * (1 + scene.hoop.mass_ratio) / scene.contact.stiffness) ** (1 / 3)
-    return Scales(half_width**2 / 2, sag, slowest_period(scene))
+    patch = half_width(1 + scene.hoop.mass_ratio, scene.contact.stiffness)
+    return Scales(patch**2 / 2, sag, slowest_period(scene))
