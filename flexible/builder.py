@@ -26,9 +26,10 @@ from .time.methods import METHODS
 Array = NDArray[np.float64]
 
 
-def _lost_in_landings(motion: Motion, until: float) -> float:
-    """Energy that a rigid motion lost by then where it came down after a flight."""
-    lost = 0.0
+def _lost_in_blows(motion: Motion, until: float) -> float:
+    """Energy that a rigid motion lost by then where it came down after a flight, or was stopped as it was released."""
+    start = motion.at(0.0, "left"), motion.at(0.0)
+    lost = float(start[0].energy - start[1].energy)
     for before, phase in pairwise(motion.phases):
         if phase.kind == Kind.IMPACT and before.kind in (Kind.FLIGHT, Kind.SKIM) and phase.t_start <= until:
             # nothing is lost off the floor
@@ -108,13 +109,13 @@ class Builder:
 
     def add_rigid(self, motion: Motion, until: float) -> States:
         """The first ``until`` of a rigid motion that begins now; its states at both ends."""
-        ends = motion.at(np.array([0.0, until]))
+        ends, released = motion.at(np.array([0.0, until])), float(motion.at(0.0, "left").energy)
         if until <= 0 and self.pieces:
             return ends
-        self._meet(float(ends.energy[0]))
-        landing = _lost_in_landings(motion, until)
-        self.landing_loss += landing
-        self.friction_loss += float(ends.energy[0] - ends.energy[1]) - landing
+        self._meet(released)
+        blows = _lost_in_blows(motion, until)
+        self.landing_loss += blows
+        self.friction_loss += released - float(ends.energy[1]) - blows
         potential = float((1 + self.hoop.mass_ratio) * (ends.y_C[1] + self.hoop.e * np.cos(ends.phi[1])))
         self.held = (float(ends.energy[1]) - potential, potential, 0.0, 0.0)
         for phase in motion.phases:

@@ -42,9 +42,10 @@ class Ledger:
     Each of them but the last is found by itself. Held at the end: ``kinetic``, ``gravity``, ``ring_strain``,
     ``contact_spring``. Lost on the way: ``friction_loss``, the work of friction (with what bristles keep when they
     leave the patch stretched), ``damping_loss``, that of the contact's damper, and ``landing_loss``, of landings of the
-    rigid hoop between pulses. ``numerical_loss`` is what the integrator's error takes (gives, where negative), step by
-    step from the work of the floor on frame and ring; it tends to zero with ``solve.rtol``, about in proportion, and
-    like the root of the steps' length where a ring lands and rings faster than they follow.
+    rigid hoop between pulses, and of the blow by which it may be stopped at its release. ``numerical_loss`` is what the
+    integrator's error takes (gives, where negative), step by step from the work of the floor on frame and ring; it
+    tends to zero with ``solve.rtol``, about in proportion, and like the root of the steps' length where a ring lands
+    and rings faster than they follow.
     ``hand_over`` is what went out (came in, where negative) where the rigid hoop was replaced by a flexible one, sagged
     and with a patch, and where it was put back: it tends to zero with growing stiffness. ``residual`` is all that the
     others leave unexplained: the work of a patch's points beyond that of the patch as a whole, which is summed by

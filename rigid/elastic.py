@@ -159,9 +159,11 @@ class Solve:
         chain of parts that bend and turn far; "auto" takes the first, for a soft ring (E I below 40) the last, and
         where the wall of a soft ring is too thick for a chain every node of the exact one, a hundred times as slow.
     resolve : {"pulses", "all"}
-        Flexible inside the pulses only, with the rigid closed form between them, or flexible throughout.
+        Flexible inside the pulses only, with the rigid closed form between them, or flexible throughout. Between pulses
+        landings, and the blow that may stop a hoop thrown with slip, are the rigid hoop's.
     start : {"equilibrium", "undeformed"}
-        Whether the flexible hoop begins sagged in quasi-static equilibrium, or undeformed and touching the floor.
+        Whether the flexible hoop begins sagged in quasi-static equilibrium, or undeformed and touching the floor; one
+        thrown with a slip that no friction allows is undeformed anyway.
     rtol : float
         Tolerance on the impulses, over M sqrt(g R) with M the mass of disk and hoop, about; of a patch that sticks
         while it or a ring with mass vibrates, by which it breaks, they may be off by several times that, some twenty

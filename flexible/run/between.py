@@ -12,7 +12,7 @@ from ..contact.laws.listing import rigid_limit
 from ..models.select import Hoop
 from ..models.state import State
 from ..segment import Segment
-from ..start.handover import hand_over
+from ..start.handover import begins_with_a_blow, hand_over
 from ..start.pose import one_of
 from ..time.adaptive import MarchError
 from ..time.advance import SHORTEST
@@ -22,7 +22,7 @@ from .ahead import from_here, rest_of, slips_no_more, whirls
 from .pulses import comes_to, goes_through_turns, lead, over_bottom
 from .told import Ending, Progress, pulse_over, run_over, swept
 
-BACK = 0.01  # of the way through a segment, by which a hoop that turned back is out where it came in
+BACK = 0.01  # of the way through a pulse, by which a hoop that turned back is out where it came in
 GAINS = 0.01  # share of the energy that rigid hoops may add; what one lacks to go over the top from 10 degrees is 0.008
 WAITS = 10.0  # sqrt(R/g) that a hoop may take for it, beyond four pulse lengths: a swing takes a few
 
@@ -34,7 +34,7 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
     whirls_from: float | None = None
     while True:
         try:
-            lost = builder.lost_to_hand_overs(float(motion.at(0.0).energy))
+            lost = builder.lost_to_hand_overs(float(motion.at(0.0, "left").energy))
             _ensure_stands_in(lost, builder.initial or inf, builder.t)
         except MarchError as error:
             return error.stop
@@ -53,9 +53,10 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
             return run_over(scene.run) if over else motion
         start = lead(motion, pulse, hoop.law.rolls_to)
-        ends_there = builder.add_rigid(motion, start)
+        thrown = start == 0 and not builder.pieces and begins_with_a_blow(motion)  # which is the elastic hoop's own
+        there = None if thrown else one_of(builder.add_rigid(motion, start), 1)
         try:
-            state = hand_over(hoop, motion, start, one_of(ends_there, 1))
+            state = hand_over(hoop, motion, start, there)
         except MarchError as error:
             return error.stop
         state = state._replace(t=builder.t, x_C=builder.x_C)
@@ -113,8 +114,10 @@ def _ends_of(motion: Motion, pulse: Pulse, start: float, state: State) -> tuple[
     t_end = state.t + pulse.t_end - start
     if run_ends or goes_through_turns(motion, pulse):
         return Ends(t=t_end), True
-    phi = float(state.pos[2])
-    low, high = sorted((phi - BACK * (pulse.phi_end - phi), pulse.phi_end))
+    onward = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
+    # a blow that turns the hoop is the start of a pulse that goes back over the way on which the hoop came in
+    behind = onward * min(onward * float(state.pos[2]), onward * pulse.phi_start)
+    low, high = sorted((behind - BACK * (pulse.phi_end - behind), pulse.phi_end))
     late = t_end + 3 * (pulse.t_end - start) + WAITS
     return Ends(late, low, high), False
 

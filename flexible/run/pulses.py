@@ -72,7 +72,7 @@ def _is_over_bottom(first: float, last: float) -> bool:
 def swings(segment: Segment) -> bool:
     """Whether a segment goes over the bottom, and does not merely rock on a soft wall somewhere else."""
     phi = segment["phi"]
-    return _is_over_bottom(float(phi.min()), float(phi.max()))
+    return any(_is_over_bottom(float(phi[0]), float(most)) for most in (phi.min(), phi.max()))
 
 
 def _turned(swing: Motion) -> list[float]:

@@ -32,12 +32,20 @@ JUMPS = 0.1  # of N: less than this of it may be the damper's that the springs o
 FALLS = 0.5  # of N in the time of its damper: where it falls faster its springs are behind it by more than is known
 
 
+def begins_with_a_blow(motion: Motion) -> bool:
+    """Whether a rigid hoop is released slipping where Coulomb's law has no forces for it, and friction stops it."""
+    return bool(motion.phases) and motion.phases[0].kind is Kind.IMPACT
+
+
 def hand_over(hoop: Hoop, motion: Motion, t: float, there: States | None = None) -> State:
     """The flexible hoop at time ``t`` of a rigid motion, with the rates of the equilibria around it.
 
-    ``there`` is the motion's state at that time, where it is known.
+    ``there`` is the motion's state at that time, where it is known. At the release of one that begins with a blow there
+    is no equilibrium: the hoop is as it was thrown, and undeformed.
     """
     scene = motion.scene
+    if t == 0 and there is None and begins_with_a_blow(motion):
+        return undeformed(hoop, pose_of(without_units(motion.at(0.0, "left"), scene), Kind.IMPACT))
     now = without_units(motion.at(t) if there is None else there, scene)
     pose = pose_of(now, motion.phase_at(t).kind)
     if scene.solve.start == "undeformed" and t == 0:

@@ -116,6 +116,40 @@ def test_a_run_that_ends_with_the_blow_that_turns_it_has_its_loss():
     assert motion.at(motion.t_end).energy == pytest.approx(turn.energy, rel=1e-12)
 
 
+#: thrown into a jam: C moves back with the slip, and no friction that Coulomb's law allows goes with it
+JAMMED = HOOP.replace(
+    hoop={"k": 0.1, "r": 1.02, "mass_ratio": 0.0}, friction={"mu_s": 0.35, "mu": 0.3},
+    release={"phi0": np.pi / 6, "slip0": -0.5}, solve={"rtol": 1e-3},
+)  # fmt: skip
+THROWN = 1 + (1 - 0.1) / 1.02 * np.cos(np.pi / 6) + 0.5**2 / 2  # gravity, and the disk's motion along the floor
+
+
+def test_a_blow_at_the_release_is_in_the_books_of_the_rigid_hoop_between_pulses():
+    scene = JAMMED.replace(run={"t_end": 0.5})
+    motion, ledger = rigid.simulate(scene), flexible.simulate(scene).ledger
+    assert motion.phases[0].kind == Kind.IMPACT
+    assert ledger.initial == pytest.approx(THROWN, rel=1e-12)
+    assert ledger.landing_loss == pytest.approx(THROWN - motion.at(0.0).energy, rel=1e-9)
+    assert ledger.landing_loss > 5e-3
+    assert ledger.friction_loss == pytest.approx(0, abs=1e-12)  # it rolls
+
+
+@pytest.mark.parametrize("start", ["equilibrium", "undeformed"])
+@pytest.mark.parametrize("law", ["patch", "brush", "regularised"])
+def test_an_elastic_hoop_has_the_blow_at_its_release_itself(law, start):
+    """Its floor gives back some of what it takes up of the blow: the hoop leaves it, which no rigid one does there."""
+    scene = JAMMED.replace(
+        run={"t_end": 0.5}, contact={"law": law, "stiffness": 1e9}, solve={"resolve": "all", "start": start}
+    )
+    motion = flexible.simulate(scene)
+    ledger = motion.ledger
+    assert (motion.at(0.0).slip_velocity, motion.phases[0].kind) == (-0.5, Kind.SPIN)
+    assert ledger.initial == pytest.approx(THROWN, rel=1e-12)
+    assert Kind.FLIGHT in [phase.kind for phase in motion.phases if phase.t_end - phase.t_start > 0.1]
+    assert abs(ledger.residual) < scene.solve.rtol * ledger.initial
+    assert ledger.landing_loss == 0
+
+
 def test_hand_over_tends_to_zero_with_stiffness():
     """Rigid ring: what comes in is the energy of the patch's springs, N delta with delta like (N/eps)^(2/3)."""
     foundations = 10.0 ** np.array([7, 8, 9, 10])

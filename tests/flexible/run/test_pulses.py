@@ -187,3 +187,37 @@ def test_a_pulse_on_the_floor_has_no_time_off_it():
         assert any(phase.kind == Kind.FLIGHT for phase in motion.phases)
         assert all(phase.kind != Kind.FLIGHT for phase in pulse.phases)
         assert pulse.time_off_floor == 0
+
+
+@pytest.mark.parametrize(("stiffness", "bending"), [(1e9, 1e5), (2.5e10, 413.0)])
+def test_a_blow_that_turns_the_hoop_is_gone_through(stiffness, bending):
+    """It comes in against the way of its pulse, and the pulse goes back over the angles at which the segment began.
+
+    A smooth floor bears C alone: J_N and the weight over the pulse are the momentum that the two ways agree about. The
+    hoop was handed back in the blow's first instant, with a whole pulse of J_N = -2.5e-7.
+    """
+    scene = Scene(
+        Hoop(k=0.15842745674856212, r=1.1539877488724264), Friction(0.0, 0.0),
+        Release(radians(2.5014167546741914), -2.1161309509262187), Run(until="pulse"),
+        ring=Ring(bending_stiffness=bending), contact=Contact(stiffness=stiffness),
+    )  # fmt: skip
+    exact = rigid.simulate(scene).pulses[0]
+    one, other = (flexible.simulate(scene.replace(solve={"resolve": way})).pulses[0] for way in ("pulses", "all"))
+    assert one.t_start == pytest.approx(exact.t_start, abs=1e-4)  # the hoop falls on a patch 1e-4 deep or less
+    assert one.normal_impulse == pytest.approx(other.normal_impulse, rel=1e-4)
+    assert one.peak_normal_force == pytest.approx(other.peak_normal_force, rel=1e-3)
+
+
+@pytest.mark.parametrize("turned", [0.0, 2e-9])
+def test_a_hoop_thrown_from_the_bottom_comes_to_rest_as_its_mirror_image(turned):
+    """A swing that begins at the bottom has not gone over it, whichever way it goes: that one ended the run."""
+    ends, rtol = [], 1e-3
+    for way in (1, -1):
+        scene = Scene(
+            Hoop(0.667, r=1.02), Friction(2.0, 2.0), Release(way * (pi - turned), way * 1.2), Run(until="rest"),
+            solve=Solve(rtol=rtol, resolve="all"),
+        )  # fmt: skip
+        motion = flexible.simulate(scene)
+        ends.append((motion.t_end, len(motion.pulses)))
+    assert ends[0][0] == pytest.approx(ends[1][0], rel=rtol)
+    assert ends[0][1] == ends[1][1]
