@@ -63,7 +63,9 @@ def plain(key: str, value: Any) -> Any:
 
 
 def _item(value: Any) -> Any:
-    """What Python has for a scalar of numpy's; anything else as it is."""
+    """What Python has for a scalar of numpy's; anything else, and what is masked, as it is."""
+    if value is np.ma.masked:
+        return value
     scalar = isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0)
     return value.item() if scalar else value
 

@@ -252,6 +252,10 @@ def ring_of_section(ring: Mapping[str, Any], hoop: Mapping[str, Any]) -> tuple[d
         raise SceneError(
             f"ring.thickness and ring.{first} cannot both be given: the section says how thick the ring is."
         )
+    if "section_width" in ring:
+        raise SceneError(
+            f"ring.section_width and ring.{first} cannot both be given: the section says how wide the ring is."
+        )
     of_hoop: dict[str, Any] = {"r": r}
     if "density" in ring:
         if "mass_ratio" in hoop:

@@ -223,7 +223,7 @@ def scene_text(name: str) -> str:
 
 
 def load_scene(source: str | PathLike[str]) -> Scene:
-    """A scene by the name of a shipped one ("paper-3.1") or by the path of a TOML file.
+    """A scene by the name of a shipped one ("paper-3.1"), or by the path of a TOML file ("./paper-3.1", called so).
 
     Raises
     ------
@@ -262,6 +262,8 @@ def scene_tables(source: str | PathLike[str]) -> dict[str, Any]:
     """
     if not isinstance(source, (str, PathLike)):
         raise SceneError(f"{source!r} is neither the name of a scene nor the path of a file.")
+    if source in scene_names():  # whatever else is called so here
+        return tomllib.loads(scene_text(str(source)))
     path = Path(source)
     try:
         # a pipe too; an editor may begin it with a mark
@@ -270,8 +272,6 @@ def scene_tables(source: str | PathLike[str]) -> dict[str, Any]:
         raise SceneError(f"{path} is not a scene: it is not text.") from None
     except OSError as error:
         raise SceneError(f"{path} cannot be read: {error.strerror}.") from None
-    if text is None and str(source) in scene_names():
-        text = (files("rigid.scenes") / f"{source}.toml").read_text(encoding="utf-8")
     if text is None:
         near = get_close_matches(str(source), scene_names(), n=3) or scene_names()
         raise SceneError(f"{str(source) or repr('')} is neither a file nor the name of a scene: try {', '.join(near)}.")

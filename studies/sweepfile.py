@@ -7,13 +7,13 @@ import os
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import prod
+from math import inf, prod
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from rigid import Scene, SceneError, scene_from_dict, scene_to_dict
-from rigid.allowed import shown
+from rigid import Scene, SceneError, scene_from_dict, scene_names, scene_to_dict
+from rigid.allowed import require, shown
 from rigid.elastic import SECTION, UNITS
 from rigid.scenefile import ensure_possible, scene_tables
 
@@ -102,7 +102,7 @@ def load_sweep(path: str | PathLike[str], solvers: str | Sequence[str] = (), max
     settings = data.get("sweep")
     if isinstance(settings, dict) and isinstance(scene := settings.get("scene"), str):
         beside = os.path.join(path.parent, scene)
-        if os.path.isfile(beside):
+        if scene not in scene_names() and os.path.isfile(beside):
             settings["scene"] = beside
     return sweep_from_dict(data, solvers, max_cases)
 
@@ -128,7 +128,7 @@ def sweep_from_dict(data: Mapping[str, Any], solvers: str | Sequence[str] = (), 
     for name in who:
         solver(name)
     sweep = Sweep(tuple(keys), tuple(choices), tables, tuple(dict.fromkeys(who)) or named, histories, repeated)
-    if sweep.cases > max_cases:
+    if sweep.cases > require("max_cases", max_cases, 1, inf, "it is a number of cases, 1 or more"):
         raise SceneError(
             f"{sweep.announcement()}. That is more than {max_cases}: shorten the lists, or allow it:"
             " max_cases, on the command line --max-cases."

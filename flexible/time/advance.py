@@ -188,20 +188,18 @@ def _damping(aims: Aims, law: Parameters, state: State) -> tuple[float, float]:
 
 
 @loop
-def _of_a_landing(before: Any, taken: Any, tolerance: float) -> float:
-    """What counts as the error of a step, over its tolerance, in which the hoop lands: energy that it gives.
+def _error(law: Parameters, aims: Aims, old: State, taken: Any, sights: tuple[Sight, Sight], h: float) -> float:
+    """What counts as the error of a step, over its tolerance.
 
-    The damper of the patch at its end filters out of the estimate what is wrong along the contact.
+    Its estimate knows nothing of a patch that breaks loose without an event, nor, since the damper at its end filters
+    out what is wrong along the contact, of the energy that a step may give to a hoop that lands in it.
     """
-    return max(0.0, -taken.numerical) / tolerance if before.elastic == 0 and taken.res.elastic > 0 else 0.0
-
-
-@loop
-def _of_a_break(law: Parameters, aims: Aims, before: Sight, now: Sight, h: float) -> float:
-    """What counts as the error of a step, over its tolerance, in which the patch may break loose without an event."""
-    if not breaks(law, before, now):
-        return 0.0
-    return float((h * now.res.normal / (LOOSE * sqrt(aims.tolerance))) ** (1 / aims.power))
+    error, (before, now) = taken.error / aims.tolerance, sights
+    if breaks(law, before, now):
+        error = max(error, (h * now.res.normal / (LOOSE * sqrt(aims.tolerance))) ** (1 / aims.power))
+    if old.res.elastic == 0 and taken.res.elastic > 0:
+        error = max(error, -taken.numerical / aims.tolerance)
+    return float(error)
 
 
 def advance(
@@ -240,10 +238,7 @@ def advance(
         before, seen = sight(model, law, state, state, way), sight(model, law, taken, state, way)
         length = (state.t + tries) - state.t
         if search.event == NO_EVENT:
-            error = inf
-            if solved:
-                error = max(taken.error / aims.tolerance, _of_a_break(law, aims, before, seen, asked))
-                error = max(error, _of_a_landing(state.res, taken, aims.tolerance))
+            error = _error(law, aims, state, taken, (before, seen), asked) if solved else inf
             wanted = care(law, before) * _daring(leap, wider)
             alike = not sticks(law, state.mode) or seen.res.friction * state.res.friction > 0
             if leap > 0 and error <= wanted and alike and passed(MODE_ENDS, law, ends, way, before, seen) >= 0:

@@ -6,6 +6,7 @@
 """
 
 import os
+import signal
 import sys
 from collections.abc import Sequence
 
@@ -15,6 +16,8 @@ from .shared.letters import spell_out
 
 def main() -> None:
     """Entry point of the command ``hoop``."""
+    # what a batch system ends a job with stops it as Ctrl-C does: what there is is kept, and said
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     spell_out()
     one_blas_thread()
     search_garbage_seldom()

@@ -209,8 +209,8 @@ def sweep(
     """The product of everything that FILE lists.
 
     FILE is a scene in which any value may be a list. A table [sweep] may name the `solvers` ("rigid",
-    "flexible"; both by default), a `scene` from which all starts (a file of that name beside FILE comes first), and ask
-    for `histories = true`. FILE is data: it names no code.
+    "flexible"; both by default), a `scene` from which all starts (a shipped one by its name, or a file by the
+    path to it from FILE's folder), and ask for `histories = true`. FILE is data: it names no code.
 
     How many cases there are is said first, and what they will take once the first are done.
     """

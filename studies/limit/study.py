@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 OBSERVED = ("impulse_ratio", "friction_impulse", "normal_impulse", "friction_loss")
 """Measures that are predicted and observed."""
 
+COLUMNS = ("solver", "foundation", "measure", "value", "numerical_error", "limit", "distance", "predicted", "failure")
 FOUNDATIONS = (1e10, 1e11, 1e12)
 """At which the rigid ring is observed; a decade makes the distance 2.15 times smaller."""
 
@@ -147,14 +148,13 @@ class LimitStudy(summary.Summarised):
 
         rows = []
         for sight in self.sights:
-            for name in OBSERVED:
-                row: dict[str, Any] = {"solver": sight.solver, "foundation": sight.foundation, "measure": name}
+            for name in (each for each in OBSERVED if each in sight.values or sight.failure):
+                row: list[Any] = [sight.solver, sight.foundation, name, *[None] * 5, sight.failure]
                 if name in sight.values:
-                    found, foreseen = self.distance(name, sight)
-                    row |= {"value": sight.values[name], "numerical_error": sight.errors.get(name)}
-                    row |= {"limit": self.prediction.terms[name].limit, "distance": found, "predicted": foreseen}
-                rows.append(row | {"failure": sight.failure})
-        return pandas.DataFrame(rows)
+                    limit, seen = self.prediction.terms[name].limit, sight.values[name]
+                    row[3:8] = seen, sight.errors.get(name), limit, *self.distance(name, sight)
+                rows.append(row)
+        return pandas.DataFrame(rows, columns=list(COLUMNS))
 
     def small(self, foundation: float) -> float:
         """The prediction's small parameter at a foundation."""

@@ -3,20 +3,22 @@ here.
 
 A third solver is compared by writing one adapter, a function of this signature, and naming it
 ``module:function`` on the command line (``--solver``) or from Python. Naming it runs it: its module is imported and the
-function called, in every worker, with all that the user may do. Files, a sweep's for instance, are data and name the
-built-in solvers alone.
+function called, in every worker, with all that the user may do; what it prints goes to stderr. Files, a sweep's for
+instance, are data and name the built-in solvers alone.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+import sys
 from collections.abc import Callable
-from functools import cache
+from contextlib import redirect_stdout
+from functools import cache, wraps
 from importlib import import_module, metadata
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
 
 from rigid import Motion, Scene
 from rigid.allowed import shown
@@ -70,7 +72,8 @@ def _solver(name: str) -> Solver:
     if not colon:
         raise StudyError(f"{name!r} is not a solver: it must be one of {', '.join(NAMED)}, or module:function.")
     try:
-        found = getattr(import_module(module), function)
+        with redirect_stdout(sys.stderr):
+            found = getattr(import_module(module), function)
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # whatever a module does as it is imported, SystemExit too
@@ -79,7 +82,18 @@ def _solver(name: str) -> Solver:
     if not callable(found):
         raise StudyError(f"{name!r} is not a solver: it cannot be called.")
     chosen: Solver = found
-    return chosen
+    return chosen if name in NAMED else _aside(chosen)
+
+
+def _aside(found: Solver) -> Solver:
+    """A solver of one's own, whose prints are no part of a study's output."""
+
+    @wraps(found)
+    def run(scene: Scene, **wishes: Any) -> Motion:
+        with redirect_stdout(sys.stderr):
+            return found(scene, **wishes)
+
+    return run
 
 
 def ensure_accepts(name: str, scene: Scene) -> None:

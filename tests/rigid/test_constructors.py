@@ -7,6 +7,7 @@ import pickle
 import warnings
 from dataclasses import replace
 from math import pi, radians
+from pathlib import Path
 
 import numpy as np
 import pandas
@@ -243,8 +244,24 @@ def test_how_many_pulses_and_workers_are_whole_numbers(wrong):
         simulate_batch(["paper-3.1"], **wrong)
 
 
+def test_a_name_is_a_shipped_scene_whatever_lies_about(tmp_path, monkeypatch):
+    """`hoop rigid paper-3.1 > paper-3.1` has an empty file of that name before it reads the scene."""
+    monkeypatch.chdir(tmp_path)
+    Path("paper-3.1").write_text("")
+    assert load_scene("paper-3.1").hoop.k == 0.1
+    for path in ("./paper-3.1", Path("paper-3.1"), tmp_path / "paper-3.1"):
+        with pytest.raises(SceneError, match="is missing"):
+            load_scene(path)
+
+
 def test_a_name_that_is_too_long_names_no_scene():
     assert "cannot be read: File name too long" in said(simulate, "x" * 300)
+
+
+def test_what_is_masked_is_no_number():
+    """numpy's masked value would be 0: a hoop without mass."""
+    with pytest.raises(SceneError, match="mass_ratio"):
+        Hoop(0.5, r=1.25, mass_ratio=np.ma.array([0.5], mask=[True])[0])
 
 
 def test_how_many_may_be_a_number_of_numpys():

@@ -67,6 +67,7 @@ def test_a_scene_survives_its_file_in_the_other_words():
         (TUBE, {"g": None}, "in SI units"),
         (TUBE | {"bending_stiffness": 3.0}, {}, "ring.bending_stiffness and ring.youngs_modulus cannot both"),
         (TUBE | {"thickness": 0.1}, {}, "ring.thickness and ring.youngs_modulus cannot both"),
+        (STRIP | {"section_width": 0.3}, {}, "ring.section_width and ring.youngs_modulus cannot both"),
         (TUBE, {"mass_ratio": 0.1}, "hoop.mass_ratio and ring.density cannot both"),
         (TUBE, {"r": 1.02}, "hoop.r = 1.02 is not possible: the ring's section says 1.04651163"),
         (TUBE | {"width": 0.01}, {}, "section is unclear"),

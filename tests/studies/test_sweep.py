@@ -250,6 +250,15 @@ def test_a_case_that_fails_is_a_row_with_its_reason(hoop, tmp_path):
     assert rows[0.35, 1e11]["impulse_ratio"] is None
 
 
+def test_what_a_solver_prints_is_no_part_of_the_output(tmp_path):
+    """With --json stdout is JSON and nothing else, whoever greets there; by two workers as by one."""
+    file = sweep_file(tmp_path)
+    for workers in (1, 2):
+        done = process("study", "sweep", file, "--json", "--workers", workers, *by("third_solver:talking"))
+        assert done.returncode == 0
+        assert len(json.loads(done.stdout)["rows"]) == 6
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [
@@ -385,7 +394,9 @@ def _hears_interrupts() -> None:
 
 
 @pytest.mark.slow
-def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(tmp_path):
+@pytest.mark.parametrize("ends", [signal.SIGINT, signal.SIGTERM])
+def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(tmp_path, ends):
+    """And so does what a batch system ends a job with."""
     file, slow = sweep_file(tmp_path), by("third_solver:slow")
     out = tmp_path / "out"
     line = command("study", "sweep", file, "--out", out, "--workers", 2, *slow)
@@ -394,7 +405,7 @@ def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(tmp_path):
         line, env=environment(), stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=_hears_interrupts
     )
     wait_for_rows(out, 1)
-    os.killpg(running.pid, signal.SIGINT)  # as a terminal does: to the workers too
+    os.killpg(running.pid, ends)  # as a terminal does: to the workers too
     _, err = running.communicate(timeout=HANGS)
     assert running.returncode == 130
     announced, interrupted = filter(None, err.splitlines())

@@ -39,6 +39,12 @@ def softened(scene: Scene, *, history: bool = False, progress: object = None) ->
     return dataclasses.replace(motion, scene=scene, pulses=pulses)
 
 
+def talking(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
+    """The same, with a word on stdout, as other programs greet."""
+    print("talking")
+    return softened(scene)
+
+
 def unfinished(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:
     """The same, but above a foundation of 1e10 it stops before the end."""
     motion = softened(scene)

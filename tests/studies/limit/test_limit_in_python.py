@@ -68,6 +68,18 @@ def test_the_table_has_a_row_for_each_measure_of_each_run(study):
     assert set(frame[frame["failure"] != ""]["solver"]) == {"flexible"}
 
 
+def test_the_table_has_no_row_of_a_measure_that_was_not_seen(study):
+    """A rigid ring on a floor of another law sees no loss: that is no failure; and no run has all columns."""
+    blind = [
+        dataclasses.replace(s, values={k: v for k, v in s.values.items() if k != OBSERVED[0]}) for s in study.sights
+    ]
+    frame = dataclasses.replace(study, sights=tuple(blind)).to_dataframe()
+    assert not ((frame["measure"] == OBSERVED[0]) & (frame["failure"] == "")).any()
+    assert frame[frame["failure"] == ""]["value"].notna().all()
+    none = dataclasses.replace(study, sights=()).to_dataframe()
+    assert list(none.columns) == list(study.to_dataframe().columns)
+
+
 def columns_of(sheet) -> dict[str, list[str]]:
     """The cells of a sheet by heading; of headings that stand twice a list behind the other."""
     columns: dict[str, list[str]] = {}
