@@ -111,7 +111,7 @@ class History(Same):
     alpha: AngularAcceleration[Array]
     x_C: Length[Array]
     y_C: Length[Array]
-    slip_velocity: Velocity[Array]  # of the patch's centre against the floor, tangential
+    slip_velocity: Velocity[Array]  # mean of the patch, by pressure, against the floor; off it the lowest node's
     vertical_velocity: Velocity[Array]  # of the hoop's centre C, upward
     normal_force: Force[Array]
     friction_force: Force[Array]

@@ -2,7 +2,8 @@
 
 Between two sections it is a cubic (Hermite) through the points of the rim that the two sections carry, with
 the directions and the stretch of the rim there: C1 all around, at any rotation. Its stretch is that of bending, offset
-times dphi/dtheta by three sections, and with it the wall gets thinner.
+times dphi/dtheta by three sections, and with it the wall gets thinner; what pull and shear do besides is in ``seen``
+(:mod:`flexible.chain.rod.surface`).
 """
 
 from __future__ import annotations

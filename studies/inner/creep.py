@@ -30,8 +30,8 @@ def half_width(normal: float) -> float:
 def creep(contact: ScaledContact, normal: float, friction: float, omega: float) -> Creep:
     """Steady rolling at ``omega`` under N and F; V is infinite where the law cannot carry F.
 
-    ``patch``: z = V (s + A)/|Omega|, so F = -kappa V (2 A)^2/(2 |Omega|) - theta kappa 2 A V: the damper carries its
-    share. ``brush``: the part b of the patch, from its leading edge, sticks, and
+    ``patch``: z = V (A + s)/|Omega|, or A - s where Omega < 0, so F = -kappa V (2 A)^2/(2 |Omega|) - theta kappa 2 A V:
+    the damper carries its share. ``brush``: the part b of the patch, from its leading edge, sticks, and
 
         |F|/N = 3 mu_s (b^2 - b^3) + mu (1 - 3 b^2 + 2 b^3),   |V| = mu_s A (1 - b) |Omega|/kappa.
 

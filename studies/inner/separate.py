@@ -77,7 +77,7 @@ def stiff_from(way: Passage, scene: Scene) -> float:
     """Foundation eps_n R^2/(m g) at which both give way alike, at the event where that is the largest.
 
     The bending stiffness goes with the foundation, in the proportion that ``scene`` has. Asked at events behind which
-    there is an impulse: where a slip ends or turns round. 0 where there is none.
+    there is an impulse: where a slip ends or turns round, there with the F that goes with N. 0 where there is none.
     """
     whole = 1 + way.scene.hoop.mass_ratio
     proportion = scene.ring.bending_stiffness / scene.contact.stiffness

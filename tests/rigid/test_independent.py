@@ -148,6 +148,7 @@ def test_impulses_against_quadrature():
     """The momentum identities give the same impulses as the integrals of N and F."""
     motion = simulate(Scene(*SCENES["section 3.1"], run=Run(turns=2)))
     nodes, weights = np.polynomial.legendre.leggauss(40)
+    assert motion.pulses
     for pulse in motion.pulses:
         edges = {pulse.t_start, pulse.t_end}
         edges |= {p.t_start for p in motion.phases if pulse.t_start < p.t_start < pulse.t_end}

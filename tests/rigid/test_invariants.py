@@ -82,6 +82,8 @@ def test_mirrored():
     """phi -> -phi mirrors everything; angles may differ by the round-off of one turn."""
     mirrored = simulate(SCENE.replace(release=Release(-SCENE.release.phi0)))
     motion = simulate(SCENE)
+    assert len(motion.turns) == SCENE.run.turns
+    assert motion.pulses
     for a, b in zip(motion.turns, mirrored.turns, strict=True):
         assert (a.t, a.phi, a.energy) == pytest.approx((b.t, -b.phi, b.energy), rel=1e-13)
         assert a.slip_velocity == pytest.approx(-b.slip_velocity, abs=1e-13)
@@ -107,6 +109,7 @@ def test_in_si_units():
     R, m, g = 0.25, 0.7, 9.81
     plain, si = simulate(SCENE), simulate(SCENE.replace(hoop={"R": R, "m": m, "g": g}))
     time, impulse, energy = (R / g) ** 0.5, m * (g * R) ** 0.5, m * g * R
+    assert plain.pulses
     for p, q in zip(plain.pulses, si.pulses, strict=True):
         assert q.t_start == pytest.approx(p.t_start * time, rel=1e-14)
         assert q.normal_impulse == pytest.approx(p.normal_impulse * impulse, rel=1e-13)

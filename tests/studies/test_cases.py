@@ -52,6 +52,7 @@ def test_a_measure_that_there_is_not_comes_back_as_none(tmp_path):
     store = Store(tmp_path)
     store.add(outcome)
     back = store.get(outcome.key)
+    assert outcome.pulses
     for mine, theirs in zip(outcome.pulses, back.pulses, strict=True):
         assert isnan(mine["impulse_ratio_over_mu"])
         np.testing.assert_array_equal(list(theirs.values()), list(mine.values()))

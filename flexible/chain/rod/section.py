@@ -3,9 +3,9 @@
 Away from loads and from the weld a plane ring carries nothing but the resultants of its section, normal force N, shear
 force Q and moment M about the section's centre of mass. Its strain energy per angle is then a quadratic form of the
 three, for a curved bar with N and M coupled. Six loads on the clamped ring give resultants and energies of any piece of
-the mesh: a regular piece tells the form, and the piece at the weld how its end gives way. No shear coefficient and no
-theory of thick bars enters, and a rod with this compliance is the mesh itself but for what dies out within a wall or
-two (Saint-Venant).
+the mesh: a regular piece tells the form, and the piece at the weld how its end gives way. No theory of thick bars
+enters, of shear no more than what its compliance is at least, and a rod with this compliance is the mesh itself but for
+what dies out within a wall or two (Saint-Venant).
 """
 
 from __future__ import annotations
@@ -63,7 +63,8 @@ class RodCompliance:
         Displacement of its free dofs, as far as no load of the six is near, under the unit forces and moments that
         ``ends`` is of.
     misfit : float
-        Largest error of the form ``section`` on the pieces it was fitted to, relative to the largest energy.
+        Largest error of the form, before its shear was made no less than a wall's, on the pieces it was fitted to,
+        relative to the largest energy.
     """
 
     radius: float
