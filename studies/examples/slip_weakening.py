@@ -145,7 +145,7 @@ def main(out: Path = Path(), foundations: tuple[float, ...] = (1e8, 1e9, 1e10, 1
         "at once": (lambda eps: 0.0, limit(scene, 0.0)),
         "u_b": (lambda eps: stretch_at_break(scene, eps), limit(scene, 1.0)),
         "10 u_b": (lambda eps: 10 * stretch_at_break(scene, eps), limit(scene, 10.0)),
-        "root of u_b a, over 3": (lambda eps: sqrt(stretch_at_break(scene, eps) * half_width(eps)) / 3, paper),
+        "√(u_b A)/3": (lambda eps: sqrt(stretch_at_break(scene, eps) * half_width(eps)) / 3, paper),
         "1e-4 R": (lambda eps: 1e-4, always),
     }
     figure, axes = plt.subplots(layout="constrained")
@@ -155,7 +155,7 @@ def main(out: Path = Path(), foundations: tuple[float, ...] = (1e8, 1e9, 1e10, 1
         axes.semilogx(foundations, found, "o-", color=f"C{i}", label=name)
         axes.axhline(tends, color=f"C{i}", linewidth=0.8, linestyle="--")
     axes.set(
-        xlabel=r"foundation $\epsilon R^2/(mg)$",
+        xlabel=r"foundation $\epsilon_n R^2/(mg)$",
         ylabel="$J_F/J_N$",
         title="Friction that falls over a distance of slip",
     )
