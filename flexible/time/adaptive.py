@@ -19,8 +19,8 @@ from ..contact.laws.listing import free, may_end, opposite, sticks, successor
 from ..contact.points.data import UNKNOWN
 from ..models import reduced
 from ..models.state import Energies, Model, Record, State
-from .advance import COLUMNS, SHORT, SPAN, Aims, advance, advance_reduced, write
-from .control import AFRESH
+from .advance import COLUMNS, SPAN, Aims, advance, advance_reduced, write
+from .control import AFRESH, SHORT
 from .course import (
     CAPPED,
     LACKS,

@@ -21,7 +21,7 @@ from ..contact.points.rim import turned
 from ..models import reduced
 from ..models.stage import solve_stage
 from ..models.state import Books, Energies, Record, State, held, rotation
-from .control import AFRESH, Pace, longer, shorter
+from .control import AFRESH, SHORT, WIDER, Pace, daring, farther, longer, shorter
 from .course import (
     CAPPED,
     LACKS,
@@ -56,10 +56,6 @@ from .methods import Table
 from .stages import Taken, take
 
 SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
-SHORT = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
-FARTHEST = 1e-4  # a leap over an instant to which no step however short leads
-WIDER, CLOSER = 10.0, 1.5  # is each leap than the one before it; closer where those led nowhere
-DARING, RASH = 3.0, 30.0  # times its tolerance a leap may err, and one of those: it is that, or the end of the run
 MOST_STALLS = 50  # events within a shortest step of each other
 CAUGHT = 7  # a slide that the shortest step ends counts for so many
 LOOSE = 3.0  # times the root of its tolerance is the most impulse of a step in which a brush may break loose
@@ -156,22 +152,6 @@ def _ended(t: float, phi: float, turns: int, ends: Ends) -> bool:
 
 
 @loop
-def _daring(leap: float, wider: float) -> float:
-    """Times its tolerance a step may err."""
-    if leap == 0:
-        return 1.0
-    return DARING if wider == WIDER else RASH
-
-
-@loop
-def _farther(leap: float, wider: float) -> tuple[float, float]:
-    """The leap to try after one, 0 if there is none, and how much wider it is."""
-    if leap < FARTHEST:
-        return max(wider * leap, SHORT), wider
-    return (SHORT, CLOSER) if wider == WIDER else (0.0, wider)
-
-
-@loop
 def _stalled(stalls: int, length: float, slid: bool) -> int:
     """The count of events that lead nowhere, after a step, and whether a slide ended in it."""
     if length < SHORTEST:
@@ -188,17 +168,23 @@ def _damping(aims: Aims, law: Parameters, state: State) -> tuple[float, float]:
 
 
 @loop
-def _error(law: Parameters, aims: Aims, old: State, taken: Any, sights: tuple[Sight, Sight], h: float) -> float:
+def _error(
+    law: Parameters, aims: Aims, old: State, holds: Any, taken: Any, sights: tuple[Sight, Sight], h: float
+) -> float:
     """What counts as the error of a step, over its tolerance.
 
-    Its estimate knows nothing of a patch that breaks loose without an event, nor, since the damper at its end filters
-    out what is wrong along the contact, of the energy that a step may give to a hoop that lands in it.
+    Its estimate knows nothing of a patch that breaks loose without an event, nor of what is wrong along the contact in
+    a step in which the hoop lands: the floor at its end filters that out. There it is the energy that the step gives,
+    and that which is in no book.
     """
     error, (before, now) = taken.error / aims.tolerance, sights
     if breaks(law, before, now):
         error = max(error, (h * now.res.normal / (LOOSE * sqrt(aims.tolerance))) ** (1 / aims.power))
     if old.res.elastic == 0 and taken.res.elastic > 0:
-        error = max(error, -taken.numerical / aims.tolerance)
+        left = old.res.normal_energy - taken.res.normal_energy + taken.friction_work - taken.damped - taken.numerical
+        for i in range(3):
+            left += holds[i] - taken.held[i]
+        error = max(error, max(-taken.numerical, abs(left)) / aims.tolerance)
     return float(error)
 
 
@@ -221,7 +207,7 @@ def advance(
             # a spot of a soft rim that its bristles hold to the floor may snap off it, and forces jump: there the state
             # has no neighbour, to which a step however short would lead, but one beyond
             if why == UNSOLVED:
-                leap, wider = _farther(leap, wider)
+                leap, wider = farther(leap, wider)
                 h, why = leap, 0 if leap > 0 else UNSOLVED
             if why != 0:
                 break
@@ -238,8 +224,8 @@ def advance(
         before, seen = sight(model, law, state, state, way), sight(model, law, taken, state, way)
         length = (state.t + tries) - state.t
         if search.event == NO_EVENT:
-            error = _error(law, aims, state, taken, (before, seen), asked) if solved else inf
-            wanted = care(law, before) * _daring(leap, wider)
+            error = _error(law, aims, state, holds, taken, (before, seen), asked) if solved else inf
+            wanted = care(law, before) * daring(leap, wider)
             alike = not sticks(law, state.mode) or seen.res.friction * state.res.friction > 0
             if leap > 0 and error <= wanted and alike and passed(MODE_ENDS, law, ends, way, before, seen) >= 0:
                 why, h, pace = MODE_ENDED if stalls < MOST_STALLS else STALLED, SHORT, AFRESH

@@ -1,4 +1,5 @@
-"""How long the next step is, by the errors of the last two."""
+"""How long the next step is, by the errors of the last two; and how far a leap goes, where no step however short leads
+on."""
 
 from __future__ import annotations
 
@@ -9,6 +10,10 @@ from rigid.kernel.compile import loop
 SAFETY = 0.9  # of a step whose error is foreseen
 LEAST, MOST = 0.2, 3.0  # change of length from one step to the next
 SMALL = 1e-2  # error over its tolerance below which its size foretells nothing
+SHORT = 1e-11  # the step after an event is no shorter: at foundation 1e14 the patch's own period is 1e-6
+FARTHEST = 1e-4  # a leap over an instant to which no step however short leads
+WIDER, CLOSER = 10.0, 1.5  # is each leap than the one before it; closer where those led nowhere
+DARING, RASH = 3.0, 30.0  # times its tolerance a leap may err, and one of those: it is that, or the end of the run
 
 
 class Pace(NamedTuple):
@@ -40,3 +45,19 @@ def longer(before: Pace, now: Pace, power: float) -> float:
     if before.length > 0:
         factor *= min(1.0, now.length / before.length * (max(before.error, SMALL) / error) ** power)
     return now.length * min(max(factor, LEAST), MOST)
+
+
+@loop
+def daring(leap: float, wider: float) -> float:
+    """Times its tolerance a step may err."""
+    if leap == 0:
+        return 1.0
+    return DARING if wider == WIDER else RASH
+
+
+@loop
+def farther(leap: float, wider: float) -> tuple[float, float]:
+    """The leap to try after one, 0 if there is none, and how much wider it is."""
+    if leap < FARTHEST:
+        return max(wider * leap, SHORT), wider
+    return (SHORT, CLOSER) if wider == WIDER else (0.0, wider)

@@ -42,6 +42,7 @@ INSTANT = 1e-15
 #: of a landing's first (N - N_el)/N_el times what the springs store: from the touch on N - N_el grows like the root of
 #: the depth, and its work is 2/3 of the last times the depth, 5/2 U/N_el
 LANDS = 5 / 3
+LEFT = 0.05  # of the largest N_el in a step: where there is less of it eta = N/N_el is no polynomial
 RENEWED = 1e-3  # share of a patch that may enter in a step whose end tells what the feet of its bristles do
 
 
@@ -157,9 +158,11 @@ def _widening(old: Any, later: float) -> float:
 @loop
 def _damped(table: Table, known: _Known) -> float:
     """What the normal damper takes, the integral of (eta - 1) over the springs' energy."""
-    stored, touches = known.stored, True
+    stored, touches, most = known.stored, True, 0.0
     for i in range(stored.shape[0]):
-        touches = touches and known.elastic[i] > 0
+        most = max(most, known.elastic[i])
+    for i in range(stored.shape[0]):
+        touches = touches and known.elastic[i] > LEFT * most
     damped = 0.0
     if touches:
         for i in range(stored.shape[0]):

@@ -37,7 +37,8 @@ class Coefficient(NamedTuple):
 def coefficient(
     term: Term, foundation: Array, values: Array, errors: Array, rates: Sequence[float]
 ) -> Coefficient | None:
-    """Observed and predicted coefficient of a measure; None with too few cases for an interval.
+    """Observed and predicted coefficient of a measure; None with too few cases for an interval, and of one that has
+    none: it comes as the first of ``rates``.
 
     Parameters
     ----------
@@ -48,7 +49,7 @@ def coefficient(
     rates : sequence of float
         The leading powers of 1/foundation, those of the prediction among them as the first.
     """
-    if not term.powers or len(values) < FEWEST - 1:
+    if not term.powers or len(values) < FEWEST - 1 or not np.isclose(rates[0], term.exponent / 3):
         return None
     small = foundation ** (-1 / 3)
     missed = values - term.at(small)

@@ -52,6 +52,8 @@ class Limit:
     """How far apart the values of all cases are, or their numerical error where that is more."""
     fitted: tuple[float, float]
     """Limit and half width with a rate that is fitted to all cases, whatever theory says."""
+    grows: bool = False
+    """Whether the stiffest case is farther from the rigid value than the one before it, by more than their errors."""
 
     @property
     def rigid_excluded(self) -> bool:
@@ -71,9 +73,10 @@ class Limit:
         """Whether the rigid value lies within the uncertainty of the limit.
 
         None where there is no interval to speak of: too few cases, or one wider than all that was measured, in which
-        nothing would be outside.
+        nothing would be outside; nor is the stiffest case, in one wider than its distance, where the cases go
+        away from the rigid value.
         """
-        if not self.uncertainty <= self.span:
+        if not self.uncertainty <= self.span or (self.grows and self.uncertainty >= self.distance):
             return None
         return abs(self.value - self.rigid) <= self.uncertainty
 
@@ -146,6 +149,7 @@ def limit_of(
         float(abs(values[-1] - rigid)) if values.size else nan,
         max(_span(values, error), alike),
         fitted,
+        _grows(values, off, rigid),
     )
 
 
@@ -163,6 +167,11 @@ def fitted_series(
     x, v, e = one_series(x, v, e, limit.exponents, CONFIDENCE)
     along = np.geomspace(x[0], x[-1], points)
     return along, inferred_series(x, v, e, limit.exponents, along)
+
+
+def _grows(values: Array, off: Array, rigid: float) -> bool:
+    away, off = np.abs(values - rigid)[-2:], np.nan_to_num(np.abs(off))[-2:]
+    return bool(away.size == 2 and away[1] - off[1] > away[0] + off[0])
 
 
 def _span(values: Array, error: ArrayLike | None) -> float:

@@ -66,7 +66,9 @@ def _told(study: StiffnessStudy, name: str, limit: Limit) -> str:
             f"{_MEANING[name]} is {last}{_unit(study, name)} at the stiffest rung and {rigid} for the rigid hoop, "
             "too few rungs for an interval"
         )
-    if limit.rigid_inside is None:
+    if limit.rigid_inside is None and limit.uncertainty <= limit.span:
+        where = "inside that interval, but the stiffest rungs go away from it, by less than it is wide: a longer ladder"
+    elif limit.rigid_inside is None:
         where = "but this interval is wider than all that was measured: a longer ladder or a smaller rtol"
     elif limit.rigid_inside:
         where = "inside that interval"

@@ -9,6 +9,7 @@ from scenes import HOOP, flying
 
 import flexible
 import flexible.time.advance
+import flexible.time.control
 import rigid
 from flexible.contact.laws.patch import SLIDE_RIGHT, STICK
 from flexible.contact.vectors import largest
@@ -154,7 +155,7 @@ def test_a_turn_inside_a_leap_is_counted(monkeypatch):
     assert not ended, ended
     before, behind = records[-2:]
     assert before.omega < 0 < behind.omega
-    assert behind.t - before.t <= flexible.time.advance.FARTHEST
+    assert behind.t - before.t <= flexible.time.control.FARTHEST
 
 
 def test_a_number_that_is_none_is_not_passed_over():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -78,6 +80,22 @@ def test_the_limit_is_inside_for_other_sequences_too(family, noise, floor):
         for off in (random.uniform(-1, 1, S.size), random.choice([-1, 1])):  # each for itself, and all alike
             inside += limit_of(S, 0.17 + distance + error * off, 0.17, error).rigid_inside
     assert inside >= 72  # 76 of 80 is the level
+
+
+def test_cases_that_go_away_from_the_rigid_value_do_not_say_that_it_is_their_limit():
+    """A floor that is stiffened alone: the ring keeps its distance, 5e-4 here, which comes behind a crossing.
+
+    An interval so wide holds the rigid value as it holds the distance.
+    """
+    s = np.logspace(7, 13, 7)
+    y = 0.17 + 5e-4 - 0.9 * s ** (-1 / 3)
+    assert abs(y[-2] - 0.17) < abs(y[-1] - 0.17)
+    loose = limit_of(s, y, 0.17, 1e-5 * np.ones(7))
+    assert loose.uncertainty < loose.distance
+    assert loose.rigid_inside is False
+    wide = dataclasses.replace(loose, value=0.1704, uncertainty=1.5 * loose.distance)
+    assert wide.rigid_inside is None
+    assert dataclasses.replace(wide, grows=False).rigid_inside is True
 
 
 def test_the_interval_of_a_fit_alone_holds_the_limit_of_what_crosses_it():
