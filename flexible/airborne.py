@@ -6,7 +6,7 @@ from math import cos, inf, sin
 
 import numpy as np
 
-from rigid import Aloft, Kind, Motion, States
+from rigid import Aloft, Kind, Motion, Scene, States
 from rigid.output.units import without_units
 
 from .models.select import Hoop
@@ -30,6 +30,15 @@ def rise(motion: Motion, told: float, now: States) -> float:
     return dy / dt + dt / 2 + e * float(np.sin(now.phi) * now.omega)
 
 
+def _gyration(scene: Scene) -> float:
+    """K of the elastic hoop: of one without thickness the rigid one has all the mass at its rim, and turns as it does
+    with more momentum.
+    """
+    hoop = scene.hoop
+    inside = 0.0 if hoop.r > 1 else scene.wall * (2 - scene.wall) / 2
+    return hoop.K - inside * hoop.mass_ratio / (1 + hoop.mass_ratio)
+
+
 def taken_over(hoop: Hoop, state: State) -> tuple[float, float, Aloft]:
     """phidot, slip velocity, and where over the floor, of the rigid hoop that takes over from a flexible one.
 
@@ -37,21 +46,21 @@ def taken_over(hoop: Hoop, state: State) -> tuple[float, float, Aloft]:
     unless it rolls; in flight along all three, its mass centre where that one's is. What energy the other has beyond
     that, of its vibrations, is lost.
     """
-    scene, units = hoop.scene.hoop, np.eye(len(state.vel))[:3]
+    scene, K, units = hoop.scene.hoop, _gyration(hoop.scene), np.eye(len(state.vel))[:3]
     mass, s, c = 1 + scene.mass_ratio, sin(state.pos[2]), cos(state.pos[2])
     along, up, about = (momentum(hoop, state, unit) / mass for unit in units)
     lever, beside = 1 + scene.e * c, scene.e * s
     if state.res.elastic == 0:
-        omega = (about - lever * along + beside * up) / scene.K
+        omega = (about - lever * along + beside * up) / K
         rising = up + beside * omega
         height = max(float(hoop.energies(state)[1]) / mass - 1 - scene.e * c, LOWEST)
         if height + rising**2 / 2 >= LEAST:
             return omega, along - lever * omega, Aloft(height, rising)
-    inertia = lever**2 + beside**2 + scene.K
+    inertia = lever**2 + beside**2 + K
     rolling = about / inertia
     alpha = beside * (1 + rolling**2) / inertia
     normal, friction = 1 - alpha * beside - rolling**2 * (lever - 1), alpha * lever - rolling**2 * beside
     if hoop.law.rolls(state, rolling, abs(friction) / normal if normal > 0 else inf):
         return rolling, 0.0, Aloft()
-    omega = (about - lever * along) / (beside**2 + scene.K)
+    omega = (about - lever * along) / (beside**2 + K)
     return omega, along - lever * omega, Aloft()

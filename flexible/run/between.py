@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf, pi
 
 import rigid
-from rigid import Motion, Pulse, Scene
+from rigid import Motion, Pulse, Run, Scene
 
 from ..builder import Builder
 from ..contact.laws.listing import rigid_limit
@@ -30,7 +30,7 @@ WAITS = 10.0  # sqrt(R/g) that a hoop may take for it, beyond four pulse lengths
 def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> Ending:
     """Rigid between pulses, flexible inside."""
     motion = rigid.simulate(rigid_limit(scene))
-    done = 0  # segments
+    done, behind = 0, None  # segments, and where the last one ended
     whirls_from: float | None = None
     while True:
         try:
@@ -52,6 +52,8 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
             builder.add_rigid(motion, motion.t_end)
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
             return run_over(scene.run) if over else motion
+        if pulse.cut and pulse.t_start > 0 and motion.period is not None and scene.run.t_end is None:
+            motion, pulse = _farther(scene, hoop, behind, motion, pulse)
         start = lead(motion, pulse, hoop.law.rolls_to)
         thrown = start == 0 and not builder.pieces and begins_with_a_blow(motion)  # which is the elastic hoop's own
         there = None if thrown else one_of(builder.add_rigid(motion, start), 1)
@@ -62,26 +64,34 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         state = state._replace(t=builder.t, x_C=builder.x_C)
         ends, timed = _ends_of(motion, pulse, start, state)
         run_out = inf if scene.run.t_end is None else scene.run.t_end
-        ends = ends._replace(t=min(ends.t, run_out))
+        ends = ends._replace(t=min(ends.t, run_out), turns=0 if timed else (scene.run.turns or 0) - len(builder.turns))
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, swept((float(state.pos[2]), pulse.phi_end)))
         state, segment, stop = builder.march(hoop, state, ends, scene.solve.rtol, watch)
         onward = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
         inside = not timed and onward * (float(state.pos[2]) - pulse.phi_end) < 0
-        cut_short = inside and state.t >= run_out - SHORTEST
+        # one that rocks in the angles of the pulse, for far longer than that takes, does not get out of it
+        cut_short = inside and (ends.t - state.t < SHORTEST or rest_of(scene.run, builder) is None)
         back = inside and not cut_short
-        if stop is None and back and ends.t - state.t < SHORTEST:
-            stop = Stop(": the hoop does not get out of the pulse", state.t, float(state.pos[2]))
         if stop is not None:
             return stop
         _list(builder, segment, motion, pulse, start, back, cut_short or (pulse.cut and timed))
-        done += 1
+        done, behind = done + 1, state
         if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse) and not builder.pulses[-1].cut:
             return pulse_over(back)
         rest = rest_of(scene.run, builder)
         if rest is None:
             return run_over(scene.run)
         motion = from_here(scene, hoop, state, rest)
+
+
+def _farther(scene: Scene, hoop: Hoop, behind: State | None, motion: Motion, pulse: Pulse) -> tuple[Motion, Pulse]:
+    """A motion that rolls for ever, and ends after one period, in a pulse, gone on with to the end of that."""
+    run = Run(t_end=motion.t_end + motion.period if motion.period is not None else motion.t_end)
+    first = rigid_limit(scene.replace(run=run))
+    longer = rigid.simulate(first) if behind is None else from_here(scene, hoop, behind, run)
+    found = min(longer.pulses, key=lambda other: abs(other.t_start - pulse.t_start))
+    return longer, found
 
 
 def _ensure_stands_in(lost: float, energy: float, t: float) -> None:

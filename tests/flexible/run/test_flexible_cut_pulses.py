@@ -51,3 +51,40 @@ def test_a_run_to_a_pulse_goes_on_to_the_first_whole_one(resolve, phi0_deg):
     assert motion.t_end == pytest.approx(last.t_end, abs=1e-9)
     assert last.normal_impulse == pytest.approx(wanted.normal_impulse, rel=0.01)
     assert last.friction_impulse == pytest.approx(wanted.friction_impulse, rel=0.01)
+
+
+#: the last of its slip ends in a pulse, in which the rigid hoop, known to roll for ever, stops after one period
+WHIRLING = {
+    "hoop": {"k": 0.478, "r": 1.131, "mass_ratio": 0.172}, "friction": {"mu_s": 1.472, "mu": 1.078},
+    "release": {"phi0_deg": -159.0, "omega0": 2.554, "slip0": -0.904}, "ring": {"bending_stiffness": 1e5},
+    "solve": {"rtol": 1e-3},
+}  # fmt: skip
+
+
+def test_a_pulse_in_which_the_rigid_hoop_has_gone_round_once_is_whole():
+    """It was listed as whole where the rigid one stopped, J_N a tenth less; and no run could go on from another."""
+    runs = {name: {**WHIRLING, "run": run} for name, run in (("turns", {"turns": 1}), ("time", {"t_end": 12.0}))}
+    motions = {name: flexible.simulate(scene) for name, scene in runs.items()}
+    one, other = (motion.pulses[1] for motion in motions.values())
+    assert not one.cut
+    assert (one.t_start, one.t_end, one.normal_impulse) == (other.t_start, other.t_end, other.normal_impulse)
+    whole = rigid.simulate(runs["time"]).pulses[1]
+    assert one.normal_impulse == pytest.approx(whole.normal_impulse, rel=1e-3)
+    on = flexible.simulate({**WHIRLING, "run": {"t_end": 15.0}}, resume=motions["turns"])
+    assert on.pulses[1] == one
+
+
+def test_a_hoop_that_rocks_in_the_angles_of_its_pulse_turns_as_often_as_asked_for():
+    """A landing leaves it there: it rocked on for fifteen turns, and the run was given up."""
+    rocking = {
+        "hoop": {"k": 0.154, "r": 1.0}, "friction": {"mu_s": 0.511, "mu": 0.511},
+        "release": {"phi0_deg": 345.94, "omega0": 1.411, "slip0": -0.829}, "ring": {"bending_stiffness": 4900.0},
+        "contact": {"stiffness": 3.19e6}, "solve": {"rtol": 1e-3},
+    }  # fmt: skip
+    motion = flexible.simulate({**rocking, "run": {"turns": 2}})
+    assert motion.completed
+    assert len(motion.turns) == 2
+    assert motion.t_end == pytest.approx(motion.turns[-1].t, rel=1e-9)
+    assert [pulse.cut for pulse in motion.pulses] == [False, True]
+    resting = flexible.simulate({**rocking, "run": {"until": "rest"}})
+    assert resting.ended.startswith("rolls for ever")
