@@ -22,6 +22,10 @@ TAKEN = 2.0
 that its steps do not follow it takes 0.5 at most."""
 
 
+LEFT = 2.0
+"""The same of what is in no book: at most 1.1 in a pulse without a landing, with one mostly less."""
+
+
 def account(motion: FlexibleMotion) -> list[tuple[str, str]]:
     """Entries of the ledger by name, with as many decimals for all as give the largest seven digits."""
     books = dataclasses.asdict(motion.ledger)
@@ -33,7 +37,7 @@ def account(motion: FlexibleMotion) -> list[tuple[str, str]]:
 
 def remarks(motion: FlexibleMotion) -> list[str]:
     """Sentences on the ledger and on the phases."""
-    return [sentence for sentence in (_hand_over(motion), _taken(motion), _chatter(motion)) if sentence]
+    return [sentence for sentence in (_hand_over(motion), _taken(motion), _left(motion), _chatter(motion)) if sentence]
 
 
 def _hand_over(motion: FlexibleMotion) -> str:
@@ -62,6 +66,17 @@ def _taken(motion: FlexibleMotion) -> str:
     return (
         f"Numerical loss: the steps {way} {took / held:.2g} of the energy, in vibrations faster than they follow. "
         f"What hangs on those may be further off than solve.rtol = {rtol:g}; a run with a smaller one shows how far."
+    )
+
+
+def _left(motion: FlexibleMotion) -> str:
+    scene, left = motion.scene, abs(motion.ledger.residual)
+    held, rtol = max(abs(motion.ledger.initial), scene.energy_unit), scene.solve.rtol
+    if left <= LEFT * rtol * held * max(1, len(motion.pulses)):
+        return ""
+    return (
+        f"Residual: {left / held:.2g} of the energy is in none of the books, as where spots of the rim land or snap "
+        f"off within a step. A run with a solve.rtol below {rtol:g} shows whether the motion is another one."
     )
 
 

@@ -1,6 +1,7 @@
 """The energy ledger as it is printed, and what is said of it."""
 
 import re
+from dataclasses import replace
 from math import sqrt
 
 import pytest
@@ -80,3 +81,16 @@ def test_what_the_steps_took_is_told_where_they_do_not_follow():
             share = float(re.search(r"took (\S+) of the energy", sentence)[1])
             # to two digits
             assert share * motion.ledger.initial == pytest.approx(abs(motion.ledger.numerical_loss), rel=0.06)
+
+
+@pytest.mark.parametrize(("share", "told"), [(3.0, True), (-3.0, True), (0.5, False)])
+def test_energy_in_no_book_is_told(chattering, share, told):
+    """Over rtol times the energy, of a motion with one pulse."""
+    ledger = chattering.ledger
+    left = share * chattering.scene.solve.rtol * ledger.initial
+    motion = replace(chattering, ledger=replace(ledger, residual=left))
+    sentences = [text for text in remarks(motion) if text.startswith("Residual:")]
+    assert len(sentences) == told
+    if told:
+        part = float(re.search(r"Residual: (\S+) of the energy", sentences[0])[1])
+        assert part == pytest.approx(abs(left) / ledger.initial, rel=0.06)  # two digits
