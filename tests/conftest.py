@@ -1,4 +1,5 @@
-"""The same examples in every run of the same files, kernels that are compiled and loaded before the first test, a process for each file.
+"""The same examples in every run of the same files, kernels that are compiled and loaded before the first test, a
+process for each file.
 
 HYPOTHESIS_PROFILE=explore looks for new examples, as `hoop stress --seed N` does.
 """

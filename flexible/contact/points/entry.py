@@ -64,7 +64,7 @@ def entry_of(point: Point, dphi: float, turn: float, ratio: float) -> Entry:
         if abs(step) < ENTERS:
             break
         gap = g_new + (2 * half * half - lifted) + own * s
-        if gap < 0:
+        if gap < 0 and s < 1:  # the step began above the floor, by whatever rounding makes of that
             low = s
         else:
             high = s
