@@ -163,7 +163,7 @@ class Solve:
         landings, and the blow that may stop a hoop thrown with slip, are the rigid hoop's.
     start : {"equilibrium", "undeformed"}
         Whether the flexible hoop begins sagged in quasi-static equilibrium, or undeformed and touching the floor; one
-        thrown with a slip that no friction allows is undeformed anyway.
+        thrown with a slip that no friction allows is undeformed anyway where it is flexible throughout.
     rtol : float
         Tolerance on the impulses, over M sqrt(g R) with M the mass of disk and hoop, about; of a patch that sticks
         while it or a ring with mass vibrates, by which it breaks, they may be off by several times that, some twenty

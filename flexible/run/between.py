@@ -12,7 +12,7 @@ from ..contact.laws.listing import rigid_limit
 from ..models.select import Hoop
 from ..models.state import State
 from ..segment import Segment
-from ..start.handover import begins_with_a_blow, hand_over
+from ..start.handover import hand_over
 from ..start.pose import one_of
 from ..time.adaptive import MarchError
 from ..time.advance import SHORTEST
@@ -55,10 +55,9 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         if pulse.cut and pulse.t_start > 0 and motion.period is not None and scene.run.t_end is None:
             motion, pulse = _farther(scene, hoop, behind, motion, pulse)
         start = lead(motion, pulse, hoop.law.rolls_to)
-        thrown = start == 0 and not builder.pieces and begins_with_a_blow(motion)  # which is the elastic hoop's own
-        there = None if thrown else one_of(builder.add_rigid(motion, start), 1)
+        ends_there = builder.add_rigid(motion, start)
         try:
-            state = hand_over(hoop, motion, start, there)
+            state = hand_over(hoop, motion, start, one_of(ends_there, 1))
         except MarchError as error:
             return error.stop
         state = state._replace(t=builder.t, x_C=builder.x_C)

@@ -323,3 +323,17 @@ def test_a_damped_floor_bears_from_the_first_what_the_rigid_hoop_does(damping, s
     assert [phase.kind for phase in motion.phases] == [phase.kind for phase in limit.phases]
     expected = limit.at(motion.history.t).normal_force
     assert motion.history.normal_force == pytest.approx(expected, rel=0.03)
+
+
+def test_a_release_that_creeps_is_not_thrown():
+    """Rolling under nearly mu N smoothed friction creeps; the rigid hoop takes that slip for a jam, and is stopped."""
+    creeping = Scene(
+        Hoop(k=0.0345, r=1.19), Friction(0.734, 0.734), Release(1.0, 0.08, -2e-3), Run(t_end=0.05),
+        ring=Ring(bending_stiffness=3060.0), contact=Contact("regularised", 7.5e11, slip_velocity_scale=1e-3),
+        solve=Solve(resolve="all", rtol=1e-3),
+    )  # fmt: skip
+    assert rigid.simulate(creeping).phases[0].kind is Kind.IMPACT
+    motion = flexible.simulate(creeping)
+    assert Kind.FLIGHT not in [phase.kind for phase in motion.phases]
+    thrown = flexible.simulate(creeping.replace(release={"slip0": -0.2}))
+    assert Kind.FLIGHT in [phase.kind for phase in thrown.phases]
