@@ -26,10 +26,9 @@ from .time.methods import METHODS
 Array = NDArray[np.float64]
 
 
-def _lost_in_blows(motion: Motion, until: float) -> float:
-    """Energy that a rigid motion lost by then where it came down after a flight, or was stopped as it was released."""
-    start = motion.at(0.0, "left"), motion.at(0.0)
-    lost = float(start[0].energy - start[1].energy)
+def _lost_in_landings(motion: Motion, until: float) -> float:
+    """Energy that a rigid motion lost by then where it came down after a flight."""
+    lost = 0.0
     for before, phase in pairwise(motion.phases):
         if phase.kind == Kind.IMPACT and before.kind in (Kind.FLIGHT, Kind.SKIM) and phase.t_start <= until:
             # nothing is lost off the floor
@@ -113,7 +112,7 @@ class Builder:
         if until <= 0 and self.pieces:
             return ends
         self._meet(released)
-        blows = _lost_in_blows(motion, until)
+        blows = released - float(ends.energy[0]) + _lost_in_landings(motion, until)
         self.landing_loss += blows
         self.friction_loss += released - float(ends.energy[1]) - blows
         potential = float((1 + self.hoop.mass_ratio) * (ends.y_C[1] + self.hoop.e * np.cos(ends.phi[1])))

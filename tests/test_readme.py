@@ -93,6 +93,20 @@ def test_python_examples_run() -> None:
         exec(compile(block, "README.md", "exec"), {})
 
 
+PAGES = [page for page in sorted(ROOT.glob("**/*.md")) if ".venv" not in page.parts]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+def test_formulas_and_tables_hold_together(page: Path) -> None:
+    """A formula that goes on in the next line is none, and a bar in one is the end of a table's cell."""
+    text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    lines = [re.sub(r"`[^`]*`", "", line) for line in text.splitlines()]
+    assert not [line for line in lines if line.replace("$$", "").count("$") % 2]
+    tables = re.findall(r"(?:^\|.*\n)+", "\n".join(lines), flags=re.MULTILINE)
+    cells = [[len(re.findall(r"(?<!\\)\|", row)) for row in table.splitlines()] for table in tables]
+    assert not [counts for counts in cells if len(set(counts)) > 1]
+
+
 def test_both_set_up_lines_are_one_line_each() -> None:
     lines = [line for line in README.splitlines() if "venv .venv" in line]
     assert len(lines) == 2

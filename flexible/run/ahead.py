@@ -28,6 +28,11 @@ def rest_of(run: Run, builder: Builder) -> Run | None:
     return run
 
 
+def from_release(scene: Scene, run: Run) -> Motion:
+    """The motion of the rigid hoop that stands for a flexible one from the release on."""
+    return rigid.simulate(rigid_limit(scene.replace(run=run)))
+
+
 def from_here(scene: Scene, hoop: Hoop, state: State, run: Run) -> Motion:
     """The motion of the rigid hoop that takes over from a flexible one where that stands, on the floor or in a hop."""
     omega, slip, aloft = taken_over(hoop, state)

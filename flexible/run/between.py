@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from math import inf, pi
 
-import rigid
 from rigid import Motion, Pulse, Run, Scene
 
 from ..builder import Builder
-from ..contact.laws.listing import rigid_limit
 from ..models.select import Hoop
 from ..models.state import State
 from ..segment import Segment
@@ -18,7 +16,7 @@ from ..time.adaptive import MarchError
 from ..time.advance import SHORTEST
 from ..time.course import Stop
 from ..time.events import Ends
-from .ahead import from_here, rest_of, slips_no_more, whirls
+from .ahead import from_here, from_release, rest_of, slips_no_more, whirls
 from .pulses import comes_to, goes_through_turns, lead, over_bottom
 from .told import Ending, Progress, pulse_over, run_over, swept
 
@@ -29,7 +27,7 @@ WAITS = 10.0  # sqrt(R/g) that a hoop may take for it, beyond four pulse lengths
 
 def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> Ending:
     """Rigid between pulses, flexible inside."""
-    motion = rigid.simulate(rigid_limit(scene))
+    motion = from_release(scene, scene.run)
     done, behind = 0, None  # segments, and where the last one ended
     whirls_from: float | None = None
     while True:
@@ -53,7 +51,9 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
             return run_over(scene.run) if over else motion
         if pulse.cut and pulse.t_start > 0 and motion.period is not None and scene.run.t_end is None:
-            motion, pulse = _farther(scene, hoop, behind, motion, pulse)
+            further = Run(t_end=motion.t_end + motion.period)  # it rolls for ever, and stopped after a period, in this
+            motion = from_release(scene, further) if behind is None else from_here(scene, hoop, behind, further)
+            pulse = _same(motion, pulse)
         start = lead(motion, pulse, hoop.law.rolls_to)
         ends_there = builder.add_rigid(motion, start)
         try:
@@ -84,13 +84,9 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         motion = from_here(scene, hoop, state, rest)
 
 
-def _farther(scene: Scene, hoop: Hoop, behind: State | None, motion: Motion, pulse: Pulse) -> tuple[Motion, Pulse]:
-    """A motion that rolls for ever, and ends after one period, in a pulse, gone on with to the end of that."""
-    run = Run(t_end=motion.t_end + motion.period if motion.period is not None else motion.t_end)
-    first = rigid_limit(scene.replace(run=run))
-    longer = rigid.simulate(first) if behind is None else from_here(scene, hoop, behind, run)
-    found = min(longer.pulses, key=lambda other: abs(other.t_start - pulse.t_start))
-    return longer, found
+def _same(motion: Motion, pulse: Pulse) -> Pulse:
+    """The pulse of a motion that begins with one of the same motion run less far."""
+    return min(motion.pulses, key=lambda other: abs(other.t_start - pulse.t_start))
 
 
 def _ensure_stands_in(lost: float, energy: float, t: float) -> None:

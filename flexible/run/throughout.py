@@ -6,11 +6,9 @@ from collections.abc import Callable
 from math import ceil, floor, pi
 from typing import NamedTuple
 
-import rigid
 from rigid import Motion, Pulse, Run, Scene
 
 from ..builder import Builder
-from ..contact.laws.listing import rigid_limit
 from ..models.select import Hoop
 from ..models.state import State
 from ..segment import Segment
@@ -18,7 +16,7 @@ from ..start.handover import hand_over
 from ..time.adaptive import MarchError
 from ..time.course import Stop
 from ..time.events import Ends
-from .ahead import from_here, rest_of, slips_no_more, whirls
+from .ahead import from_here, from_release, rest_of, slips_no_more, whirls
 from .pulses import BACKWARD, add_pulses, swings, turns_of, unfinished
 from .told import Ending, Progress, pulse_over, run_over
 
@@ -32,10 +30,6 @@ class Swing(NamedTuple):
     until: float  # the time at which to stop
 
 
-def _first(scene: Scene, ahead: Run) -> Scene:
-    return rigid_limit(scene.replace(run=ahead))
-
-
 def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> Ending:
     """Run a scene; each pulse is measured over the rigid hoop's interval.
 
@@ -43,7 +37,7 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
     pulse lies, and whether the run is at rest, is released from the flexible one's state at its beginning. A run is at
     rest behind a swing over the bottom alone, not where a soft hoop rocks beside its release.
     """
-    reference = rigid.simulate(rigid_limit(scene))
+    reference = from_release(scene, scene.run)
     try:
         state = hand_over(hoop, reference, 0.0)
     except MarchError as error:
@@ -58,7 +52,7 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
     while run is not None:
         ahead = Run(until="rest" if run.until == "rest" else "pulse")
         # whether it slips at the release is said by the scene: all points of a brush may stick in the first instant
-        swing = from_here(scene, hoop, state, ahead) if builder.pieces else rigid.simulate(_first(scene, ahead))
+        swing = from_here(scene, hoop, state, ahead) if builder.pieces else from_release(scene, ahead)
         if run.until == "rest" and swung_through and slips_no_more(swing):
             return swing
         # a swing that begins at a turn has no rest of a pulse to list, and a pulse that goes on through one is one

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from rigid import Kind, Motion, States
 from rigid.output.units import without_units
 
-from ..airborne import rise
+from ..airborne import LEAST, rise
 from ..contact.laws.law import Rolling
 from ..contact.laws.listing import is_smoothed
 from ..contact.points.rim import lift, sideways, upward
@@ -29,19 +29,18 @@ from .pose import Pose, instants_around, pose_of, poses_at
 Array = NDArray[np.float64]
 
 JUMPS = 0.1  # of N: less than this of it may be the damper's that the springs of a start bear, for an instant
-CREEPS = 30.0  # times v_s, up to which a release is that of a hoop that creeps: 0.999 of mu N is carried at 22
 FALLS = 0.5  # of N in the time of its damper: where it falls faster its springs are behind it by more than is known
 
 
-def _begins_with_a_blow(hoop: Hoop, motion: Motion) -> bool:
+def _begins_with_a_blow(motion: Motion) -> bool:
     """Whether a rigid hoop is released slipping where Coulomb's law has no forces for it, and friction stops it.
 
-    Smoothed friction has forces for what creeps.
+    One that has no more than a hop's energy to lose is one that creeps, as rolling elastic hoops do.
     """
     if not motion.phases or motion.phases[0].kind is not Kind.IMPACT:
         return False
-    scene = hoop.scene
-    return abs(scene.release.slip0) > CREEPS * hoop.law.rolls_below(scene.contact)
+    lost = float(motion.at(0.0, "left").energy - motion.at(0.0).energy)
+    return lost > LEAST * (1 + motion.scene.hoop.mass_ratio) * motion.scene.energy_unit
 
 
 def hand_over(hoop: Hoop, motion: Motion, t: float, there: States | None = None) -> State:
@@ -51,7 +50,7 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, there: States | None = None)
     is no equilibrium: the hoop is as it was thrown, and undeformed.
     """
     scene = motion.scene
-    if t == 0 and there is None and _begins_with_a_blow(hoop, motion):
+    if t == 0 and there is None and _begins_with_a_blow(motion):
         return undeformed(hoop, pose_of(without_units(motion.at(0.0, "left"), scene), Kind.IMPACT))
     now = without_units(motion.at(t) if there is None else there, scene)
     pose = pose_of(now, motion.phase_at(t).kind)

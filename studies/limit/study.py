@@ -38,8 +38,8 @@ if TYPE_CHECKING:
 
 OBSERVED = ("impulse_ratio", "friction_impulse", "normal_impulse", "friction_loss")
 """Measures that are predicted and observed."""
-
 COLUMNS = ("solver", "foundation", "measure", "value", "numerical_error", "limit", "distance", "predicted", "failure")
+"""Of a study's table."""
 FOUNDATIONS = (1e10, 1e11, 1e12)
 """At which the rigid ring is observed; a decade makes the distance 2.15 times smaller."""
 

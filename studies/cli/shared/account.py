@@ -21,7 +21,6 @@ TAKEN = 2.0
 """What the integrator may take for each pulse, over rtol times the energy, before it is spoken of; without vibrations
 that its steps do not follow it takes 0.5 at most."""
 
-
 LEFT = 2.0
 """The same of what is in no book: at most 1.1 in a pulse without a landing, with one mostly less."""
 
@@ -57,25 +56,29 @@ def _hand_over(motion: FlexibleMotion) -> str:
     return said
 
 
+def _share(motion: FlexibleMotion, energy: float, most: float) -> float:
+    """Of the energy of a motion, by size; 0 where it is no more than so many times rtol for each pulse."""
+    share = abs(energy) / max(abs(motion.ledger.initial), motion.scene.energy_unit)
+    return share if share > most * motion.scene.solve.rtol * max(1, len(motion.pulses)) else 0.0
+
+
 def _taken(motion: FlexibleMotion) -> str:
-    scene, took = motion.scene, abs(motion.ledger.numerical_loss)
-    held, rtol = max(abs(motion.ledger.initial), scene.energy_unit), scene.solve.rtol
-    if took <= TAKEN * rtol * held * max(1, len(motion.pulses)):
+    took, rtol = _share(motion, motion.ledger.numerical_loss, TAKEN), motion.scene.solve.rtol
+    if not took:
         return ""
     way = "took" if motion.ledger.numerical_loss > 0 else "gave"
     return (
-        f"Numerical loss: the steps {way} {took / held:.2g} of the energy, in vibrations faster than they follow. "
+        f"Numerical loss: the steps {way} {took:.2g} of the energy, in vibrations faster than they follow. "
         f"What hangs on those may be further off than solve.rtol = {rtol:g}; a run with a smaller one shows how far."
     )
 
 
 def _left(motion: FlexibleMotion) -> str:
-    scene, left = motion.scene, abs(motion.ledger.residual)
-    held, rtol = max(abs(motion.ledger.initial), scene.energy_unit), scene.solve.rtol
-    if left <= LEFT * rtol * held * max(1, len(motion.pulses)):
+    left, rtol = _share(motion, motion.ledger.residual, LEFT), motion.scene.solve.rtol
+    if not left:
         return ""
     return (
-        f"Residual: {left / held:.2g} of the energy is in none of the books, as where spots of the rim land or snap "
+        f"Residual: {left:.2g} of the energy is in none of the books, as where spots of the rim land or snap "
         f"off within a step. A run with a solve.rtol below {rtol:g} shows whether the motion is another one."
     )
 

@@ -326,7 +326,7 @@ def test_a_damped_floor_bears_from_the_first_what_the_rigid_hoop_does(damping, s
 
 
 def test_a_release_that_creeps_is_not_thrown():
-    """Rolling under nearly mu N smoothed friction creeps; the rigid hoop takes that slip for a jam, and is stopped."""
+    """Rolling an elastic hoop creeps; the rigid one takes that slip for a jam, and is stopped, which takes 1e-7 mgR."""
     creeping = Scene(
         Hoop(k=0.0345, r=1.19), Friction(0.734, 0.734), Release(1.0, 0.08, -2e-3), Run(t_end=0.05),
         ring=Ring(bending_stiffness=3060.0), contact=Contact("regularised", 7.5e11, slip_velocity_scale=1e-3),
