@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from .rim import RimNodes, follow
 from .rod.corotated import Rod
 from .rod.ends import BACK, chord_strains
-from .rod.second import second_order
+from .rod.orders import second_order
 from .rod.section import RodCompliance
 
 Array = NDArray[np.float64]

@@ -224,6 +224,8 @@ class ChainRing:
             softening=unit.softening * self.stiffness,
             across=unit.across * self.stiffness,
             bent=unit.bent * self.stiffness,
+            far=unit.far * self.stiffness,
+            fading=unit.fading / self.stiffness,
             mass=unit.mass * mass,
             turning=unit.turning * mass,
         )

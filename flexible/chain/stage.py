@@ -78,7 +78,10 @@ def example() -> tuple[tuple[Any, ...], Solved]:
     (row, table, rim, law, mode, before, damper, _), contact = of_contact()
     count, cube = np.empty(0, np.int64), np.empty((0, 2, 2))
     seen, none = np.empty((0, 2, 4, 3)), (0.0,) * 6
-    rod = Rod(row, table, table, cube, cube, row, row, row, seen, table, row, row, table, 0.0, 0.0, 0.0, seen, 0)
+    far = np.empty((0, 3, 3, 3, 3))
+    rod = Rod(
+        row, table, table, cube, cube, row, row, row, seen, far, 0.0, table, row, row, table, 0.0, 0.0, 0.0, seen, 0
+    )  # fmt: skip
     chain = Chain(Body(*none), rod, EndMass(table, table, table, row, row))
     facing = Facing(rim, RimNodes(count, row, cube, np.empty((0, 2, 2, 3, 3))), table)
     start = Begin(row, table, Foreseen(0.0, 0.0), 0.0, False)

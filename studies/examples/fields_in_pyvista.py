@@ -21,12 +21,14 @@ def main(out: Path = Path(), frames: int = 12) -> Path:
     reader.set_active_time_point(int(np.argmax(forces)))
     ring = reader.read()[0]
     print(f"{ring.n_cells} cells, {ring.point_data.keys()}")
+    largest = float(np.abs(ring["hoop_stress"]).max())
     plotter = pyvista.Plotter(off_screen=True, window_size=[900, 700])
     plotter.add_mesh(
         ring,
         scalars="hoop_stress",
         cmap="RdBu_r",
-        scalar_bar_args={"title": "hoop stress / (m g/R²)", "n_labels": 3},
+        clim=(-largest, largest),
+        scalar_bar_args={"title": "hoop stress / (m g/R²)\n", "n_labels": 3, "fmt": "%.3g"},
     )
     plotter.camera_position = "xy"
     plotter.camera.parallel_projection = True

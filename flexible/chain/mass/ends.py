@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..rod.ends import MIRROR
-from ..rod.second import Line, quadratic
 from ..rod.section import RodCompliance, transfer
+from ..rod.wall import Line, quadratic
 
 Array = NDArray[np.float64]
 

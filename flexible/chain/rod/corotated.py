@@ -16,7 +16,7 @@ kappa, a fibre at z strains by eps + (1 + (1 - nu) eps) z kappa + (1 - nu) z^2 k
 thinner as it is pulled, and its middle moves), so that bending costs 1 + 3 (1 - nu) eps times as much. Strains of a
 hundredth, in a wall between disk and floor, change its stiffness by two. A part that bends far bends easier
 (:mod:`flexible.chain.rod.softening`). A part at the weld, which holds one side of the wall alone, bends easier one way
-than the other: there the first two are the mesh's (:mod:`flexible.chain.rod.ends`).
+than the other: there all three are the mesh's (:mod:`flexible.chain.rod.ends`).
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 
 from rigid.kernel.compile import jit, loop
 
-from .softening import softened
+from .softening import far_bent, softened
 
 Array = NDArray[np.float64]
 
@@ -53,9 +53,13 @@ class Rod(NamedTuple):
         Bending stiffness of each part, in tau_2 - tau_1, that comes with x = 1.
     softening, strained : (n + 1,) arrays
         Bending stiffness that each part loses as it bends far, and how far that is: see
-        :mod:`flexible.chain.rod.softening`.
+        :mod:`flexible.chain.rod.softening`. Of the first and the last part the mesh has that.
     bent : (2, 3, 3, 3) array
         Third derivatives of the energy of the first and of the last part by (x, tau_1, tau_2).
+    far : (2, 3, 3, 3, 3) array
+        Fourth derivatives.
+    fading : float
+        1/U_s by which these fade.
     across : (3, 3) array
         Of the first part by the last one, through the wall over the weld.
     mass, turning : (n + 2,) arrays
@@ -83,6 +87,8 @@ class Rod(NamedTuple):
     softening: Array
     strained: Array
     bent: Array
+    far: Array
+    fading: float
     across: Array
     mass: Array
     turning: Array
@@ -179,7 +185,8 @@ def stress_at_weld(rod: Any, q: Any, p: int, x: float, tau_1: float, tau_2: floa
     h2 = m02 * x + m12 * tau_1 + m22 * tau_2
     energy = (x * s0 + tau_1 * s1 + tau_2 * s2) / 2 + (x * h0 + tau_1 * h1 + tau_2 * h2) / 6
     less, moment, _ = softened(rod.softening[p], rod.strained[p], tau_2 - tau_1)
-    return energy + less, s0 + h0 / 2, s1 + h1 / 2 - moment, s2 + h2 / 2 + moment
+    more, q0, q1, q2, _, _, _, _, _, _ = far_bent(rod.far[min(p, 1)], rod.fading, rod.local[p], x, tau_1, tau_2)
+    return energy + less + more, s0 + h0 / 2 + q0, s1 + h1 / 2 + q1 - moment, s2 + h2 / 2 + q2 + moment
 
 
 @jit

@@ -2,8 +2,8 @@
 
 The mesh was cut some walls behind the weld, where what the weld does to the wall has faded. The rod is taken off from
 there to the first section of the chain, and what is left is that section's compliance: the first part's and the joint's
-with the weld, in which all that fades is gathered. That part bends easier one way than the other: its energy of third
-order is what makes that section move as the mesh's does, to second order.
+with the weld, in which all that fades is gathered. That part bends easier one way than the other, and the easier the
+further: its energy of third and of fourth order is what makes that section move as the mesh's does, to third order.
 """
 
 from __future__ import annotations
@@ -15,11 +15,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from .second import SecondOrder, second_order
+from .orders import Known, SecondOrder, fourth_order, second_order
 from .section import RodCompliance, radial, transfer
 
 Array = NDArray[np.float64]
 
+KNOWN = 0.4  # of the stresses of third order may be left; a wall's own softening is nearer to those of coarser quads
 MIRROR = np.diag([1.0, -1.0, -1.0])  # of displacement (y1, y2) and rotation, or of force and moment
 BACK = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0]])  # of strains: the angles change places and signs
 
@@ -35,11 +36,14 @@ class Ends(NamedTuple):
         Second derivatives of the stretch of their lines by their angles.
     bent : (2, 3, 3, 3) array
         Third derivatives of their energy by (x, tau_1, tau_2), x that stretch.
+    far : (2, 3, 3, 3, 3) array
+        Fourth derivatives; zero where the mesh is too coarse to know them.
     """
 
     local: Array
     bow: Array
     bent: Array
+    far: Array
 
 
 def chord_strains(one: Array, two: Array, moves: int) -> Array:
@@ -111,7 +115,12 @@ def ends(compliance: RodCompliance, weld: float, first: float) -> Ends:
     bow = third[0, 1:, 1:].copy()
     third[0, 1:, 1:] = third[1:, 0, 1:] = third[1:, 1:, 0] = 0.0
     bent = _by(third, np.array([own[0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]))
-    return Ends(local, np.stack([bow, bow[::-1, ::-1]]), np.stack([bent, _by(bent, BACK)]))
+    far, left = fourth_order(compliance, first, Known(own, bow, bent, place[1] - place[0], by[:3, :3]))
+    far *= left < KNOWN
+    back = np.einsum("abcd,ai,bj,ck,dl->ijkl", far, BACK, BACK, BACK, BACK)
+    return Ends(
+        local, np.stack([bow, bow[::-1, ::-1]]), np.stack([bent, _by(bent, BACK)]), np.stack([far, back])
+    )  # fmt: skip
 
 
 def third_of(answers: SecondOrder, own: Array, by: Array, chord: Array) -> Array:

@@ -11,7 +11,7 @@ from ...ring.fem import Ring
 from .corotated import Rod
 from .ends import bending, bow_of, chord_strains, ends, in_strains, is_jointed, pulled_of
 from .section import RodCompliance, is_slender, radial
-from .softening import softening_of, strained_of
+from .softening import fading_of, softening_of, strained_of
 from .surface import pinch_of, seen_of
 
 Array = NDArray[np.float64]
@@ -39,7 +39,7 @@ def cuts(begin: float, parts: int) -> Array:
 def behind_weld(wall: float) -> float:
     """How far behind the weld the first section is at least: a wall, and in walls above ``JOINTED`` two.
 
-    Two are what the wall there has of the third order best, see :mod:`flexible.chain.rod.second`; of a part longer than
+    Two are what the wall there has of the third order best, see :mod:`flexible.chain.rod.orders`; of a part longer than
     ``LONGEST`` the own vibrations are missed.
     """
     return wall if wall <= JOINTED else max(wall, min(2 * wall, LONGEST))
@@ -79,6 +79,9 @@ def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
     ways = np.diff(place, axis=0)
     chords = np.hypot(*ways.T)
     local = np.stack([end.local[:3, :3], *pieces, end.local[3:, 3:]])
+    softening = np.array([softening_of(bending(part), ring.poisson) for part in local])
+    if end.far.any():
+        softening[[0, -1]] = 0.0
     mass = section_masses(theta)
     return Rod(
         theta,
@@ -89,9 +92,11 @@ def make_rod(compliance: RodCompliance, ring: Ring, parts: int) -> Rod:
         pulled=np.array(
             [0.0, *(pulled_of(p, c, ring.poisson) for p, c in zip(pieces, chords[1:-1], strict=True)), 0.0]
         ),
-        softening=np.array([softening_of(bending(p), ring.poisson) for p in local]),
+        softening=softening,
         strained=np.array([strained_of(chord, 1 - inner) for chord in chords]),
         bent=end.bent,
+        far=end.far,
+        fading=fading_of(end.far[0], end.local[:3, :3]),
         across=end.local[:3, 3:].copy(),
         mass=mass,
         turning=mass * ((1 + inner**2) / 2 - a**2),

@@ -9,7 +9,7 @@ import numpy as np
 from rigid.kernel.compile import jit, loop, part
 
 from .corotated import outward, stiffer, strains, stress, stress_at_weld
-from .softening import softened
+from .softening import far_bent, softened
 
 
 @loop
@@ -100,6 +100,8 @@ def _within(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None:
         else:
             _, s0, s1, s2 = stress_at_weld(rod, q, p, x, tau_1, tau_2)
             m00, m01, m02, m11, m12, m22 = stiffer(rod.bent[min(p, 1)], x, tau_1, tau_2)
+            _, _, _, _, f00, f01, f02, f11, f12, f22 = far_bent(rod.far[min(p, 1)], rod.fading, local, x, tau_1, tau_2)
+            m00, m01, m02, m11, m12, m22 = m00 + f00, m01 + f01, m02 + f02, m11 + f11, m12 + f12, m22 + f22
         _, _, less = softened(rod.softening[p], rod.strained[p], tau_2 - tau_1)
         second = (
             local[0, 0] + m00, local[0, 1] + m01, local[0, 2] + m02,

@@ -14,6 +14,7 @@ import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
 from matplotlib.ticker import LogFormatterSciNotation, NullFormatter
 
 from ...plots.pulse import OKABE_ITO, STYLE, save
@@ -85,7 +86,7 @@ def _name_settings(axes: Any, rows: Sequence[Row]) -> None:
         line = {"arrowstyle": "-", "linewidth": 0.5, "color": "0.6"} if abs(height - y) > 1e-9 else None
         axes.annotate(
             ", ".join(filter(None, [row.setting, row.note])), (x, y), (x + _SAME, height), xycoords="axes fraction",
-            va="center", fontsize=8, arrowprops=line,
+            va="center", fontsize=8, arrowprops=line, path_effects=[withStroke(linewidth=2.5, foreground="white")],
         )  # fmt: skip
 
 

@@ -1,5 +1,6 @@
 """A wall that bends far bends easier: the energy of fourth order of a part, against the wall of Green's strain."""
 
+from itertools import permutations
 from math import cos, pi, sin
 
 import numpy as np
@@ -8,7 +9,7 @@ from numpy.polynomial.legendre import leggauss
 from pressing import pressed
 
 from flexible.chain.ring import _Shape
-from flexible.chain.rod.softening import softened, softening_of, strained_of
+from flexible.chain.rod.softening import fading_of, far_bent, softened, softening_of, strained_of
 from flexible.ring.fem import Ring
 from meshes import ring_mesh
 
@@ -74,6 +75,48 @@ def test_softening_is_a_potential_s():
         up, down = (softened(softening, strained, bend + way * step) for way in (1, -1))
         assert moment == pytest.approx((up[0] - down[0]) / (2 * step), abs=1e-8)
         assert slope == pytest.approx((up[1] - down[1]) / (2 * step), abs=1e-8)
+
+
+def a_far_bent_part(seed, softer=0.0):
+    """Fourth derivatives, a stiffness and 1/U_s, at random, but for ``softer`` U^2 less energy of fourth order."""
+    rng = np.random.default_rng(seed)
+    root = rng.standard_normal((3, 3))
+    local = root @ root.T + np.eye(3)
+    far = rng.standard_normal((3, 3, 3, 3)) - 6 * softer * np.multiply.outer(local, local)
+    far = sum(far.transpose(order) for order in permutations(range(4))) / 24
+    return far, local, fading_of(far, local)
+
+
+def test_far_bent_is_a_potential_s_of_fourth_order():
+    """Stresses and stiffness by central differences of energy and stresses; 1/16 of the energy at half the strains."""
+    far, local, fading = a_far_bent_part(1)
+    at, step = np.array([0.2, -0.5, 0.3]), 1e-5
+    _, *found = far_bent(far, fading, local, *at)
+    stress, (m00, m01, m02, m11, m12, m22) = np.array(found[:3]), found[3:]
+    up, down = (np.array([far_bent(far, fading, local, *(at + way))[:4] for way in sign * step * np.eye(3)])
+                for sign in (1, -1))  # fmt: skip
+    slopes = (up - down) / (2 * step)
+    assert stress == pytest.approx(slopes[:, 0], abs=1e-8)
+    assert slopes[:, 1:] == pytest.approx(np.array([[m00, m01, m02], [m01, m11, m12], [m02, m12, m22]]), abs=1e-8)
+    whole, half = (far_bent(far, fading, local, *(share * 1e-4 * at))[0] for share in (1.0, 0.5))
+    assert half / whole == pytest.approx(1 / 16, rel=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_bend_loses_all_its_stiffness(seed):
+    """Without a force along the line, however far: U - U^2/(U_0 + a U) is convex on a way from a = 5/4 on.
+
+    With 1.3 the least of its second derivative is 0.035 of that of U.
+    """
+    far, local, fading = a_far_bent_part(seed, 0.1)
+    assert fading > 0
+    for angle in np.linspace(0, pi, 40):
+        bends = np.array([cos(angle), sin(angle)])
+        way = np.array([-local[0, 1:] @ bends / local[0, 0], *bends])
+        for size in np.geomspace(1e-2, 1e2, 41):
+            _, _, _, _, m00, m01, m02, m11, m12, m22 = far_bent(far, fading, local, *(size * way))
+            more = np.array([[m00, m01, m02], [m01, m11, m12], [m02, m12, m22]])
+            assert way @ (local + more) @ way > 0.03 * way @ local @ way
 
 
 @pytest.mark.parametrize(("walls", "within"), [(2.7, 5e-3), (4.0, 5e-3)])
