@@ -47,6 +47,9 @@ MOST = 1_000_000  # steps of a layer: some 1 s
 TOO_FAST = "its damper, or the smoothing of its friction, is far faster than its patch"
 _POINTS = 300  # of a brush to its patch
 _CARRIED = 1 - 1e-8  # of mu N, by a smoothed law whose slip starts: all of it is carried by no finite V
+_FULL = 2.0  # times the creep at which a brush rolls with all of mu_s N: of so fast a slip no point sticks
+_FAR = 10.0  # times V_s: smoothed friction lacks half the square of its inverse of mu N there, which is known to 1e-4
+_AHEAD = 100.0  # of a layer's duration, for which its slip is looked at before it or behind at most
 _RELEASED = 0.95  # of the part that sticks at the most a brush carries, where its running away begins
 
 
@@ -132,10 +135,13 @@ def layer(
 ) -> Layer:
     """Solve the inner problem of an event.
 
+    It begins with all of mu N: under laws that lose some of it to a slip that is slow, a while before the event.
+
     Parameters
     ----------
     duration : float, optional
-        In tau; by default ten periods and five passages of a point through the patch.
+        In tau, from the event on; by default ten periods and five passages of a point through the patch, and until a
+        smoothed friction is all there again where the slip goes on.
     fineness : float
         Step over the fastest time at work.
     eps : float
@@ -144,18 +150,25 @@ def layer(
     normal, friction = outer_forces(body, event, False)
     half = half_width(normal)
     period = period_of(body, event)
+    slow = 0.0 if event.kind == START else slow_slip(contact, half, event.omega)
     if duration is None:
         duration = 10 * period + 10 * half / abs(event.omega)
+        if contact.law == REGULARISED and event.behind is not None and slow > 0:
+            duration += min(slow / abs(_quickening(body, event, True)), _AHEAD * duration)
     state = np.zeros(STATE)
     state[PSI], state[OMEGA], state[HEIGHT] = event.psi, event.omega, -(half**2) / 2
     kept = bristles(2 * half / _POINTS)
-    mode = STICK
+    mode, ahead = STICK, 0.0
     if event.kind == START:
         if contact.law == REGULARISED:
             friction = float(np.clip(friction, *(_CARRIED * contact.mu * normal * np.array([-1, 1]))))
         state[SLIP] = creep(contact, normal, friction, event.omega).slip
         if contact.law == PATCH:
             mode = SLIDE_RIGHT if (event.behind or 0.0) > 0 else SLIDE_LEFT
+    elif slow > 0:
+        rate = _quickening(body, event, False)
+        ahead = min(slow / abs(rate), _AHEAD * duration)
+        state[SLIP] = -rate * ahead
     if contact.law != REGULARISED:
         pull = float(np.sign(friction)) * contact.mu
         most = pull / contact.kappa
@@ -163,20 +176,51 @@ def layer(
         kept.sliding[:] = np.sign(friction)
     if contact.law == BRUSH and event.kind == START and contact.mu_s > contact.mu:
         _break_away(contact, event, half, normal, friction, kept)
-    ends = np.array([duration, np.inf * np.sign(event.omega), fineness, 1.0, MOST])
+    ends = np.array([ahead + duration, np.inf * np.sign(event.omega), fineness, 1.0, MOST])
     records, switches, end, done = _marched(System(body, contact, eps), state, mode, kept, ends)
     if not done:
         raise StudyError(f"The layer at phi = {event.phi:.4g} takes more than {MOST:g} steps: {TOO_FAST}.")
+    records[:, 0] -= ahead
     columns = dict(zip(COLUMNS, records.T, strict=True))
     return Layer(
         event=event,
         law=contact.law,
         **{name: columns[name] for name in ("tau", "normal_force", "friction_force", "slip", "height")},
         mode=columns["mode"].astype(int),
-        switches=tuple((float(t), int(m)) for t, m in switches),
+        switches=tuple((float(t) - ahead, int(m)) for t, m in switches),
         end=end,
         period=period,
     )
+
+
+def slow_slip(contact: ScaledContact, half: float, omega: float) -> float:
+    """|V| above which friction is mu N or next to it, in a patch of half-width ``half``; 0 of one that slides whole."""
+    if contact.law == BRUSH:
+        return _FULL * contact.mu_s * half * abs(omega) / contact.kappa
+    return _FAR * contact.slip_scale if contact.law == REGULARISED else 0.0
+
+
+def _quickening(body: Body, event: Event, behind: bool) -> float:
+    """dot v of the slip before or behind an event."""
+    return accelerations(*body, event.psi, event.omega, *outer_forces(body, event, behind))[2]
+
+
+def _lacking(body: Body, contact: ScaledContact, event: Event, slip: float, behind: bool) -> float:
+    """What V still gains, or has gained, on the far side of ``slip`` by what a smoothed friction lacks of mu N there.
+
+    That is mu N V_s^2/(2 V^2), of a V that grows evenly, and it changes N too.
+    """
+    pull = event.behind if behind else event.before
+    if contact.law != REGULARISED or pull is None:
+        return 0.0
+    step = 1e-6 * contact.mu
+    rates = []
+    for each in (pull + step, pull - step):
+        normal = sliding_force(body, event.psi, event.omega, each)
+        rates.append(accelerations(*body, event.psi, event.omega, normal, each * normal)[2])
+    by_pull = (rates[0] - rates[1]) / (2 * step)
+    lacks = -by_pull * pull * contact.slip_scale**2 / 2
+    return lacks / (abs(_quickening(body, event, behind)) * abs(slip))
 
 
 def _marched(system: System, state: Array, mode: int, kept: Bristles, ends: Array) -> Any:
@@ -217,14 +261,17 @@ def slip_behind(body: Body, contact: ScaledContact, event: Event) -> float:
     """The V with which the outer motion begins behind an event.
 
     Where the patch comes to roll it is the creep. Where it slides it is V less what the outer sliding makes of it, and
-    less what is still to come of the vibration of N, whose impulse is that of the height's rate.
+    less what is still to come of the vibration of N, whose impulse is that of the height's rate. What a smoothed
+    friction lacks of mu N beyond both ends of the layer's history is added.
     """
-    normal, friction = outer_forces(body, event, True)
     if event.behind is None:
-        return creep(contact, normal, friction, event.omega).slip
+        return creep(contact, *outer_forces(body, event, True), event.omega).slip
     history = layer(body, contact, event)
     by_normal, across, by_friction = contact_mobility(body, event.psi)
     # of V and of H', by an N that brings F along
     share = (across + event.behind * by_friction) / (by_normal + event.behind * across)
-    steady = accelerations(*body, event.psi, event.omega, normal, friction)[2]
-    return float(history.end[SLIP] - steady * history.tau[-1] - share * history.end[RATE])
+    before, steady = _quickening(body, event, False), _quickening(body, event, True)
+    read = history.end[SLIP] - steady * history.tau[-1] - share * history.end[RATE]
+    # what is slower before the event comes to it earlier or later
+    lacked = _lacking(body, contact, event, history.slip[0], False) * steady / before
+    return float(read + lacked + _lacking(body, contact, event, history.end[SLIP], True))

@@ -203,7 +203,9 @@ def test_a_layer_ends_in_steady_creep_and_its_impulses_are_those_of_the_change_o
     steady = creep(contact, normal, pull, event.omega)
     # a brush is summed over 300 points to the patch
     assert history.end[SLIP] == pytest.approx(steady.slip, rel=2e-3 if law == BRUSH else 1e-4)
-    excess = history.end[NORMAL_IMPULSE] - duration * normal, history.end[FRICTION_IMPULSE] - duration * pull
+    # it begins where all of mu N is there, -tau[0] before the event, with the slip that makes of it
+    outer = np.array([normal, pull]) * duration - np.array(outer_forces(body, event, False)) * history.tau[0]
+    excess = history.end[[NORMAL_IMPULSE, FRICTION_IMPULSE]] - outer
     # the rates of height and slip that are left when the run is cut are what the impulses may lack
     rest = abs(history.end[RATE]) + 1e-3
     by_normal, across, by_friction = contact_mobility(body, event.psi)
