@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import pi
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import copysign, pi
+from typing import NamedTuple
+
+from scipy.optimize import brentq
 
 from flexible import rigid_limit
 from flexible.contact.laws.listing import LAWS
 from flexible.run.pulses import BEHIND, lead
-from rigid import Kind, Motion, Pulse, Run, Scene, simulate
+from rigid import Kind, Motion, Phase, Pulse, Release, Run, Scene, simulate
 from rigid.output.units import without_units
 
 from ..running.files import StudyError
-from .body import Body, body_of
+from .body import Body, arms, body_of
 from .march import BRUSH, PATCH, REGULARISED, ScaledContact
 from .scales import epsilon, theta_of
 
-START, STOP, REVERSAL = "slip starts", "slip stops", "slip reverses"
+START, STOP, REVERSAL, BREAK = "slip starts", "slip stops", "slip reverses", "stick breaks"
+"""The last is a stop of the rigid hoop behind which a compliant one slides on: its layer ends so."""
+
+_LONGEST = 20.0  # of what is left of a pulse: a hoop that slides on in it has then come to its end, or never does
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +47,11 @@ class Event:
         """Angle from the top, as the rigid motion counts it."""
         return self.psi + self.bottom
 
+    @property
+    def stop(self) -> Event:
+        """What the rigid hoop of the contact law does here: of a stick that breaks, the stop."""
+        return replace(self, kind=STOP, behind=None) if self.kind == BREAK else self
+
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
@@ -61,6 +73,8 @@ class Passage:
     body: Body
     contact: ScaledContact
     pulse: Pulse
+    """That of ``scene``; where a stick breaks in it, impulses and friction loss are those of the hoop that slides on
+    there, between the same angles."""
     start: float
     """psi at which the flexible hoop begins."""
     stretches: tuple[Stretch, ...]
@@ -83,7 +97,15 @@ def scaled_contact(scene: Scene, damping: float | None = None) -> ScaledContact:
     return ScaledContact(code, contact.tangential_ratio, friction.mu_s, friction.mu, theta, scale)
 
 
-def passage(scene: Scene, rolls_to: float | None = None) -> Passage:
+class _Part(NamedTuple):
+    """A phase of a motion that begins at ``since`` on the clock of the first."""
+
+    motion: Motion
+    phase: Phase
+    since: float
+
+
+def passage(scene: Scene, rolls_to: float | None = None, breaks: Sequence[int] = ()) -> Passage:
     """The first pulse of a scene.
 
     Parameters
@@ -93,6 +115,8 @@ def passage(scene: Scene, rolls_to: float | None = None) -> Passage:
     rolls_to : float, optional
         Share of mu N up to which the rolling before the pulse is left out, that of the law's by default; 1 leaves out
         all that is more than half a pulse before.
+    breaks : sequence of int, optional
+        Which events, ascending, are stops behind which the hoop slides on: see :func:`studies.inner.critical.followed`.
 
     Raises
     ------
@@ -117,32 +141,108 @@ def passage(scene: Scene, rolls_to: float | None = None) -> Passage:
     if any(first < turn.t < pulse.t_end for turn in motion.turns):
         raise StudyError("The hoop turns round in its pulse: there is no limit to predict for that yet.")
     turn = pi + 2 * pi * round(((pulse.phi_start + pulse.phi_end) / 2 - pi) / (2 * pi))
+    parts = [_Part(motion, p, 0.0) for p in motion.phases if p.t_end > first and p.t_start < pulse.t_end]
+    for number in breaks:
+        parts = _slid_on(tended, parts, number, pulse)
+    stretches, events = _walked(tended, parts, first, pulse, turn, breaks)
+    start = _state(motion, first, turn)
+    last, t_end = parts[-1], pulse.t_end
+    if breaks:
+        t_end = _reaches(last, pulse.phi_end)
+    ends = _state(motion, pulse.t_start, turn), _state(last.motion, t_end, turn)
+    if breaks:
+        pulse = _of_ends(tended, pulse, (motion, pulse.t_start), (last.motion, t_end), last.since, ends)
+    return Passage(
+        tended, body_of(scene.hoop), scaled_contact(scene), pulse, start[1], stretches, events,
+        (pulse.phi_start - turn, pulse.phi_end - turn), (ends[0][2], ends[1][2]), start[2],
+    )  # fmt: skip
+
+
+def _walked(
+    scene: Scene, parts: Sequence[_Part], first: float, pulse: Pulse, turn: float, breaks: Sequence[int]
+) -> tuple[tuple[Stretch, ...], tuple[Event, ...]]:
+    """The stretches of a motion that is put together of parts, and the events between them."""
     stretches: list[Stretch] = []
     events: list[Event] = []
-    inside = [p for p in motion.phases if p.t_end > first and p.t_start < pulse.t_end]
     pulls = {Kind.ROLL: None, Kind.SPIN: scene.friction.mu, Kind.SKID: -scene.friction.mu}
-    for number, phase in enumerate(inside):
+    for number, (motion, phase, since) in enumerate(parts):
         if phase.kind not in pulls:
             article = "an" if phase.kind.value[0] in "aeiou" else "a"
             raise StudyError(
                 f"The pulse has {article} {phase.kind.value} in it: there is no inner problem for that yet."
             )
-        t = max(phase.t_start, first)
+        t = max(phase.t_start, first) if number == 0 else phase.t_start
         omega, psi = _state(motion, t, turn)[:2]
         if omega == 0:
             raise StudyError("The hoop is at rest where the pulse begins: there is no limit to predict from there.")
-        psi_end = (phase.phi_end if phase.t_end <= pulse.t_end else pulse.phi_end) - turn
+        psi_end = (phase.phi_end if number + 1 < len(parts) else pulse.phi_end) - turn
         if number > 0:
             psi = phase.phi_start - turn
             before, behind = stretches[-1].pull, pulls[phase.kind]
             kind = START if before is None else STOP if behind is None else REVERSAL
-            events.append(Event(kind, phase.t_start / scene.time_unit, psi, omega, before, behind, turn))
+            kind = BREAK if number - 1 in breaks else kind
+            t = (since + phase.t_start) / scene.time_unit
+            events.append(Event(kind, t, psi, omega, before, behind, turn))
         stretches.append(Stretch(psi, psi_end, omega, pulls[phase.kind]))
-    ends = [_state(motion, t, turn) for t in (first, pulse.t_start, pulse.t_end)]
-    return Passage(
-        tended, body_of(scene.hoop), scaled_contact(scene), pulse, ends[0][1], tuple(stretches), tuple(events),
-        (pulse.phi_start - turn, pulse.phi_end - turn), (ends[1][2], ends[2][2]), ends[0][2],
-    )  # fmt: skip
+    return tuple(stretches), tuple(events)
+
+
+def _slid_on(scene: Scene, parts: Sequence[_Part], number: int, pulse: Pulse) -> list[_Part]:
+    """The same motion up to an event, a stop; behind it mu N is all that acts until the slip comes to its end again."""
+    motion, roll, since = parts[number + 1]
+    found = list(parts[: number + 1])
+    way, t = copysign(1.0, pulse.phi_end - pulse.phi_start), roll.t_start
+    for hoop in (scene.replace(friction={"mu_s": scene.friction.mu}), scene):
+        here = motion.at(t)
+        begun = Release(float(here.phi), float(here.omega), 0.0)
+        left = Run(t_end=_LONGEST * (pulse.t_end - pulse.t_start))
+        motion, since = simulate(hoop.replace(release=begun, run=left)), since + t
+        for phase in motion.phases[:1] if hoop is not scene else motion.phases:
+            found.append(_Part(motion, phase, since))
+            t = _until(found[-1])
+            if (float(motion.at(t).phi) - pulse.phi_end) * way >= 0:
+                return found
+            if t < phase.t_end:
+                raise StudyError(
+                    "The hoop that slides on turns round in its pulse: there is no limit to predict for that yet."
+                )
+    raise StudyError("The hoop that slides on does not come to the end of its pulse: there is no limit to predict.")
+
+
+def _until(part: _Part) -> float:
+    """When a part ends, or the hoop turns round in it."""
+    return min([part.phase.t_end, *(turn.t for turn in part.motion.turns if turn.t > part.phase.t_start)])
+
+
+def _reaches(part: _Part, phi: float) -> float:
+    """When a part comes to an angle in it, on the clock of its motion."""
+    span = part.phase.t_start, _until(part)
+    return float(brentq(lambda t: float(part.motion.at(t).phi) - phi, *span, xtol=1e-15 * (1 + span[1])))
+
+
+def _of_ends(
+    scene: Scene,
+    pulse: Pulse,
+    begins: tuple[Motion, float],
+    ends: tuple[Motion, float],
+    since: float,
+    states: Sequence[tuple[float, float, float]],
+) -> Pulse:
+    """The pulse of a motion between two states: impulses are those of the mass centre, M v_x and M (v_y + g t)."""
+    body = body_of(scene.hoop)
+    momenta = []
+    for (_, t), (omega, psi, slip), shift in zip((begins, ends), states, (0.0, since), strict=True):
+        a, b, _ = arms(body.e, body.one_minus_e, psi)
+        momenta.append((slip + b * omega, (t + shift) / scene.time_unit - a * omega))
+    unit = (1 + scene.hoop.mass_ratio) * scene.impulse_unit
+    energies = [float(motion.at(t).energy) for motion, t in (begins, ends)]
+    return replace(
+        pulse,
+        t_end=ends[1] + since,
+        friction_impulse=(momenta[1][0] - momenta[0][0]) * unit,
+        normal_impulse=(momenta[1][1] - momenta[0][1]) * unit,
+        friction_loss=energies[0] - energies[1],
+    )
 
 
 def _state(motion: Motion, t: float, turn: float) -> tuple[float, float, float]:

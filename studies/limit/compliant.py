@@ -68,8 +68,10 @@ class Passed:
 def go_through(scene: Scene, fineness: float = 0.1) -> Passed:
     """The first pulse of a scene at its own foundation, from the state at which the flexible hoop is handed over."""
     way, eps = passage(scene, 1.0), epsilon(scene)
-    if way.contact.law == REGULARISED and way.stretches[0].pull is not None:
-        way = _slipped_before(way, passage(scene), eps)
+    if way.contact.law == REGULARISED:
+        whole = passage(scene)
+        if (way.start - whole.start) * whole.stretches[0].omega > 0:
+            way = _slipped_before(way, whole, eps)
     gained, switches = march_through(way, eps, fineness)
     gained = gained * (1 + scene.hoop.mass_ratio)
     return Passed(
@@ -81,8 +83,9 @@ def go_through(scene: Scene, fineness: float = 0.1) -> Passed:
 
 
 def _slipped_before(way: Passage, whole: Passage, eps: float) -> Passage:
-    """``way``, which begins in a slip, as smoothed friction brings the hoop there from the start of the ``whole``:
-    there the floor might as well be rigid, and explicit steps would be many.
+    """``way``, as smoothed friction brings the hoop to its start from that of the ``whole``, where it rolls or slips.
+
+    On the way the floor might as well be rigid, and explicit steps would be many.
     """
     first, body = whole.stretches[0], way.body
     onward, v_s = copysign(1.0, first.omega), way.contact.slip_scale * eps
@@ -99,7 +102,7 @@ def _slipped_before(way: Passage, whole: Passage, eps: float) -> Passage:
         slip = eps * creep(whole.contact, *rolling_forces(body, first.psi_start, first.omega)[:2], first.omega).slip
     span = (whole.start, way.start)
     w, slip = solve_ivp(rates, span, [first.omega**2, slip], "LSODA", rtol=1e-9, atol=1e-12).y[:, -1]
-    begins = replace(way.stretches[0], omega=onward * sqrt(w))
+    begins = replace(way.stretches[0], omega=onward * sqrt(w), pull=-way.contact.mu * slip / sqrt(slip**2 + v_s**2))
     return replace(way, first_slip=float(slip), stretches=(begins, *way.stretches[1:]))
 
 

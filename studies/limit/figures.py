@@ -35,7 +35,7 @@ def layers(study: LimitStudy) -> Figure:
         grid = figure.subplots(3, len(events), sharex="col", squeeze=False)
         for column, found in zip(grid.T, events, strict=True):
             layer = found.layer
-            show = layer.tau <= min(layer.tau[-1], 6 * layer.period)
+            show = abs(layer.tau) <= min(layer.tau[-1], 6 * layer.period)
             tau = layer.tau[show]
             rows = (
                 (layer.normal_force, found.before[0], found.behind[0], "$N$"),
@@ -43,7 +43,11 @@ def layers(study: LimitStudy) -> Figure:
             )
             for axes, (force, before, behind, symbol) in zip(column, rows, strict=False):
                 axes.plot(
-                    [-0.15 * tau[-1], 0, 0, tau[-1]], [before, before, behind, behind], color=RIGID, lw=2.6, alpha=0.3
+                    [min(-0.15 * tau[-1], tau[0]), 0, 0, tau[-1]],
+                    [before, before, behind, behind],
+                    color=RIGID,
+                    lw=2.6,
+                    alpha=0.3,
                 )
                 axes.plot(tau, force[show], color=OKABE_ITO["kinetic"])
                 axes.set_ylabel(f"{symbol}$/(Mg)$")
@@ -76,7 +80,8 @@ def damping_figure(spots: Sequence[Spot]) -> Figure:
             beyond = [(s.decay, s.impulse_ratio - s.predicted) for s in row if np.isfinite(s.decay)]
             if beyond:
                 right.plot(*np.array(beyond).T, "o", color=colour, ms=4)
-        left.axhline(spots[0].limit, color=RIGID, lw=2.6, alpha=0.3)
+        for limit in {spot.limit for spot in spots}:
+            left.axhline(limit, color=RIGID, lw=2.6, alpha=0.3)
         left.set_xscale("symlog", linthresh=0.003)
         left.set(xlabel="damping ratio", ylabel="$J_F/J_N$", xlim=(0, None))
         left.legend(ncols=2, title="foundation ε_n R²/(mg)")

@@ -20,7 +20,8 @@ from rigid import Scene
 
 from ..inner.body import arms, rolling_forces, rolling_inertia
 from ..inner.creep import creep
-from ..inner.events import REVERSAL, START, Event, Passage, Stretch, passage
+from ..inner.critical import followed
+from ..inner.events import START, STOP, Event, Passage, Stretch
 from ..inner.layers import slip_behind
 from ..inner.march import BRUSH, REGULARISED
 from ..inner.scales import epsilon
@@ -114,7 +115,7 @@ def predict(scene: Scene, rolls_to: float | None = None) -> Prediction:
     StudyError
         See :func:`studies.inner.events.passage`.
     """
-    way = passage(scene, rolls_to)
+    way = followed(scene, rolls_to)
     return _with_units(scene, way, powers(way))
 
 
@@ -204,7 +205,7 @@ def _through(way: Passage, event: Event, shift: Shift, creeps: bool) -> Shift:
         return passed(*where, shift, later, pulls)
     assert event.before is not None
     shift = passed(*where, shift, delay_of_stop(*where, shift, event.before), pulls)
-    if event.kind == REVERSAL and creeps:
+    if event.kind != STOP and creeps:
         change = slip_behind(body, contact, event)
         _, b, _ = arms(body.e, body.one_minus_e, event.psi)
         shift = replace(

@@ -13,25 +13,23 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from flexible.contact.laws.listing import LAWS
-from rigid import Run, Scene, SceneLike, as_scene, scene_to_dict, simulate
+from rigid import Run, Scene, SceneLike, as_scene, scene_to_dict
 from rigid.output import summary
 
 from ..inner.creep import creep
-from ..inner.critical import critical_theta
-from ..inner.events import Event, passage
+from ..inner.critical import Hanging, critical_theta, followed, hanging
+from ..inner.events import Event
 from ..inner.layers import Layer, layer, outer_forces
-from ..inner.march import PATCH
 from ..inner.scales import damping_of
 from ..inner.separate import separate_from, stiff_from
 from ..plots.sheet import power_of
 from ..running.case import Case
-from ..running.files import StudyError
 from ..running.measures import MEASURES, known
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
-from .compliant import Sight, at_foundation, go_through, seen_by_rigid_ring
-from .prediction import ROUND_OFF, Prediction, foreseen, predict, units_told
+from .compliant import Sight, at_foundation, seen_by_rigid_ring
+from .damping import Other, others
+from .prediction import Prediction, predict, units_told
 
 if TYPE_CHECKING:
     import pandas
@@ -56,7 +54,7 @@ class EventFound:
     layer: Layer
     """History on the clock tau = (t - t*)/eps."""
     critical_damping: float | None
-    """Damping ratio below which the patch breaks or sticks once more than the rigid hoop; None without phases."""
+    """Damping ratio below which the patch breaks or sticks once more than the paper's hoop; None without phases."""
     creep: float
     """V towards which the layer goes; 0 where the hoop slides."""
 
@@ -78,20 +76,6 @@ class EventFound:
         }
 
 
-@dataclass(frozen=True, slots=True)
-class Other:
-    """A way to be compliant, and where it leads."""
-
-    name: str
-    """Law and damping."""
-    impulse_ratio: tuple[float, float]
-    """J_F/J_N in the limit, twice; where there is none, the least and the largest of those observed."""
-    prediction: Prediction | None = None
-    """How it comes there, at this scene's damping; None where that is not predicted."""
-    tends: bool = True
-    """Whether there is a limit."""
-
-
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class LimitStudy(summary.Summarised):
     """What the study found."""
@@ -111,6 +95,8 @@ class LimitStudy(summary.Summarised):
     """What the same hoop tends to under other compliances, this one's among them."""
     stiff: float = 0.0
     """Foundation from which on the ring, in the scene's proportion to it, gives way by less than the patch."""
+    hanging: tuple[Hanging, ...] = ()
+    """Stops that a patch of less damping than there says slides through, or may, at any stiffness."""
 
     def _title(self) -> str:
         return f"Limit study: {len(self.events)} events, {len(self.sights)} runs beside them"
@@ -239,11 +225,11 @@ def limit_study(
     scene = scene.replace(run=Run(until="pulse"))
     for foundation in (*foundations, *flexible):
         at_foundation(scene, foundation)  # what cannot be is refused before the work
-    way = passage(scene)
+    way = followed(scene)
     prediction = predict(scene)
     found = []
     for event in way.events:
-        theta = critical_theta(way.body, way.contact, event)
+        theta = critical_theta(way.body, way.contact, event.stop)
         behind = outer_forces(way.body, event, True)
         slow = creep(way.contact, *behind, event.omega).slip if event.behind is None else 0.0
         found.append(
@@ -255,26 +241,10 @@ def limit_study(
     sights = [seen_by_rigid_ring(scene, foundation) for foundation in foundations]
     sights += _flexible(scene, prediction, flexible, pool or Here(), out, progress)
     separate = separate_from(way, [event.layer for event in found])
-    return LimitStudy(scene, tuple(found), prediction, separate, tuple(sights), _others(scene), stiff_from(way, scene))
-
-
-def _others(scene: Scene) -> tuple[Other, ...]:
-    """The limits of the three laws, and what is seen of a patch without a damper."""
-    found = []
-    for name, law in LAWS.items():
-        pulses = simulate(scene.replace(friction={"mu_s": law.static_coefficient(scene.friction)})).pulses
-        for pulse in [p for p in pulses if not p.cut][:1]:
-            found.append(Other(f"{name}, any damping", (pulse.impulse_ratio,) * 2, foreseen(scene, name)))
-    ideal = next(name for name, law in LAWS.items() if law.code == PATCH)
-    undamped = scene.replace(contact={"law": ideal, "damping": 0.0})
-    try:
-        limit = predict(undamped).terms["impulse_ratio"].limit
-        seen = [go_through(at_foundation(undamped, foundation)).impulse_ratio for foundation in FOUNDATIONS]
-    except StudyError:  # the pulse of this law is another, and none that can be foreseen
-        return tuple(found)
-    near = max(abs(seen[0] - limit) / 2, ROUND_OFF)  # it comes to a fifth, where it has a limit
-    comes = abs(seen[-1] - limit) <= near
-    return (*found, Other(f"{ideal}, no damping", (limit, limit) if comes else (min(seen), max(seen)), tends=comes))
+    stiff, hangs = stiff_from(way, scene), hanging(scene, way)
+    return LimitStudy(
+        scene, tuple(found), prediction, separate, tuple(sights), others(scene, FOUNDATIONS), stiff, hangs
+    )
 
 
 def _flexible(

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from math import degrees, inf, isfinite
 from typing import Any
 
+from ..inner.critical import Hanging
 from ..plots.sheet import Column, Sheet, number, power_of
 from ..running.measures import MEASURES
 from .damping import Spot
@@ -177,6 +178,7 @@ def damping_sentences(study: LimitStudy) -> list[str]:
                 f"Below a damping ratio of {number(largest, 4)} the transient breaks the patch again; this scene's "
                 f"{number(ratio, 4)} is {above} it."
             )
+    said += hanging_sentences(study.hanging, study.scene.friction.mu)
     if study.stiff > max(study.separate, _LEAST):
         said.append(
             f"All this is of a rigid rim: below a foundation of {number(study.stiff, 2)} a ring in the"
@@ -194,6 +196,32 @@ def damping_sentences(study: LimitStudy) -> list[str]:
         said.append(
             "A layer rings for more than a thousand periods: the numbers hold for far stiffer floors than these."
         )
+    return said
+
+
+def hanging_sentences(stops: Sequence[Hanging], mu: float) -> list[str]:
+    """Which sticks are lost for good if they break, whether they do, and what that makes of the limit."""
+    said = []
+    for stop in stops:
+        told = (
+            f"Behind the slip that stops at {degrees(stop.phi):.1f}° rolling takes |F|/N = {number(stop.ratio, 4)},"
+            f" more than mu = {number(mu)}: a patch that breaks there slides on, at any stiffness"
+        )
+        least = ""
+        if stop.damping is not None:
+            least = (
+                f" below a damping ratio of {number(stop.damping, 4)}" if isfinite(stop.damping) else " at any damping"
+            )
+        if stop.broken:
+            kept = (
+                f"; above {number(stop.damping, 4)} it is that of the hoop that sticks"
+                if stop.damping and isfinite(stop.damping)
+                else ""
+            )
+            told += f". With this damping it does, and the limit is that of the rigid hoop that slides on there{kept}."
+        else:
+            told += f". With this damping it does not, but{least or ' with another'} it may."
+        said.append(told)
     return said
 
 

@@ -23,6 +23,7 @@ from .ladder import Ladder
 if TYPE_CHECKING:
     import pandas
 
+    from ..inner.critical import Hanging
     from ..limit.prediction import Prediction
     from ..plots.distance import Distance
 
@@ -107,6 +108,9 @@ class StiffnessStudy(summary.Summarised):
     stiff: float = 0.0
     """That from which on the ring gives way by less than the patch where a slip ends or turns round; on softer ones it
     may break a stick that the prediction's rigid rim keeps, or leave the floor. 0 too where no case does otherwise."""
+    hanging: tuple[Hanging, ...] = ()
+    """Stops of the pulse behind which a patch that breaks slides on at any stiffness, so that the limit may be another
+    than ``reference``, whose stick is kept."""
 
     @property
     def failures(self) -> list[Rung]:
@@ -135,7 +139,7 @@ class StiffnessStudy(summary.Summarised):
         if self.prediction is None or not self.prediction.complete or contact_stiffness < self.separate:
             return 0.0
         term = self.prediction.terms[name]
-        return abs(float(term.at(contact_stiffness ** (-1 / 3))) - term.limit)
+        return abs(float(term.at(contact_stiffness ** (-1 / 3))) - self.limits[name].rigid)
 
     def loose(self, rung: Rung) -> tuple[str, ...]:
         """Measures of a rung whose numerical error is more than its share of the distance to the rigid value."""
@@ -173,7 +177,7 @@ class StiffnessStudy(summary.Summarised):
         if self.prediction is not None and self.prediction.complete and softest < stiffest:
             foundation = np.geomspace(softest, stiffest, 60)
             term = self.prediction.terms[name]
-            away = abs(term.at(foundation ** (-1 / 3)) - term.limit) / unit
+            away = abs(term.at(foundation ** (-1 / 3)) - limit.rigid) / unit
             if away.any():
                 predicted = foundation * stiffness[0] / through[0].contact_stiffness, away
         return Distance(

@@ -82,7 +82,7 @@ def stiffness_study(
     """
     from flexible import rigid_limit
 
-    from ..inner.events import passage
+    from ..inner.critical import followed, hanging
     from ..inner.separate import stiff_from
 
     if exponent is not None and not 0 < exponent < inf:
@@ -137,13 +137,15 @@ def stiffness_study(
     for name in LIMITS:
         values, errors = [r.measure(name) for r in through], errors_of(through, name, scene)
         limits[name] = limit_of([r.stiffness for r in through], values, pulse[name], errors, rates, holds)
-    stiff = 0.0
-    if foreseen is not None and any(rung.outcome.phases[0] != reference.phases[0] for rung in through):
-        stiff = stiff_from(passage(scene), scenes[0])
+    stiff, hangs = 0.0, () if foreseen is None else hanging(scene, followed(scene))
+    # one that slides on does otherwise at any stiffness
+    kept = foreseen is not None and not any(stop.broken for stop in hangs)
+    if kept and any(rung.outcome.phases[0] != reference.phases[0] for rung in through):
+        stiff = stiff_from(followed(scene), scenes[0])
     if foreseen is not None and foreseen.parameter != "eps":
         foreseen = None  # it is told by the foundation alone
     return StiffnessStudy(
-        scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits, foreseen, separate, stiff
+        scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits, foreseen, separate, stiff, hangs
     )
 
 
@@ -156,14 +158,14 @@ def _against(
         expected = 0.0
         if foreseen is not None and foreseen.complete and rung.contact.stiffness >= separate:
             term = foreseen.terms[name]
-            expected = abs(float(term.at(rung.contact.stiffness ** (-1 / 3))) - term.limit)
+            expected = abs(float(term.at(rung.contact.stiffness ** (-1 / 3))) - rigid[name])
         tied.append((name, rigid[name], expected))
     return tuple(tied)
 
 
 def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction | None, float]:
     """The prediction, where it is that of the cases, and the foundation from which on it holds."""
-    from ..inner.events import passage
+    from ..inner.critical import followed
     from ..inner.separate import separate_from
     from ..limit.prediction import predict
 
@@ -171,6 +173,6 @@ def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction |
     if ladder.along != "both" or solver != "flexible" or scene.contact.damping == 0:
         return None, 0.0
     try:
-        return predict(scene), separate_from(passage(scene))
+        return predict(scene), separate_from(followed(scene))
     except StudyError:
         return None, 0.0

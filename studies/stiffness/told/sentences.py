@@ -186,6 +186,8 @@ def prediction_sentence(study: StiffnessStudy) -> str:
     """What is predicted without any of the cases, and what the cases show of that."""
     if study.prediction is None:
         return ""
+    from ...limit.summary import hanging_sentences
+
     told = []
     for name in ("impulse_ratio", "friction_loss"):
         term = study.prediction.terms[name]
@@ -204,6 +206,8 @@ def prediction_sentence(study: StiffnessStudy) -> str:
     said = f"Predicted without a fit, ε the foundation to the power −1/3: {'; '.join(told)}."
     if not study.prediction.complete:
         said += " This is the leading power alone; those behind it are the larger ones at any stiffness within reach."
+    for told_of_stop in hanging_sentences(study.hanging, study.scene.friction.mu):
+        said += " " + told_of_stop
     if not isfinite(study.separate):
         said += " A patch of so little damping does not come to rest between the events, and it holds at none of these."
     elif study.separate > study.ladder.low:
