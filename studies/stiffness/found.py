@@ -135,11 +135,11 @@ class StiffnessStudy(summary.Summarised):
         return [rung for rung in self.rungs if not rung.outcome.failure]
 
     def expected(self, name: str, contact_stiffness: float) -> float:
-        """Distance to the rigid value that is predicted at a foundation; 0 where none is."""
+        """Distance to its limit that is predicted at a foundation; 0 where none is."""
         if self.prediction is None or not self.prediction.complete or contact_stiffness < self.separate:
             return 0.0
         term = self.prediction.terms[name]
-        return abs(float(term.at(contact_stiffness ** (-1 / 3))) - self.limits[name].rigid)
+        return abs(float(term.at(contact_stiffness ** (-1 / 3))) - term.limit)
 
     def loose(self, rung: Rung) -> tuple[str, ...]:
         """Measures of a rung whose numerical error is more than its share of the distance to the rigid value."""

@@ -152,13 +152,17 @@ def stiffness_study(
 def _against(
     rung: Scene, rigid: Mapping[str, float], foreseen: Prediction | None, separate: float
 ) -> tuple[tuple[str, float, float], ...]:
-    """What a rung is compared with, and the distance from that to expect of it."""
+    """What a rung is compared with, and the distance from that to expect of it.
+
+    Where a stick breaks the limit is another than the rigid value, and only the distance to that limit is small: a
+    rung that is near the rigid hoop, since its steps are too long to see the stick break, is refined until it does.
+    """
     tied = []
     for name in TIED:
         expected = 0.0
         if foreseen is not None and foreseen.complete and rung.contact.stiffness >= separate:
             term = foreseen.terms[name]
-            expected = abs(float(term.at(rung.contact.stiffness ** (-1 / 3))) - rigid[name])
+            expected = abs(float(term.at(rung.contact.stiffness ** (-1 / 3))) - term.limit)
         tied.append((name, rigid[name], expected))
     return tuple(tied)
 

@@ -15,7 +15,9 @@ from flexible.contact.laws.brush import effective_mu_s
 from rigid import Friction as Coefficients
 from rigid import Hoop, Release, Run, Scene, SceneError, load_scene, simulate
 from studies import Ladder, StudyError, stiffness_study
+from studies.inner.critical import followed, hanging
 from studies.running.case import SHARE
+from studies.stiffness.study import _prediction
 from studies.stiffness.told.rows import LIMIT_HEADING, limit_rows
 from studies.stiffness.told.sentences import extrapolation_sentence, law_sentence, prediction_sentence, verdict
 
@@ -194,6 +196,21 @@ def test_an_undamped_contact_has_no_yes(study):
     undamped = study.scene.replace(contact={"damping": 0.0})
     assert verdict(replace(study, scene=undamped)).startswith("Open: ")
     assert "cannot show with an undamped contact" in verdict(replace(study, scene=undamped))
+
+
+def test_a_stick_that_breaks_for_good_is_foreseen_and_told(study):
+    """Its slip stops where rolling takes more than mu N. The hoop that slides on there has J_F/J_N = 0.269942 (by scipy
+    in the tests of its limit), the paper's 0.268452; no later event waits for it."""
+    scene = Scene(Hoop(0.28, 1.02), Coefficients(0.41, 0.302), Release(phi0_deg=83.4), Run(until="pulse"))
+    foreseen, separate = _prediction(scene, Ladder.around(scene), "flexible")
+    hangs = hanging(scene, followed(scene))
+    told = prediction_sentence(replace(study, scene=scene, prediction=foreseen, separate=separate, hanging=hangs))
+    assert separate == 0.0
+    assert foreseen.terms["impulse_ratio"].limit == pytest.approx(0.269942, abs=1e-6)
+    assert "J_F/J_N = 0.269942" in told
+    assert "Behind the slip that stops at 197.3° rolling takes |F|/N = 0.3957, more than mu = 0.302" in told
+    assert "the limit is that of the rigid hoop that slides on there" in told
+    assert "does not come to rest" not in told
 
 
 @pytest.mark.parametrize("how", ["failing", "unfinished"])
