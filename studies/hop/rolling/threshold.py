@@ -1,7 +1,7 @@
 """The bending stiffness below which a hoop hops: between neighbours of a map, then by bisection.
 
 Where it hops is told three ways: anywhere between release and end; in the first pulse, the interval of phi in which N
-of the rigid hoop to which it tends exceeds the weight; and at the bottom, while the contact is under the disk.
+of the rigid hoop to which it tends exceeds the weight; and in that at the bottom, while the contact is under the disk.
 """
 
 from __future__ import annotations
@@ -38,7 +38,9 @@ class Window:
 def windows(scene: Scene) -> dict[str, Window | None]:
     """Where a lift-off counts, by name; None is no restriction.
 
-    Without a rigid pulse, or with one that is not over when the run ends, there is only "anywhere".
+    Without a rigid pulse, or with one that is not over when the run ends, there is only "anywhere". "bottom" is a part
+    of "pulse": from k = 0.5 on, where the disk is over the contact wherever it hangs lower than the hoop's centre, it
+    is all of it.
     """
     found: dict[str, Window | None] = {"anywhere": None}
     pulses = [pulse for pulse in rigid_motion(scene, Run(until="pulse")).pulses if not pulse.cut]
@@ -47,7 +49,9 @@ def windows(scene: Scene) -> dict[str, Window | None]:
         found["pulse"] = Window(first, last)
         bottom = abs(pi + 2 * pi * round((pulses[0].phi_start - pi) / (2 * pi)) - scene.release.phi0)
         under = asin(min(scene.hoop.k / (1 - scene.hoop.k), 1.0))  # half the disk as seen from the hoop's centre
-        found["bottom"] = Window(bottom - under, bottom + under)
+        low, high = max(first, bottom - under), min(last, bottom + under)
+        if low < high:
+            found["bottom"] = Window(low, high)
     return found
 
 
