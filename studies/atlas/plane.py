@@ -73,8 +73,8 @@ class Seen(NamedTuple):
     """Work done against friction over the weight of the whole hoop times R."""
     peak: Array
     """Decimal logarithm of the largest N over the weight; NaN where a jam knows no largest."""
-    hops: NDArray[np.bool_]
-    """Whether the hoop has left the floor before the pulse was over."""
+    hops: NDArray[np.int64]
+    """How often the hoop has left the floor before the pulse was over."""
     jams: NDArray[np.bool_]
     """Whether it has jammed: Coulomb's law had no finite force, and an impact without collision ended the slip."""
 
@@ -151,8 +151,8 @@ class Plane:
             columns[2, there] = np.log10(batch.peak_normal_force[first] / weight)
         columns[np.isinf(columns)] = np.nan
         columns[:, sequence <= 0] = np.nan
-        hops, jams = np.zeros((2, *x.shape), dtype=bool)
-        hops[there], jams[there] = batch.hop_count > 0, batch.jam_count > 0
+        hops, jams = np.zeros(x.shape, dtype=np.int64), np.zeros(x.shape, dtype=bool)
+        hops[there], jams[there] = batch.hop_count, batch.jam_count > 0
         return Seen(sequence, columns[0], columns[1], columns[2], hops, jams)
 
     def scenes_of_the_paper(self) -> list[tuple[str, float, float]]:

@@ -1,7 +1,8 @@
 """Which points of a map are run.
 
-A square cell whose corners and centre agree (one sequence of phases, and values that the mean of the corners gives at
-the centre) is filled from its corners; any other is cut into four, down to the grid. Squares of the grid whose corners
+A square cell whose corners and centre agree (one sequence of phases, as many hops before its end, and values that the
+mean of the corners gives at the centre) is filled from its corners; any other is cut into four, down to the grid. Values
+jump where a hoop begins to bounce once more or less on its way, without another sequence. Squares of the grid whose corners
 have different sequences are then looked into, so that boundaries are finer than the grid.
 """
 
@@ -33,7 +34,7 @@ class Map(NamedTuple):
     values: Array
     """J_F/(mu J_N), friction loss, log10 of the peak of N at the points, (3, n + 1, n + 1)."""
     hops: NDArray[np.bool_]
-    """At the points."""
+    """Whether any, at the points."""
     jams: NDArray[np.bool_]
     """At the points."""
     computed: NDArray[np.bool_]
@@ -52,7 +53,8 @@ class Sheet:
         shape = (count + 1, count + 1)
         self.sequence = np.zeros(shape, dtype=np.int64)
         self.values = np.full((3, *shape), np.nan)
-        self.hops, self.jams, self.computed = np.zeros((3, *shape), dtype=bool)
+        self.hops = np.zeros(shape, dtype=np.int64)
+        self.jams, self.computed = np.zeros((2, *shape), dtype=bool)
 
     def look(self, i: NDArray[np.int64], j: NDArray[np.int64], told: tuple[float, float]) -> None:
         """Run the points (row, column) that are not known; ``told`` is the progress before and after."""
@@ -132,7 +134,7 @@ def refined(run: Run, count: int, shade: float, tell: Callable[[float], None] = 
         sheet.look(rows, np.concatenate([j, j + half, j, j + half]), (progress, progress + 0.02))
         size = half
     squares, runs = within(run, sheet.sequence, tell)
-    return Map(sheet.sequence, sheet.values, sheet.hops, sheet.jams, sheet.computed, squares, sheet.runs + runs)
+    return Map(sheet.sequence, sheet.values, sheet.hops > 0, sheet.jams, sheet.computed, squares, sheet.runs + runs)
 
 
 def within(run: Run, sequence: NDArray[np.int64], tell: Callable[[float], None]) -> tuple[NDArray[np.int64], int]:

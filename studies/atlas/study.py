@@ -30,8 +30,8 @@ LARGEST = 8192
 
 SHADE = 1 / 256
 """How far a value may be off in the middle between hoops that were run, where one is run to see it: a shade of a
-picture, of its range. Beside the middle it may be some half more, and
-up to 3.3/256 at a few of 10 000 hoops."""
+picture, of its range. Beside the middle it may be some half more, and a few shades where values bend or jump between
+(README.md, "A map of rigid hoops")."""
 
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
