@@ -1,9 +1,9 @@
 """Which points of a map are run.
 
-A square cell whose corners and centre agree (one sequence of phases, as many hops before its end, and values that the
-mean of the corners gives at the centre) is filled from its corners; any other is cut into four, down to the grid. Values
-jump where a hoop begins to bounce once more or less on its way, without another sequence. Squares of the grid whose corners
-have different sequences are then looked into, so that boundaries are finer than the grid.
+A square cell whose corners and centre agree (one sequence of phases, as many hops before the end of the pulse, and
+values that the mean of the corners gives at the centre) is filled from its corners; any other is cut into four, down to
+the grid. (Values jump where a hoop bounces once more on its way, within one sequence.) Squares of the grid whose
+corners have different sequences are then looked into, so that boundaries are finer than the grid.
 """
 
 from __future__ import annotations
