@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args, get_type_hints
 
 import click
 
@@ -163,7 +163,8 @@ def _ends_of(asked: HopMap) -> list[Scene]:
 def parse_over(text: str) -> tuple[str, tuple[Any, ...]]:
     """KEY=LOW:HIGH:COUNT or KEY=VALUE,VALUE,... as a key and its values.
 
-    A range runs evenly in the logarithm; from 0 it runs evenly.
+    A range runs evenly in the logarithm; from 0 it runs evenly. Of keys that take whole numbers, a value that is one
+    stays it, and a range has those next to its values.
 
     Raises
     ------
@@ -179,9 +180,10 @@ def parse_over(text: str) -> tuple[str, tuple[Any, ...]]:
         raise wrong
     if "." not in key:
         raise SceneError(f"--over {text} is not possible: {key or 'KEY'} is a part and its key, such as hoop.k.")
+    whole = _takes_whole_numbers(key)
     try:
         if ":" not in values:
-            return key, tuple(float(value) for value in values.split(","))
+            return key, tuple(_value(value, whole) for value in values.split(","))
         low, high, count = values.split(":")
         first, last, number = float(low), float(high), int(count)
     except ValueError:
@@ -189,7 +191,18 @@ def parse_over(text: str) -> tuple[str, tuple[Any, ...]]:
     if not (0 <= first < last < float("inf")) or not 2 <= number <= 10_000:
         raise SceneError(f"--over {text} is not possible: a range runs upward from 0 or above, in 2 to 10000 values.")
     run = np.linspace(first, last, number) if first == 0 else np.geomspace(first, last, number)
-    return key, tuple(run.tolist())
+    return key, tuple((np.unique(run.round().astype(int)) if whole else run).tolist())
+
+
+def _takes_whole_numbers(key: str) -> bool:
+    part, _, name = key.partition(".")
+    return int in get_args(get_type_hints(get_type_hints(Scene).get(part, object)).get(name))
+
+
+def _value(text: str, whole: bool) -> float:
+    """Of a list; what is no whole number where one is needed is refused by the scene."""
+    value = float(text)
+    return int(value) if whole and value.is_integer() else value
 
 
 def map_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> HopMap:

@@ -323,6 +323,23 @@ def test_ranges_are_read():
 
 
 @pytest.mark.parametrize(
+    ("over", "expected"), [("40,80", (40, 80)), ("40:160:3", (40, 80, 160)), ("24:26:5", (24, 25, 26))]
+)
+def test_of_keys_that_count_values_are_whole_numbers(over, expected):
+    """A ring is cut into 40 elements, not 40.0: ranges give the whole numbers nearest to theirs, each once."""
+    asked = map_of(load_scene(SCENE), (f"solve.elements={over}", "ring.bending_stiffness=5,300"))
+    assert asked.values == tuple(scene.solve.elements for scene in asked.scenes) == expected
+    assert {type(value) for value in asked.values} == {int}
+
+
+@pytest.mark.parametrize("value", ["40.5", "40,1e400", "nan"])
+def test_of_keys_that_count_nothing_else_is_taken(hoop, value):
+    status, out, err = hoop("study", "hop", SCENE, "--over", f"solve.elements={value}")
+    assert (status, out) == (2, "")
+    assert is_one_sentence(err)
+
+
+@pytest.mark.parametrize(
     "over",
     ["hoop.k", "k=1:2:3", "hoop.k=1:2", "hoop.k=a,b", "hoop.k=0.2:0.1:3", "hoop.k=0.1:0.2:1", "hoop.q=1,2",
      "hoop.k=2,3", "ring.bending_stiffness=-1,2", "hoop.k=nan:1:3"],
