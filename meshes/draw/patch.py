@@ -13,27 +13,28 @@ from .shots import Shot
 Array = NDArray[np.float64]
 
 
-def patch_of(shot: Shot) -> tuple[Array, Array, Array]:
+def patch_of(shot: Shot) -> tuple[Array, Array, Array | None]:
     """(x from the hoop's centre, pressure, traction) along the touching part of the rim, from left to right.
 
-    Empty off the floor, and for a series without them.
+    Empty off the floor, and for a series without a pressure; the traction is None where only that is missing.
     """
     rim = shot.rim
     if rim is None or "pressure" not in rim.point_data:
         return np.empty(0), np.empty(0), np.empty(0)
     pressure = np.asarray(rim.point_data["pressure"], dtype=float)
-    traction = np.asarray(rim.point_data.get("traction", np.zeros(len(pressure))), dtype=float)
+    traction = rim.point_data.get("traction")
     touching = pressure > 0
     touching |= np.roll(touching, 1) | np.roll(touching, -1)  # the edges
     x = np.asarray(rim.points[:, 0], dtype=float) - shot.centre[0]
     if "displacement" in rim.point_data:
         x = x + rim.point_data["displacement"][:, 0]
     order = np.flatnonzero(touching)[np.argsort(x[touching], kind="stable")]
-    return x[order], pressure[order], traction[order]
+    return x[order], pressure[order], None if traction is None else np.asarray(traction[order], dtype=float)
 
 
 class PatchPlot:
-    """Small axes with filled curves of p and of the friction traction, on scales that last over the run.
+    """Small axes with filled curves of p and, where it is known, of the friction traction, on scales that last over
+    the run.
 
     Parameters
     ----------
@@ -51,7 +52,8 @@ class PatchPlot:
         seen = [patch_of(shot) for shot in shots]
         reach = max((float(np.abs(x).max()) for x, _, _ in seen if len(x)), default=1.0)
         high = max((float(p.max()) for _, p, _ in seen if len(p)), default=1.0)
-        low = min((float(t.min()) for _, _, t in seen if len(t)), default=0.0)
+        tractions = [t for _, _, t in seen if t is not None]
+        low = min((float(t.min()) for t in tractions if len(t)), default=0.0)
         self.power_x, self.power = (int(np.floor(np.log10(v))) for v in (reach, high))
         axes.set_xlim(-1.08 * reach, 1.08 * reach)
         axes.set_ylim(1.15 * min(low, 0.0) - 0.04 * high, 1.1 * high)
@@ -70,13 +72,14 @@ class PatchPlot:
         axes.set_title(f"in the patch  {unit}", loc="left", pad=2 * size, **small)
         where: dict[str, Any] = {"transform": axes.transAxes, "fontsize": 0.85 * size, "va": "bottom"}
         axes.text(0.0, 1.02, "pressure", color=style.NORMAL, **where)
-        axes.text(1.0, 1.02, "friction", color=style.FRICTION, ha="right", **where)
+        if tractions:
+            axes.text(1.0, 1.02, "friction", color=style.FRICTION, ha="right", **where)
         axes.axhline(0, color=style.FAINT, lw=0.6)
         nothing = np.zeros((1, 2))
         common: dict[str, Any] = {"animated": True, "closed": True, "lw": 0.09 * size}
         from matplotlib.patches import Polygon
 
-        fills = ((style.NORMAL, 3), (style.FRICTION, 4))
+        fills = ((style.NORMAL, 3), (style.FRICTION, 4))[: 2 if tractions else 1]
         self._curves = [Polygon(nothing, facecolor=f"{c}55", edgecolor=c, zorder=z, **common) for c, z in fills]
         #: what is drawn anew in every picture
         self.moving: list[Any] = [axes.add_patch(curve) for curve in self._curves]
@@ -84,8 +87,8 @@ class PatchPlot:
     def show(self, shot: Shot) -> None:
         """Draw the patch of this shot."""
         x, pressure, traction = patch_of(shot)
-        for curve, values in zip(self._curves, (pressure, traction), strict=True):
-            if not len(x):
+        for curve, values in zip(self._curves, (pressure, traction), strict=False):
+            if values is None or not len(x):
                 curve.set_xy(np.zeros((1, 2)))
                 continue
             inside = np.column_stack([x, values])

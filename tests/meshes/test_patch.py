@@ -4,11 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from meshes import Block, SeriesWriter, read
 from meshes.draw.display import renderer_problem
-from meshes.draw.patch import patch_of
+from meshes.draw.patch import PatchPlot, patch_of
 from meshes.draw.shots import SeriesSource
+from meshes.draw.style import UNITS
 from meshes.view.pictures import Camera
 from meshes.view.setting import setting
 
@@ -48,6 +50,21 @@ def test_the_patch_is_read_from_left_to_right_with_its_edges(series):
 def test_a_rim_without_pressure_has_no_patch(series):
     shot = SeriesSource(series).shot(0.3)
     assert all(len(column) == 0 for column in patch_of(replace(shot, rim=None)))
+
+
+@pytest.mark.parametrize("known", [True, False])
+def test_a_friction_that_is_not_known_is_not_drawn(series, known):
+    """A series with the pressure alone says nothing of the friction: no curve of it along 0, no word."""
+    shot = SeriesSource(series).shot(0.3)
+    if not known:
+        point_data = {name: value for name, value in shot.rim.point_data.items() if name != "traction"}
+        shot = replace(shot, rim=replace(shot.rim, point_data=point_data))
+    plot = PatchPlot(Figure().add_subplot(), [shot], UNITS, 8.0)
+    plot.show(shot)
+    assert [text.get_text() for text in plot.axes.texts] == ["pressure", "friction"][: 1 + known]
+    highest = [curve.get_xy()[:, 1].max() for curve in plot.moving]
+    assert highest == pytest.approx([1.0, 0.3][: 1 + known], rel=0.05)  # of the parabola, to a node beside its top
+    assert len(patch_of(shot)[0]) > 3
 
 
 @needs_renderer
