@@ -39,6 +39,7 @@ from .vtu import Encoder, read_vtu
 Array = NDArray[np.float64]
 _PVD = "fields.pvd"
 _FOLDER = "fields"
+_BLOCKS = ("ring", "rim", "disk", "floor")
 _TAKEN = ("file", "allow_pickle")  # by numpy.savez_compressed
 
 
@@ -48,7 +49,7 @@ class SeriesWriter:
     Parameters
     ----------
     directory : path
-        Created if need be; a series that is already there is removed.
+        Created if need be; a series that is already there is removed, and nothing else.
     units : mapping of field name to unit, optional
         What the colour bar prints, e.g. ``{"von_mises": "m g/R²"}``.
     title : str
@@ -71,9 +72,9 @@ class SeriesWriter:
         self.folder = Path(directory) / _FOLDER
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-            self.pvd.unlink(missing_ok=True)  # first, so that it never names files of another run
-            for old in [*self.folder.glob("*-*.vtu"), self.folder / "history.npz"]:
-                old.unlink(missing_ok=True)
+            old = _files_of(self.pvd)
+            for path in (self.pvd, *old):  # it first, so that it never names files of another run
+                path.unlink(missing_ok=True)
         except OSError as error:
             raise SeriesError(f"{directory} cannot hold a series: {error.strerror}.") from None
         self._units = dict(units or {})
@@ -274,6 +275,15 @@ def read(path: str | Path) -> Series:
         raise SeriesError(f"{pvd} names no frames.")
     times = np.array(sorted(frames))
     return Series(pvd, times, tuple(frames[t] for t in times.tolist()))
+
+
+def _files_of(pvd: Path) -> list[Path]:
+    """What a writer has left: curves and frames, also those that a killed run had not named; nothing of others."""
+    listed = pvd.read_text("utf-8", "replace") if pvd.is_file() else ""
+    blocks = {*_BLOCKS, *re.findall(rf'file="{_FOLDER}/(.+?)-\d{{5,}}\.vtu"', listed)}
+    frame = re.compile(rf"({'|'.join(map(re.escape, blocks))})-\d{{5,}}\.vtu")
+    folder = pvd.parent / _FOLDER
+    return [file for file in folder.glob("*-*.vtu") if frame.fullmatch(file.name)] + [folder / "history.npz"]
 
 
 def _replace(path: Path, content: bytes) -> None:

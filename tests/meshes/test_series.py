@@ -207,6 +207,31 @@ def test_a_new_series_replaces_the_old_one(tmp_path, ring, ovals):
     assert read(tmp_path).history == {}
 
 
+def test_files_of_others_outlive_a_new_series(tmp_path, ring, ovals):
+    """Removed is what the writer named itself, of other blocks and of runs that were killed too."""
+    block = disk_block((0.0, 1.0), 0.2, 0.3)
+    with SeriesWriter(tmp_path) as writer:
+        writer.add(Frame(0.0, {"ring": block, "tread-2": block}))
+    folder = tmp_path / "fields"
+    left, others = folder / "rim-00007.vtu", [folder / name for name in ("mine-1.vtu", "ring-1.vtu", "my-00001.vtu")]
+    for path in (left, *others):
+        path.write_bytes(b"")
+    with SeriesWriter(tmp_path) as writer:
+        writer.add(Frame(0.0, {"disk": block}))
+    assert {path.name for path in folder.glob("*.vtu")} == {"disk-00000.vtu", *(path.name for path in others)}
+
+
+def test_a_damaged_series_is_replaced(tmp_path):
+    """Its PVD names nothing; frames of hoops are known by their names."""
+    block = disk_block((0.0, 1.0), 0.2, 0.3)
+    with SeriesWriter(tmp_path) as writer:
+        writer.add(Frame(0.0, {"ring": block}))
+    (tmp_path / "fields.pvd").write_bytes(b"<VTKFile>")
+    with SeriesWriter(tmp_path) as writer:
+        writer.add(Frame(0.0, {"disk": block}))
+    assert {path.name for path in (tmp_path / "fields").glob("*.vtu")} == {"disk-00000.vtu"}
+
+
 def test_times_must_increase(tmp_path):
     writer = SeriesWriter(tmp_path)
     floor = {"floor": floor_block(0, 1, 0.1)}
