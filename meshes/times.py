@@ -23,7 +23,8 @@ def frame_times(
     Parameters
     ----------
     t, normal_force : array_like, optional
-        The force over the run, t ascending; without it the times are evenly spaced.
+        The force over the run, t ascending, twice the same where the force jumps: half of a jump is followed before
+        and half behind it. Without it the times are evenly spaced.
     share : float
         Share of the frames that follows the force, 0 (evenly spaced) to below 1; the rest is evenly spaced,
         so that no stretch of time goes without.
@@ -46,10 +47,16 @@ def frame_times(
     if at.shape != force.shape or at.ndim != 1 or np.any(np.diff(at) < 0) or not np.all(np.isfinite([at, force])):
         raise ValueError("frames cannot be chosen: t must ascend, with a finite normal_force for each.")
     inside = (at > start) & (at < stop)
-    times = np.concatenate([[start], np.unique(at[inside]), [stop]])
-    change = np.abs(np.diff(np.interp(times, at, force)))
+    times = np.concatenate([[start], at[inside], [stop]])
+    last = np.interp(-stop, -at[::-1], force[::-1])  # before a jump there, as the first is behind one at the start
+    change = np.abs(np.diff([np.interp(start, at, force), *force[inside], last]))
     if not change.sum() > 0:
         return even
+    wide, jumps = np.flatnonzero(np.diff(times)), np.flatnonzero(np.diff(times) == 0)
+    behind = np.searchsorted(wide, jumps)
+    for neighbours in (wide[behind - 1], wide[behind]):
+        np.add.at(change, neighbours, change[jumps] / 2)
+    times, change = np.append(times[wide], stop), change[wide]
     density = (1 - share) * np.diff(times) / (stop - start) + share * change / change.sum()
     passed = np.concatenate([[0.0], np.cumsum(density)])
     chosen = np.interp(np.linspace(0, passed[-1], count), passed, times)
