@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import style
+from .logarithmic import logarithmic
 from .patch import PatchPlot
 from .renderer import ABOVE_FLOOR, Colours
 from .shots import Curves, Shot
@@ -157,21 +158,6 @@ class Layout:
         box = self._lens.get_window_extent(self.canvas.get_renderer())
         return float(box.width), self._under + float(box.height) / 2
 
-    def _logarithmic(self, axes: Any, usual: float, low: float, high: float) -> None:
-        """An axis that is linear about zero and logarithmic beyond the usual force."""
-        axes.set_yscale("asinh", linear_width=usual)
-        room = 0.3 * usual
-        axes.set_ylim(3 * low if low < -usual else low - room, 3 * high if high > usual else high + room)
-        decades = 10.0 ** np.arange(np.ceil(np.log10(usual)), np.ceil(np.log10(max(high, -low, 2 * usual))))
-        some = decades[:: -max(1, len(decades) // 3)][:3]
-        if len(some) > 2:  # beside two others one at the usual force would lie over the zero
-            some = some[some > 2 * usual]
-        above = decades[decades <= high][-1:] if low < -usual else some[some <= high]
-        axes.set_yticks(np.sort([*-decades[decades <= -low][-1:], 0.0, *above]), minor=False)
-        axes.yaxis.set_major_formatter(lambda value, _: _decade(value))
-        axes.minorticks_off()
-        axes.text(0.01, 0.98, "log", transform=axes.transAxes, va="top", color=style.FAINT, fontsize=0.8 * self.type)
-
     def note(self, text: str) -> None:
         """Print a line beside the title, or below it where it would not fit, on every page from now on."""
         em, top = self.type * 100 / 72, self.view_box[1]
@@ -268,7 +254,7 @@ class Layout:
             axes.set_ylim(min(low, 0.0) - room, max(high, 0.0) + room)
             axes.locator_params(axis="y", nbins=3)
             if curves.usual is not None:
-                self._logarithmic(axes, curves.usual, low, high)
+                logarithmic(axes, curves.usual, low, high, self.type)
             for side in ("top", "right"):
                 axes.spines[side].set_visible(False)
             for side in ("left", "bottom"):
@@ -290,11 +276,3 @@ class Layout:
 def _decimals(step: float) -> int:
     """Digits behind the point that show such a step, 4 at least."""
     return min(max(4, int(np.ceil(-np.log10(step)))), 15) if step > 0 else 4
-
-
-def _decade(value: float) -> str:
-    """A power of ten of either sign as an axis prints it."""
-    if abs(value) < 1e4:
-        return f"{value:g}"
-    sign = "-" if value < 0 else ""
-    return f"${sign}10^{{{round(np.log10(abs(value)))}}}$"

@@ -116,6 +116,8 @@ class Camera:
         middle = self._middle(shot)
         self.renderer.show(shot, self.setting.factor, middle)
         drawn, caption = self.renderer.image(), None
+        if self.setting.zoom > 1:  # what is enlarged ends beside the colour bar, floor and all
+            drawn[:, drawn.shape[1] - self.layout.covered :] = 255
         if self.lens is not None and self.lens.fits(shot, self.setting.factor):
             column = drawn.shape[1] / 2 + (float(shot.centre[0]) - middle) * self.scale
             caption = self.lens.draw(drawn, shot, column, ABOVE_FLOOR * drawn.shape[0])

@@ -1,5 +1,7 @@
 """The curves of N and F below a picture."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 
@@ -24,6 +26,27 @@ def test_a_logarithmic_axis_has_a_tick_wherever_a_decade_is(low, high, ticks):
     assert of_friction.get_yticks() == pytest.approx(ticks)
     assert "log" in [text.get_text() for text in of_friction.texts]
     assert "log" in [text.get_text() for text in of_normal.texts]
+
+
+@pytest.mark.parametrize(("size", "high"), [((1280, 900), 75.0), ((1280, 900), 300.0), ((640, 480), 75.0)])
+def test_between_the_powers_of_a_logarithmic_axis_are_strokes_and_numbers(size, high):
+    """Of every whole multiple from the usual force, 1, up to the end of the axis; no number of them lies over another,
+    to the pixel by which letters are rounded.
+    """
+    t = np.linspace(0, 1, 1001)
+    force = np.where(np.abs(t - 0.5) < 0.01, high, 1.0)
+    layout = Layout(size, Curves(t, force, 0.3 * force), (0.0, 1.0), None, {}, "")
+    axes = next(axes for axes in layout.figure.axes if axes.get_ylabel().startswith("N"))
+    numbers, end = axes.get_yticks(), axes.get_ylim()[1]
+    multiples = {digit * 10**power for power in range(3) for digit in range(1, 10) if digit * 10**power <= end}
+    assert set(np.round([*axes.get_yticks(minor=True), *numbers], 9)) == multiples | {0}
+    fixed, added = (
+        [box for text in axes.yaxis.get_ticklabels(which=kind) if text.get_text() and (box := text.get_window_extent())]
+        for kind in ("major", "minor")
+    )
+    assert (len(added) > 0) == (size[0] > 1000), "there is no room on a small page"
+    for one, other in product(added, fixed + added):
+        assert one is other or one.y0 >= other.y1 - 1 or one.y1 <= other.y0 + 1
 
 
 def test_a_pulse_far_above_the_usual_force_gets_a_logarithm():

@@ -458,6 +458,20 @@ def test_nothing_of_an_enlarged_view_lies_under_the_colour_bar(series, camera):
 
 
 @needs_renderer
+def test_an_enlarged_view_ends_beside_the_colour_bar_with_its_floor(series):
+    """The ring is cut off there: nothing of the floor goes on below the bar, of a whole hoop's view it does."""
+    seen = []
+    for zoom in (1, 5):
+        with Camera(setting(series, zoom=zoom), SIZE) as view:
+            _, top, width, height = view.layout.view_box
+            below = view.page(0.6)[
+                top + int(height * ABOVE_FLOOR) - 4 : top + height, width - view.layout.covered : width
+            ]
+            seen.append(bool((below < 250).any()))
+    assert seen == [True, False]
+
+
+@needs_renderer
 def test_the_lens_enlarges_the_wall_above_the_contact(series):
     """A wall of 0.02 R is 6 times as high in it as outside, and of the same colours."""
     with Camera(setting(series, field="hoop_stress"), SIZE) as camera:
