@@ -11,7 +11,10 @@ equilibrium with the contact in every frame. Between the pulses the hoop is rigi
 ``displacement``, ``velocity`` and ``stress`` (xx, yy, xy) are along the world's axes, x to the right and y up;
 ``hoop_stress`` and ``bending_stress`` along the wall, as a ring that bends far (chain, exact) has turned it. On the
 block ``rim`` are ``pressure`` and ``traction``, the vertical and the horizontal force of the floor on the undeformed
-rim, and ``stick``: 1 where a point of the rim sticks, -1 where it slips, 0 where it is off the floor.
+rim, and ``stick``: 1 where a point of the rim sticks, -1 where it slips, 0 where it is off the floor. A rigid hoop
+touches in a point and has no patch: in its frames all three are 0, also while it is on the floor; its N and F are in
+``history.npz``. The displacement of ``rim`` is that of the contact: on a wall that is not thin it differs from that of
+``ring``, whose mesh knows no dent narrower than an element.
 
 Units are the scene's. Stresses, pressures and energy densities are those of the ring's ``section_width``; where a scene
 says none, of a hoop of width R, and R/b times as large for another of width b.
@@ -52,7 +55,7 @@ from .curves import curves
 from .instants import Instant, instants_at, times_of
 from .interior import interior_of
 from .recovery import Interior
-from .rim import RIM_FIELDS, rim_of
+from .rim import RIM_FIELDS, given_by, rim_of
 
 Array = NDArray[np.float64]
 
@@ -218,6 +221,10 @@ class _Painter:
             kept, state = instant.kept, instant.state
             contact = None if kept is None or state is None else (kept.hoop, state)
             on_rim: dict[str, Array] = {n: nodal[n] for n in ("displacement", "velocity") if n in nodal}
+            if contact is not None and "displacement" in nodal:
+                u = np.array(found["u"])
+                u[mesh.rim_nodes] -= self.interiors[id(kept)].dent(contact[1], given_by(contact[0]))
+                on_rim["displacement"] = R * place.vectors(u)
             blocks["rim"] = rim_of(mesh, points, on_rim, contact, place, self.asked, self.stress, R)
         away, radius = disk_in(self.scene)
         centre = R * place.points(np.array([[away, 0.0]]))[0]

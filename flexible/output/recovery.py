@@ -4,10 +4,11 @@ The reduced hoop knows its ring by modes and the rim. Here the same displacement
 
     u = sum q_i Phi_i + (K^-1 - sum Phi_i Phi_i^T / lambda_i) f,
 
-with f the contact's forces on the rim: on the rim it is what the contact saw, to round-off, but for what the contact
-takes off the dent of a wall that is not thin (``within`` of :class:`flexible.ring.fem.Ring`: a few percent of the
-patch's depth). The levels ``full`` and ``exact`` march with all nodes; for a chain see
-:mod:`flexible.output.chain_interior`. Many instants are done at once.
+with f the contact's forces on the rim: on the rim it is what the contact saw, to round-off, but for the dent of a wall
+that is not thin (``within`` of :class:`flexible.ring.fem.Ring`), which the mesh spreads over its nodes and the contact
+has point by point: on a stiff floor, whose patch is narrower than an element, they are up to twice the patch's depth
+apart. The block ``rim`` of fields has the contact's (:mod:`flexible.output.rim`). The levels ``full`` and ``exact``
+march with all nodes; for a chain see :mod:`flexible.output.chain_interior`. Many instants are done at once.
 
 Everything is in the disk's frame and in the solver's units, R = m = g = 1; stresses and energy densities are those of
 a ring of width R: the scene's ``section_width`` comes in with its units (:mod:`flexible.output.fields`).
@@ -17,11 +18,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
+from scipy.sparse.linalg import splu
 
 from meshes import gauss_gradient, nodal_gradient
 from meshes.placing import around
@@ -74,6 +76,17 @@ class Interior:
     def displacement(self, states: Sequence[State]) -> Array:
         """Displacement of the nodes, (n_nodes, 2, n_states)."""
         return self._expanded(self.free(states))
+
+    def dent(self, state: State, given: float) -> Array:
+        """Of the displacement of the rim's nodes what they have of ``given`` per pressure of the floor, (n_rim, 2)."""
+        load = np.zeros((len(self.mesh.rim_nodes), 2))
+        np.add.at(load, (2 * state.window[0] + np.arange(len(state.nodal))) % len(load), state.nodal)
+        spread: Array = self._spread.solve(given * load)
+        return spread
+
+    @cached_property
+    def _spread(self) -> Any:
+        return splu(self.ring.rim_products)
 
     def strained(self, states: Sequence[State]) -> Array:
         """Displacement of the nodes of which the stress is."""

@@ -1,4 +1,9 @@
-"""The rim as a line in a frame: the mesh's rim nodes and, where it touches the floor, the contact's own points."""
+"""The rim as a line in a frame: the mesh's rim nodes and, where it touches the floor, the contact's own points.
+
+It is displaced as the contact had it, which takes the dent of a wall that is not thin point by point
+(:attr:`flexible.ring.fem.Ring.within`) and not by nodes as the mesh does: undamped, its depth in the floor is that of
+the pressure, of a chain to some 5 %.
+"""
 
 from __future__ import annotations
 
@@ -21,6 +26,11 @@ Array = NDArray[np.float64]
 RIM_FIELDS = ("pressure", "traction", "stick")
 
 
+def given_by(hoop: RimContact) -> float:
+    """What the contact has the wall give way by point by point, in R per pressure; 0 of thin walls and of all nodes."""
+    return 1 / hoop.law.parameters.eps_n - 1 / hoop.scene.contact.stiffness
+
+
 def rim_of(
     mesh: RingMesh,
     points: Array,
@@ -39,7 +49,7 @@ def rim_of(
     points : (n_nodes, 2) array
         Undeformed nodes in the world.
     nodal : mapping of (n_nodes, 2) arrays
-        Fields of the ring that the rim gets too.
+        Fields of the ring that the rim gets too; the displacement without what :func:`given_by` is of.
     contact : (RimContact, State) or None
         The contact at this instant; None while the hoop is rigid.
     place : Placement
@@ -76,6 +86,9 @@ def rim_of(
             here = np.einsum("ni,nij->nj", shape, value[nodes])
             on_line[name] = np.concatenate([value, here])[order]
         theta = together[order]
+    if contact is not None and "displacement" in on_line:
+        dent = given_by(contact[0]) * np.column_stack([columns["traction"], columns["pressure"]])
+        on_line["displacement"] = on_line["displacement"] + length * dent
     kept = {name: value if name == "stick" else stress * value.astype(float) for name, value in columns.items()}
     kept = {name: value for name, value in kept.items() if name in asked}
     start = np.arange(len(theta))
