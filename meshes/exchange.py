@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import inf
+from numbers import Real
 from pathlib import Path
 
 import numpy as np
@@ -36,7 +37,7 @@ def save_mesh(ring: RingMesh, path: str | Path, length: float = 1.0) -> None:
     import meshio
 
     path = Path(path)
-    if not 0 < length < inf:
+    if not (isinstance(length, Real) and 0 < length < inf):
         raise MeshError(f"length = {length!r} is not possible: it must be above 0.")
     suffix = path.suffix or "no suffix"
     if path.suffix not in HOLD:

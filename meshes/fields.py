@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
 from math import inf, isfinite, pi
+from numbers import Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -120,13 +121,15 @@ def disk_block(centre: ArrayLike, radius: float, angle: float, sectors: int = 12
     Raises
     ------
     SeriesError
-        A radius that is not above 0, a centre or an angle that is none, or fewer than 3 sectors.
+        A radius that is not above 0, a centre or an angle that is none, or no whole number of sectors from 3 on.
     """
-    if not (0 < radius < inf and sectors >= 3 and isfinite(angle) and np.all(np.isfinite(centre))):
+    numbers = all(isinstance(value, Real) for value in (radius, angle, sectors)) and _is_place(centre)
+    if not (numbers and 0 < radius < inf and sectors >= 3 and sectors % 1 == 0 and isfinite(angle)):
         raise SeriesError(
             f"a disk of radius {radius!r} about {centre!r}, turned by {angle!r}, in {sectors!r} sectors, is "
             "not possible."
         )
+    sectors = int(sectors)
     turn = np.arange(sectors) * (2 * pi / sectors) - angle
     rim = np.column_stack([np.cos(turn), np.sin(turn)]) * radius
     points = np.vstack([[0.0, 0.0], rim]) + np.asarray(centre, dtype=float)
@@ -142,10 +145,19 @@ def floor_block(left: float, right: float, depth: float) -> Block:
     SeriesError
         Ends that are not from left to right, or a depth that is not above 0.
     """
-    if not (-inf < left < right < inf and 0 < depth < inf):
+    numbers = all(isinstance(value, Real) for value in (left, right, depth))
+    if not (numbers and -inf < left < right < inf and 0 < depth < inf):
         raise SeriesError(f"a floor from {left!r} to {right!r}, {depth!r} deep, is not possible.")
     points = np.array([[left, -depth], [right, -depth], [right, 0.0], [left, 0.0]])
     return Block(points, np.array([[0, 1, 2, 3]]), QUAD)
+
+
+def _is_place(centre: ArrayLike) -> bool:
+    try:
+        place = np.asarray(centre, dtype=float)
+    except (TypeError, ValueError):
+        return False
+    return place.shape == (2,) and bool(np.isfinite(place).all())
 
 
 # the same object for every frame, so that a writer encodes it once

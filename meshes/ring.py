@@ -169,6 +169,9 @@ def ring_mesh(
     MeshError
         Radii, counts, weld or grading that make no ring.
     """
+    told = (inner, outer, around, through, halved, weld_half_angle)
+    if not all(isinstance(value, int | float | np.number) for value in told):
+        raise MeshError("no ring can be made: its radii, counts and weld are numbers.")
     if not (isfinite(outer) and 0 < inner < outer):
         raise MeshError(f"a ring with radii {inner!r} and {outer!r} cannot be: 0 < inner < outer is needed.")
     if not (around >= 8 and through >= 1 and around % 1 == through % 1 == 0):
@@ -178,7 +181,6 @@ def ring_mesh(
     around, through, halved = int(around), int(through), int(halved)
     if not 0 < weld_half_angle < pi:
         raise MeshError(f"weld_half_angle = {weld_half_angle!r} is not possible: it lies between 0 and pi.")
-
     vertex_theta = _vertex_angles(around, weld_half_angle, _density(grading, weld_half_angle))
     theta = _with_mids(vertex_theta)
     radii = with_middles(_layers(inner, outer, through, halved))
@@ -194,7 +196,6 @@ def ring_mesh(
     outer_facets, inner_facets = sides[1, -1], sides[3, 0]
     welded = np.abs(theta) <= weld_half_angle
     boundaries = {"outer": outer_facets, "inner": inner_facets, "weld": inner_facets[welded[1::2]]}
-
     radius, angle = np.empty((2, node.size))
     radius[grid] = radii[:, None]
     angle[grid] = theta
@@ -251,7 +252,7 @@ def quads(points: Array, grid: Indices) -> tuple[MeshQuad2, Indices]:
 def _density(grading: float | Density, weld: float) -> Density:
     if callable(grading):
         return grading
-    if not (isfinite(grading) and grading > 0):
+    if not (isinstance(grading, int | float | np.number) and isfinite(grading) and grading > 0):
         raise MeshError(f"grading = {grading!r} is not possible: it must be positive.")
     # smooth round the circle, and as wide as a pulse, which sweeps about a radian of rim to either side
     reach = max(1.0, 2 * weld)

@@ -23,6 +23,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from html import escape
+from numbers import Real
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -104,7 +105,7 @@ class SeriesWriter:
             A time that is not after the last one, a field that a VTU file cannot hold, a block whose name is none for
             a file, or a disk that is full.
         """
-        if not self._time < frame.time < math.inf:
+        if not (isinstance(frame.time, Real) and self._time < frame.time < math.inf):
             raise SeriesError(f"a frame at t = {frame.time!r} cannot follow one at t = {self._time!r}.")
         for name in frame.blocks:
             if not re.fullmatch(r"[\w. -]+", name):

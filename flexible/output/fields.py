@@ -22,7 +22,7 @@ says none, of a hoop of width R, and R/b times as large for another of width b.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from math import floor, log10
 from pathlib import Path
@@ -110,7 +110,8 @@ def write_fields(
     SeriesError
         No flexible motion, no states in it, no such pulse, field or time, or a folder that cannot be written to.
     """
-    asked = tuple(dict.fromkeys([fields] if isinstance(fields, str) else fields or ()))
+    named = fields if isinstance(fields, Iterable) and not isinstance(fields, str) else (fields,)
+    asked = tuple(dict.fromkeys(named if fields is not None else ()))
     unknown = [str(name) for name in asked if name not in FIELDS]
     if unknown or not asked:
         raise SeriesError(f"fields = {', '.join(unknown) or 'none'} is not possible: they are {', '.join(FIELDS)}.")

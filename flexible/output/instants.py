@@ -46,7 +46,9 @@ def times_of(motion: FlexibleMotion, frames: int, times: ArrayLike | None, pulse
             listed = np.unique(np.asarray(times, dtype=float))
         except (TypeError, ValueError):
             raise SeriesError(f"times = {times!r} is not possible: they are numbers.") from None
-        if not listed.size or not (listed[0] >= 0 and listed[-1] <= end * (1 + 1e-12)):
+        if not listed.size:
+            raise SeriesError("times are not possible: none is given.")
+        if not (listed[0] >= 0 and listed[-1] <= end * (1 + 1e-12)):
             raise SeriesError(f"times are not possible: they must lie between 0 and {end:g}, the end of the motion.")
         return listed
     if not (isinstance(frames, int | np.integer) and frames >= 2):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path
 
 import numpy as np
@@ -35,7 +36,15 @@ class Setting:
 
 
 def as_told(time: float, span: tuple[float, float]) -> float:
-    """A time, or the end of the span of which it is what is printed, to six digits."""
+    """A time, or the end of the span of which it is what is printed, to six digits.
+
+    Raises
+    ------
+    ViewError
+        It is no number.
+    """
+    if not isinstance(time, Real):
+        raise ViewError(f"time = {time!r} is not possible: it is a number.")
     return next((end for end in span if time == float(f"{end:.6g}")), time)
 
 
@@ -51,9 +60,9 @@ def setting(
     SeriesError
         A damaged series, or nothing that can be drawn.
     """
-    if factor is not None and not (np.isfinite(factor) and factor >= 0):
+    if factor is not None and not (isinstance(factor, Real) and np.isfinite(factor) and factor >= 0):
         raise ViewError(f"factor = {factor!r} is not possible: it must be a number from 0.")
-    if not (np.isfinite(zoom) and zoom >= 1):
+    if not (isinstance(zoom, Real) and np.isfinite(zoom) and zoom >= 1):
         raise ViewError(f"zoom = {zoom!r} is not possible: it must be a number from 1.")
     source = source_of(thing)
     shots = sampled(source)

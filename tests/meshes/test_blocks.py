@@ -7,7 +7,17 @@ from math import pi
 import numpy as np
 import pytest
 
-from meshes import Placement, SeriesError, disk_block, floor_block, rim_block, ring_block, ring_mesh
+from meshes import (
+    MeshError,
+    Placement,
+    SeriesError,
+    disk_block,
+    floor_block,
+    rim_block,
+    ring_block,
+    ring_mesh,
+    save_mesh,
+)
 
 
 def areas(block):
@@ -84,3 +94,30 @@ def test_the_line_of_the_rim_goes_once_round_it():
     vertex = ring.rim_theta[::2]
     assert lengths == pytest.approx(np.diff(vertex, append=vertex[0] + 2 * pi), rel=1.2e-6)
     assert sorted(rim.cells[:, 0]) == sorted(rim.cells[:, 1]), "each element ends where another begins"
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda: disk_block((0,), 0.1, 0.2),
+        lambda: disk_block((0, 1, 2), 0.1, 0.2),
+        lambda: disk_block("ab", 0.1, 0.2),
+        lambda: disk_block((0, 1), 0.1, 0.2, sectors=10.5),
+        lambda: disk_block((0, 1), "a", 0.2),
+        lambda: floor_block("a", 1.0, 0.1),
+    ],
+)
+def test_what_makes_no_block_is_refused_in_a_sentence(made):
+    """In the class that is documented, not by what numpy makes of it."""
+    with pytest.raises(SeriesError, match=r"^a (disk|floor) .* is not possible\.$"):
+        made()
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"inner": "a"}, {"outer": None}, {"around": "40"}, {"weld_half_angle": "x"}, {"grading": "a"}]
+)
+def test_what_makes_no_ring_is_refused_in_a_sentence(wrong, tmp_path):
+    with pytest.raises(MeshError, match=r"\.$"):
+        ring_mesh(**({"inner": 0.9, "outer": 1.0, "around": 8} | wrong))
+    with pytest.raises(MeshError, match="length = 'a' is not possible"):
+        save_mesh(ring_mesh(0.9, 1.0, 8), tmp_path / "a.vtu", length="a")

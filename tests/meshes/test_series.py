@@ -207,6 +207,11 @@ def test_a_new_series_replaces_the_old_one(tmp_path, ring, ovals):
     assert read(tmp_path).history == {}
 
 
+def test_a_time_that_is_text_is_refused(tmp_path):
+    with SeriesWriter(tmp_path) as writer, pytest.raises(SeriesError, match="t = 'a' cannot follow"):
+        writer.add(Frame("a", {"disk": disk_block((0.0, 1.0), 0.2, 0.3)}))
+
+
 def test_files_of_others_outlive_a_new_series(tmp_path, ring, ovals):
     """Removed is what the writer named itself, of other blocks and of runs that were killed too."""
     block = disk_block((0.0, 1.0), 0.2, 0.3)

@@ -445,6 +445,12 @@ def test_an_enlarged_view_keeps_the_contact_in_the_middle(series):
         setting(series, zoom=0.5)
 
 
+@pytest.mark.parametrize("key", ["time", "zoom", "factor"])
+def test_a_number_of_a_picture_that_is_text_is_refused(series, tmp_path, key):
+    with pytest.raises(ViewError, match=rf"^{key} = 'a' is not possible"):
+        picture(series, tmp_path / "a.png", **{key: "a"})
+
+
 @needs_renderer
 def test_nothing_of_an_enlarged_view_lies_under_the_colour_bar(series, camera):
     """The strip of the bar is that of the page without a hoop, whatever the enlargement lays there."""

@@ -324,7 +324,7 @@ def test_a_killed_run_leaves_whole_frames(tmp_path):
         ({"times": [-1.0]}, "between 0 and"),
         ({"times": [1e9]}, "between 0 and"),
         ({"times": [np.nan]}, "between 0 and"),
-        ({"times": []}, "between 0 and"),
+        ({"times": []}, "times are not possible: none is given"),
         ({"frames": 1}, "frames = 1"),
         ({"frames": 2.5}, "frames = 2.5"),
         ({"frames": float("nan")}, "frames = nan"),
@@ -335,6 +335,7 @@ def test_a_killed_run_leaves_whole_frames(tmp_path):
         ({"fields": "displaced"}, "fields = displaced"),
         ({"fields": None}, "fields = none"),
         ({"fields": [1]}, "fields = 1"),
+        ({"fields": 5}, "fields = 5"),
     ],
 )
 def test_bad_wishes_are_one_sentence(motion, tmp_path, wishes, words):
