@@ -203,8 +203,7 @@ class Builder:
         """The march of that number in the motion to go on from, and whether it is to be taken up, as its last one, or
         one so near the end of its run, or of this one, that this may have cut the step in which it ends.
 
-        One to be taken up that the end of its run had begin elsewhere (the rigid pulse, cut, was shorter) is none, nor
-        is one that went on where this run ends, or that begins elsewhere for that.
+        One that went on where this run ends is none, nor is one to be taken up that begins elsewhere for that.
         """
         known = self.earlier.marches if self.earlier is not None else ()
         if self.earlier is None or number >= len(known):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from math import inf, pi
 
 from rigid import Motion, Pulse, Run, Scene
@@ -17,20 +18,26 @@ from ..time.advance import SHORTEST
 from ..time.course import Stop
 from ..time.events import Ends
 from .ahead import from_here, from_release, rest_of, slips_no_more, whirls
-from .pulses import comes_to, goes_through_turns, lead, over_bottom
+from .pulses import AT_REST, comes_to, goes_through_turns, lead, over_bottom
 from .told import Ending, Progress, pulse_over, run_over, swept
 
 BACK = 0.01  # of the way through a pulse, by which a hoop that turned back is out where it came in
 GAINS = 0.01  # share of the energy that rigid hoops may add; what one lacks to go over the top from 10 degrees is 0.008
+TO_A_PULSE = Run(until="pulse")
 WAITS = 10.0  # sqrt(R/g) that a hoop may take for it, beyond four pulse lengths: a swing takes a few
 
 
 def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> Ending:
-    """Rigid between pulses, flexible inside."""
-    motion = from_release(scene, scene.run)
-    done, behind = 0, None  # segments, and where the last one ended
+    """Rigid between pulses, flexible inside.
+
+    Of a run to a time the rigid hoop goes on to the end of its pulse, wherever that time is: where the flexible one
+    takes over depends on the length of the pulse.
+    """
+    released, rest = partial(from_release, scene), scene.run
+    done = 0  # segments
     whirls_from: float | None = None
     while True:
+        motion = released(rest if rest.t_end is None else TO_A_PULSE)
         try:
             lost = builder.lost_to_hand_overs(float(motion.at(0.0, "left").energy))
             _ensure_stands_in(lost, builder.initial or inf, builder.t)
@@ -46,15 +53,16 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         elif pulse is not None and abs(pulse.phi_start - whirls_from) >= 2 * pi:
             builder.add_rigid(motion, lead(motion, pulse))
             return motion  # once round, as the rigid hoop goes
+        start = inf if pulse is None else lead(motion, pulse, hoop.law.rolls_to)
+        if rest.t_end is not None and rest.t_end - start < SHORTEST:
+            motion, pulse = released(rest), None
         if pulse is None or at_rest:
             builder.add_rigid(motion, motion.t_end)
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
             return run_over(scene.run) if over else motion
-        if pulse.cut and pulse.t_start > 0 and motion.period is not None and scene.run.t_end is None:
-            further = Run(t_end=motion.t_end + motion.period)  # it rolls for ever, and stopped after a period, in this
-            motion = from_release(scene, further) if behind is None else from_here(scene, hoop, behind, further)
-            pulse = _same(motion, pulse)
-        start = lead(motion, pulse, hoop.law.rolls_to)
+        if pulse.cut and pulse.t_end == motion.t_end:  # by the last turn, or by the end of a period to be rolled for ever
+            motion, pulse = _uncut(motion, pulse, released(TO_A_PULSE))
+            start = lead(motion, pulse, hoop.law.rolls_to)
         ends_there = builder.add_rigid(motion, start)
         try:
             state = hand_over(hoop, motion, start, one_of(ends_there, 1))
@@ -63,30 +71,33 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         state = state._replace(t=builder.t, x_C=builder.x_C)
         ends, timed = _ends_of(motion, pulse, start, state)
         run_out = inf if scene.run.t_end is None else scene.run.t_end
-        ends = ends._replace(t=min(ends.t, run_out), turns=0 if timed else (scene.run.turns or 0) - len(builder.turns))
+        left = 0 if scene.run.turns is None else scene.run.turns - len(builder.turns)
+        ends, over = ends._replace(t=min(ends.t, run_out), turns=left), ends.t
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, swept((float(state.pos[2]), pulse.phi_end)))
         state, segment, stop = builder.march(hoop, state, ends, scene.solve.rtol, watch)
         onward = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
-        inside = not timed and onward * (float(state.pos[2]) - pulse.phi_end) < 0
+        inside = over - state.t >= SHORTEST if timed else onward * (float(state.pos[2]) - pulse.phi_end) < 0
         # one that rocks in the angles of the pulse, for far longer than that takes, does not get out of it
-        cut_short = inside and (ends.t - state.t < SHORTEST or rest_of(scene.run, builder) is None)
+        left_to_run = rest_of(scene.run, builder)
+        cut_short = inside and (ends.t - state.t < SHORTEST or left_to_run is None)
         back = inside and not cut_short
         if stop is not None:
             return stop
-        _list(builder, segment, motion, pulse, start, back, cut_short or (pulse.cut and timed))
-        done, behind = done + 1, state
+        _list(builder, segment, motion, pulse, start, back, cut_short)
+        done += 1
         if scene.run.until == "pulse" and builder.pulses and over_bottom(pulse) and not builder.pulses[-1].cut:
             return pulse_over(back)
-        rest = rest_of(scene.run, builder)
-        if rest is None:
+        if left_to_run is None:
             return run_over(scene.run)
-        motion = from_here(scene, hoop, state, rest)
+        released, rest = partial(from_here, scene, hoop, state), left_to_run
 
 
-def _same(motion: Motion, pulse: Pulse) -> Pulse:
-    """The pulse of a motion that begins with one of the same motion run less far."""
-    return min(motion.pulses, key=lambda other: abs(other.t_start - pulse.t_start))
+def _uncut(motion: Motion, pulse: Pulse, further: Motion) -> tuple[Motion, Pulse]:
+    """A motion in whose pulse it ends, and that, or if there is one the same pulse of the same motion run further."""
+    same = (other for other in further.pulses if abs(other.t_start - pulse.t_start) <= AT_REST)
+    whole = next(same, None)
+    return (motion, pulse) if whole is None else (further, whole)
 
 
 def _ensure_stands_in(lost: float, energy: float, t: float) -> None:
@@ -112,12 +123,10 @@ def _ends_of(motion: Motion, pulse: Pulse, start: float, state: State) -> tuple[
     """Where a segment through a pulse of the rigid hoop ends, which begins in a state, ``start`` after the rigid hoop;
     and whether that is an instant.
 
-    A pulse that the end of the run cuts, or that goes on through a turn, ends with the rigid one; any other at its
-    angle or where it came in.
+    A pulse that goes on through a turn ends with the rigid one; any other at its angle or where it came in.
     """
-    run_ends = pulse.cut and motion.scene.run.t_end is not None and pulse.t_end == motion.t_end
     t_end = state.t + pulse.t_end - start
-    if run_ends or goes_through_turns(motion, pulse):
+    if goes_through_turns(motion, pulse):
         return Ends(t=t_end), True
     onward = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
     # a blow that turns the hoop is the start of a pulse that goes back over the way on which the hoop came in
@@ -132,7 +141,7 @@ def _list(
 ) -> None:
     """List the pulse that a segment went through, from where it came to it, to where it left it."""
     first = segment.t_start if start == pulse.t_start else comes_to(segment, motion, pulse)
-    if first is None and back:  # it turned back before it came to the pulse
+    if first is None and (back or (cut and not segment.turns())):  # it turned back, or the run ended, before the pulse
         return
     leaves = max(segment.crossings(pulse.phi_start), default=segment.t_end) if back else segment.t_end
     measured = segment.pulse(segment.t_start if first is None else first, leaves)

@@ -54,3 +54,70 @@ def test_a_hoop_is_let_go_undeformed_once():
     starts = [kept.states[0] for kept in motion.kept if kept.states[0].t > 0]
     assert len(starts) > 1
     assert all(state.res.normal > 0.1 for state in starts)
+
+
+#: rigid hoops that begin their pulse soon behind a landing, and after a roll in which the flexible one creeps loose
+THROWN = HOOP.replace(
+    hoop={"k": 0.3, "mass_ratio": 0.0}, release={"phi0_deg": 60, "omega0": 3.0, "slip0": -4.0},
+    ring={"bending_stiffness": 1e4},
+)  # fmt: skip
+CREEPING = HOOP.replace(hoop={"mass_ratio": 0.0}, contact={"law": "regularised"}, ring={"bending_stiffness": 1e4})
+
+
+def flexible_from(motion):
+    """When its flexible segments begin."""
+    return [piece.t_start for piece in motion.sample.pieces if piece.segment is not None]
+
+
+@pytest.mark.parametrize("scene", [THROWN, CREEPING], ids=["thrown", "creeping"])
+def test_where_a_run_to_a_time_ends_changes_nothing_before(scene):
+    """Ends before the rigid pulse begins, just behind that, in it and far behind; the same, not to round-off but to the
+    last bit, before the step that the end cuts. The flexible hoop was later by as much as the pulse was cut, or never.
+    """
+    stiff = flexible.rigid_limit(scene.replace(run=rigid.Run(until="pulse")))
+    pulse = rigid.simulate(stiff).pulses[0]
+    length = pulse.t_end - pulse.t_start
+    early = [pulse.t_start - 0.05 * length, pulse.t_start + 0.01 * length, pulse.t_start + 0.3 * length]
+    motions = [flexible.simulate(scene.replace(run=rigid.Run(t_end=t))) for t in early]
+    far = flexible.simulate(scene.replace(run=rigid.Run(t_end=pulse.t_end + length)))
+    t = np.linspace(0.0, pulse.t_start - 0.2 * length, 50)
+    assert flexible_from(far)[0] < t[-1]
+    for motion, t_end in zip(motions, early, strict=True):
+        assert motion.t_end == pytest.approx(t_end, rel=1e-12)
+        assert flexible_from(motion) == flexible_from(far)[:1]
+        assert motion.at(t) == far.at(t)
+    assert not motions[0].pulses or motions[0].pulses[0].t_start > t[-1]
+    assert [pulse.cut for pulse in motions[-1].pulses] == [True]
+
+
+def test_a_run_that_ends_before_its_pulse_has_none():
+    """It has come as far as the flexible hoop takes over, and is the rigid one before that."""
+    whole = flexible.simulate(THROWN)
+    began = flexible_from(whole)[0]
+    before, behind = (flexible.simulate(THROWN.replace(run=rigid.Run(t_end=began + d))) for d in (-1e-3, 1e-3))
+    assert not flexible_from(before)
+    assert flexible_from(behind) == [began]
+    assert not before.pulses
+    assert not behind.pulses
+    times = np.linspace(0.0, began - 1e-3, 20)
+    stiff = rigid.simulate(THROWN.replace(run=rigid.Run(t_end=2 * began)))
+    assert before.at(times) == behind.at(times) == stiff.at(times)
+
+
+def test_a_run_taken_up_behind_a_landing_is_the_long_one():
+    """The shorter run, whose pulse was cut, had landed as a rigid hoop does, with another spin."""
+    whole = flexible.simulate(THROWN)
+    landing = next(phase.t_start for phase in rigid.simulate(THROWN).phases if phase.kind is Kind.IMPACT)
+    part = flexible.simulate(THROWN.replace(run=rigid.Run(t_end=landing + 0.01)))
+    assert part.ledger.landing_loss == 0
+    on = flexible.simulate(THROWN, resume=part)
+    assert repr(on.to_dict()) == repr(whole.to_dict())
+
+
+@pytest.mark.parametrize("t_end", [1.0, 1e6])
+def test_a_hoop_that_never_pulses_runs_to_its_time(t_end):
+    """Upside down at rest the rigid hoop stands for ever, and looked for a pulse it would do so too."""
+    motion = flexible.simulate(HOOP.replace(release={"phi0": 0.0}, run=rigid.Run(t_end=t_end)))
+    assert motion.completed
+    assert motion.t_end == t_end
+    assert not motion.pulses
