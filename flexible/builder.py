@@ -220,8 +220,10 @@ class Builder:
             raise ValueError("The motion to resume does not come from this scene.")
         return None, False
 
-    def motion(self, scene: Scene, ended: str, completed: bool, history: bool) -> FlexibleMotion:
-        """The motion in the units of ``scene``."""
+    def motion(
+        self, scene: Scene, ended: str, completed: bool, history: bool, period: float | None = None
+    ) -> FlexibleMotion:
+        """The motion in the units of ``scene``; of one that will roll for ever, its period without them."""
         ledger = Ledger(
             self.initial or 0.0, *self.held, self.friction_loss, self.landing_loss, self.damping_loss, self.hand_over,
             self.numerical_loss, self.residual,
@@ -235,6 +237,7 @@ class Builder:
             ended=ended,
             completed=completed,
             sample=sample,
+            period=None if period is None else period * scene.time_unit,
             ledger=in_units(ledger, scene),
             steps=self.steps,
             history=in_units(history_of(piece.segment for piece in self.pieces), scene) if history else None,

@@ -128,7 +128,7 @@ class Sampler:
         pulses = [dataclasses.asdict(replace(pulse, sample=None)) for pulse in motion.pulses]
         told = {
             **lists, "pulses": pulses, "pieces": pieces, "ledger": dataclasses.asdict(motion.ledger),
-            "ended": motion.ended, "completed": motion.completed, "steps": motion.steps,
+            "ended": motion.ended, "period": motion.period, "completed": motion.completed, "steps": motion.steps,
             "history": motion.history is not None,
             "marches": marches, "kept": bool(motion.kept),
         }  # fmt: skip

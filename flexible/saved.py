@@ -47,6 +47,7 @@ def _flexible(stored: Stored, scene: Scene) -> Motion:
         ended=told["ended"],
         completed=told["completed"],
         sample=sample,
+        period=told["period"],
         ledger=Ledger(**told["ledger"]),
         steps=told["steps"],
         kept=_kept(stored, scene),

@@ -28,7 +28,7 @@ from ..ring.possible import ensure_possible
 from ..time.course import Stop
 from .between import through_pulses
 from .throughout import throughout
-from .told import Progress, Report, in_words
+from .told import Progress, Report, in_words, period_told
 
 
 @between_calls()
@@ -87,7 +87,8 @@ def simulate(
     completed = ending.completed if isinstance(ending, Motion) else not isinstance(ending, Stop)
     if progress is not None and completed:
         progress(1.0)
-    return builder.motion(scene, f"{ended}; {complaint}" if complaint else ended, completed, history)
+    ended = f"{ended}; {complaint}" if complaint else ended
+    return builder.motion(scene, ended, completed, history, period_told(ending))
 
 
 def _resumable(earlier: FlexibleMotion, scene: Scene, states: bool) -> FlexibleMotion:

@@ -64,6 +64,11 @@ def in_words(ending: Ending, scene: Scene) -> str:
     return told + _advice(scene.to_dimensionless()) if ending.by_ring else told
 
 
+def period_told(ending: Ending) -> float | None:
+    """The period without units, where it is said that the motion rolls for ever: a run to a time does not ask."""
+    return ending.period if isinstance(ending, Motion) and ending.scene.run.t_end is None else None
+
+
 def _advice(scene: Scene) -> str:
     """What to say of a ring that may be too soft for its disk, if that may be; in the solver's units."""
     needed = 1.3 / scene.hoop.k if scene.hoop.k > 0 else inf

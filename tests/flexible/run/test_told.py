@@ -7,10 +7,10 @@ import re
 import pytest
 from scenes import HOOP
 
-from flexible import simulate
+from flexible import load_motion, simulate
 from flexible.run.told import in_words
 from flexible.time.course import Stop
-from rigid import load_scene
+from rigid import Run, load_scene
 from rigid import simulate as rigid_motion
 
 
@@ -34,14 +34,29 @@ def test_a_period_is_in_the_unit_of_its_scene(resolve):
         hoop={"k": 0.75}, friction={"mu_s": 1.0, "mu": 0.9}, run={"until": "rest"},
         ring={"bending_stiffness": 24000.0}, solve={"resolve": resolve, "rtol": 1e-2},
     )  # fmt: skip
-    seconds, numbers = (simulate(each).ended.split("; period ") for each in (scene, scene.to_dimensionless()))
+    motion = simulate(scene)
+    seconds, numbers = (each.ended.split("; period ") for each in (motion, simulate(scene.to_dimensionless())))
     assert seconds[0] == numbers[0] == "rolls for ever: |F| < mu_s N over the whole swing"
     period, unit = seconds[1].split()
     assert unit == "s"
     assert float(period) == pytest.approx((0.1 / 9.81) ** 0.5 * float(numbers[1]), rel=1e-11)
+    assert motion.period == pytest.approx(float(period), rel=1e-11)
     rigid = rigid_motion(scene)  # which swings as so stiff a hoop does, to the patch's share of R
     assert rigid.ended == f"{seconds[0]}; period {rigid.period:.12g} s"
     assert float(period) == pytest.approx(rigid.period, rel=1e-2)
+
+
+def test_a_run_to_a_time_has_no_period(tmp_path):
+    """One to rest has it from its file too."""
+    rolls = HOOP.replace(
+        hoop={"k": 0.25, "mass_ratio": 1.0}, friction={"mu_s": 1.0, "mu": 1.0}, release={"phi0_deg": 120},
+        run={"until": "rest"}, solve={"rtol": 1e-2},
+    )  # fmt: skip
+    motion = simulate(rolls)
+    assert motion.period == pytest.approx(rigid_motion(rolls).period, rel=1e-2)  # the patch's share of R, as above
+    motion.save(tmp_path / "rolls.npz")
+    assert load_motion(tmp_path / "rolls.npz").period == motion.period
+    assert simulate(rolls.replace(run=Run(t_end=motion.t_end + 1))).period is None
 
 
 def test_a_run_that_is_stopped_says_when_in_its_own_unit():
