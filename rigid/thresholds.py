@@ -5,10 +5,10 @@ throughout.
 from __future__ import annotations
 
 import dataclasses
-from math import inf, tan
+from math import inf, pi, tan
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import brentq, minimize_scalar
 
 from .allowed import shown
 from .kernel.angle import trig
@@ -17,6 +17,9 @@ from .phases.rolling.closed_form import ceiling, margin_polynomials, rolling_for
 from .sampler import parameters
 from .scene import Friction, Hoop, Release, Scene, SceneError
 from .solve import release_state
+
+DISKS = 200  # sizes between which the friction that a roll asks for has one minimum at the most
+NARROW = {"xatol": 1e-12}
 
 
 def inception_mu_s(hoop: Hoop, phi0: float) -> float:
@@ -72,14 +75,14 @@ def rolling_mu_s(hoop: Hoop, release: Release) -> float:
 
 
 def rolling_k(mu_s: float, release: Release, *, r: float = 1.0, mass_ratio: float = 0.0) -> float:
-    """Smallest k that rolls throughout for a given mu_s.
+    """Smallest k that rolls throughout for a given mu_s; of a thrown hoop larger ones may slip again.
 
     Raises
     ------
     SceneError
         A number that no scene can have.
     ValueError
-        Every disk slips, or none does.
+        Every disk slips, or the smallest does not.
     """
     hoop, mu_s = Hoop(0.5, r, mass_ratio), Friction(mu_s, 0.0).mu_s
 
@@ -87,9 +90,18 @@ def rolling_k(mu_s: float, release: Release, *, r: float = 1.0, mass_ratio: floa
         needed = rolling_mu_s(dataclasses.replace(hoop, k=k), release)
         return min(needed, 1e6) - mu_s
 
-    if lack(1e-6) <= 0 or lack(1 - 1e-6) >= 0:
-        raise ValueError(f"no disk is the smallest that rolls throughout with mu_s = {mu_s}")
-    return float(brentq(lack, 1e-6, 1 - 1e-6, xtol=1e-14, rtol=1e-14))
+    sizes = 0.5 - (0.5 - 1e-6) * np.cos(np.linspace(0.0, pi, DISKS))  # close to each other at both ends
+    lacks = [lack(k) for k in sizes]
+    if lacks[0] <= 0:
+        raise ValueError(f"the smallest disks roll throughout with mu_s = {mu_s} already")
+    for i in range(1, DISKS):
+        if lacks[i] <= 0:
+            return float(brentq(lack, sizes[i - 1], sizes[i], xtol=1e-14, rtol=1e-14))
+        if i + 1 < DISKS and lacks[i - 1] > lacks[i] < lacks[i + 1]:  # the least lies between
+            least = minimize_scalar(lack, bounds=(sizes[i - 1], sizes[i + 1]), method="bounded", options=NARROW)
+            if least.fun <= 0:
+                return float(brentq(lack, sizes[i - 1], least.x, xtol=1e-14, rtol=1e-14))
+    raise ValueError(f"every disk slips with mu_s = {mu_s}")
 
 
 def _at_release(hoop: Hoop, release: Release) -> tuple[list[float], list[float]]:
