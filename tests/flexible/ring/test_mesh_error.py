@@ -161,6 +161,8 @@ def test_tolerance_alone_tells_which_way_a_pulse_goes_on():
 def test_elements_of_a_ring_that_bends_far_follow_tolerance_and_stiffness():
     """So many that a third of rtol is left, of an error of the first order: between 240 and twice as many."""
     assert [elements_bent_far(1e-3, soft) for soft in (39.0, FAR_SOFT, 3.0, 0.5)] == [AROUND, AROUND, *[MOST_FAR] * 2]
+    for rtol, soft in ((1e-3, 3.0), (1e-4, 12.9)):  # as `Solve` says, to the digits that it says
+        assert elements_bent_far(rtol, soft) == MOST_FAR > elements_bent_far(rtol, 1.03 * soft)
     between = elements_bent_far(2e-4, FAR_SOFT)
     assert between == pytest.approx(AROUND * 3 * FAR_ERROR / 2e-4, abs=1)
     assert between % 2 == 0, "a part has two"
