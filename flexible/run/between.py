@@ -18,13 +18,13 @@ from ..time.advance import SHORTEST
 from ..time.course import Stop
 from ..time.events import Ends
 from .ahead import from_here, from_release, rest_of, slips_no_more, whirls
-from .pulses import AT_REST, comes_to, goes_through_turns, lead, over_bottom
+from .pulses import AT_REST, LONGEST, comes_to, goes_through_turns, lead, over_bottom
 from .told import Ending, Progress, pulse_over, run_over, swept
 
 BACK = 0.01  # of the way through a pulse, by which a hoop that turned back is out where it came in
 GAINS = 0.01  # share of the energy that rigid hoops may add; what one lacks to go over the top from 10 degrees is 0.008
 TO_A_PULSE = Run(until="pulse")
-WAITS = 10.0  # sqrt(R/g) that a hoop may take for it, beyond four pulse lengths: a swing takes a few
+WAITS = 10.0  # sqrt(R/g) that a hoop may take beyond LONGEST times what the rigid one does: a swing takes a few
 
 
 def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -> Ending:
@@ -60,7 +60,7 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
             builder.add_rigid(motion, motion.t_end)
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
             return run_over(scene.run) if over else motion
-        if pulse.cut and pulse.t_end == motion.t_end:  # by the last turn, or by the end of a period to be rolled for ever
+        if pulse.cut and pulse.t_end == motion.t_end:  # by the last turn, or after a period of rolling for ever
             motion, pulse = _uncut(motion, pulse, released(TO_A_PULSE))
             start = lead(motion, pulse, hoop.law.rolls_to)
         ends_there = builder.add_rigid(motion, start)
@@ -72,12 +72,12 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         ends, timed = _ends_of(motion, pulse, start, state)
         run_out = inf if scene.run.t_end is None else scene.run.t_end
         left = 0 if scene.run.turns is None else scene.run.turns - len(builder.turns)
-        ends, over = ends._replace(t=min(ends.t, run_out), turns=left), ends.t
+        ends, last = ends._replace(t=min(ends.t, run_out), turns=left), ends.t
         low, high = done / (done + 2), (done + 1) / (done + 3)
         watch = progress.watch(low, high, swept((float(state.pos[2]), pulse.phi_end)))
         state, segment, stop = builder.march(hoop, state, ends, scene.solve.rtol, watch)
         onward = 1.0 if pulse.phi_end > pulse.phi_start else -1.0
-        inside = over - state.t >= SHORTEST if timed else onward * (float(state.pos[2]) - pulse.phi_end) < 0
+        inside = last - state.t >= SHORTEST if timed else onward * (float(state.pos[2]) - pulse.phi_end) < 0
         # one that rocks in the angles of the pulse, for far longer than that takes, does not get out of it
         left_to_run = rest_of(scene.run, builder)
         cut_short = inside and (ends.t - state.t < SHORTEST or left_to_run is None)
@@ -132,7 +132,7 @@ def _ends_of(motion: Motion, pulse: Pulse, start: float, state: State) -> tuple[
     # a blow that turns the hoop is the start of a pulse that goes back over the way on which the hoop came in
     behind = onward * min(onward * float(state.pos[2]), onward * pulse.phi_start)
     low, high = sorted((behind - BACK * (pulse.phi_end - behind), pulse.phi_end))
-    late = t_end + 3 * (pulse.t_end - start) + WAITS
+    late = state.t + LONGEST * (pulse.t_end - start) + WAITS
     return Ends(late, low, high), False
 
 

@@ -17,7 +17,7 @@ LEAD = 0.5  # a flexible segment begins this many pulse lengths before the pulse
 AT_REST = 1e-6  # sqrt(R/g), and an angle, within which two turns are one
 STILL_TURNS = 1e-3  # of the way to the farthest turn or pulse: a turn before it is that in which a swing began
 BEHIND = 0.1  # of the time from a turn to the pulse, if that is less
-LONGEST = 4.0  # pulse lengths that a hoop may take for a pulse in which it turns
+LONGEST = 4.0  # times as long as the rigid hoop one may take for a pulse in which it turns
 FORWARD, BACKWARD = 1, -1
 
 

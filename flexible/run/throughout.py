@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import ceil, floor, pi
+from math import ceil, floor, pi, sqrt
 from typing import NamedTuple
 
 from rigid import Motion, Pulse, Run, Scene
@@ -19,6 +19,9 @@ from ..time.events import Ends
 from .ahead import from_here, from_release, rest_of, slips_no_more, whirls
 from .pulses import BACKWARD, add_pulses, swings, turns_of, unfinished
 from .told import Ending, Progress, pulse_over, run_over
+
+SWINGS = 4.0  # of the rigid hoop's
+ROUND_OFF = 37.0  # -log(1e-16): powers of e in which a hoop comes next to the top, and in which it leaves it
 
 
 class Swing(NamedTuple):
@@ -57,7 +60,7 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
             return swing
         # a swing that begins at a turn has no rest of a pulse to list, and a pulse that goes on through one is one
         pulses = [p for p in swing.pulses if not p.cut or (p.t_start == 0 and not builder.pieces)]
-        began, limit = state.t, builder.t + 4 * swing.t_end + 10
+        began, limit = state.t, builder.t + longest(scene, swing.t_end)
         until = limit if scene.run.t_end is None else scene.run.t_end
         state, segment, stop = _swung(scene, hoop, builder, state, Swing(swing, pulses, run, until), watch)
         run = rest_of(scene.run, builder)
@@ -65,7 +68,7 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
         if stop is None and state.t == began and run is not None:
             stop = Stop(": a swing of no length", state.t, float(state.pos[2]))
         elif stop is None and scene.run.t_end is None and state.t >= limit:
-            stop = Stop(": the rigid hoop swings that far in a quarter of this time", state.t)
+            stop = Stop(": a rigid hoop would have turned by now, or been over the top", state.t)
         if stop is not None:
             return stop
         if scene.run.until == "pulse" and way:
@@ -79,6 +82,17 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
             return onward
         whirled = goes_round
     return run_over(scene.run)
+
+
+def longest(scene: Scene, swing: float) -> float:
+    """Time in which a hoop has turned, or been over the top, whose swing the rigid one does in that time.
+
+    Next to the top they come to it and leave it by powers of e, no closer than round-off, but each as close as its own
+    energy has it: the flexible one may be there for long where the rigid one is not.
+    """
+    hoop = scene.hoop
+    rate = sqrt(hoop.e / (hoop.K + (1 + hoop.e) ** 2))  # of falling from the top, rolling; a slip falls sooner
+    return SWINGS * swing + 2 * ROUND_OFF / rate + 10
 
 
 def _swung(

@@ -11,6 +11,7 @@ from scipy.interpolate import CubicHermiteSpline
 import flexible
 import rigid
 from flexible import rigid_limit
+from flexible.run.throughout import SWINGS, longest
 from rigid import Kind, Release, Run
 
 #: stiff enough that the flexible hoop's turns are the rigid one's to the patch's half-width, (1.5/eps)^(1/3) = 2e-3;
@@ -242,3 +243,36 @@ def test_a_hoop_at_rest_in_equilibrium_stays_there(phi0_deg, run):
     motion = flexible.simulate(scene)
     assert (motion.ended, motion.completed) == (rigid.simulate(scene).ended, True)
     assert (len(motion.turns), len(motion.pulses), motion.steps) == (0, 0, 0)
+
+
+@pytest.mark.parametrize("share", [1.00098, 1.001])
+def test_a_hoop_may_be_next_to_the_top_for_long(share):
+    """Thrown so that it turns 0.005 before the top, or passes it as slowly; the rigid hoop, a thousandth faster than
+    takes it there, passes it sooner, and this one was given up. It turns when one does that runs to a time, to the
+    1e-9 to which a turn is found.
+    """
+    hoop = rigid.Hoop(0.2, 1.05)
+    to_the_top = np.sqrt(2 * hoop.e * 1.5 / (hoop.K + hoop.e**2 + 1 - hoop.e))  # at 120 degrees, by its energy
+    scene = HOOP.replace(
+        hoop={"k": 0.2, "r": 1.05, "mass_ratio": 0.0}, friction={"mu_s": 5.0, "mu": 5.0},
+        release={"phi0_deg": 120, "omega0": share * to_the_top}, ring={"bending_stiffness": 1e5},
+        contact={"law": "brush", "stiffness": 1e9, "damping": 1.0}, solve={"resolve": "all", "rtol": 1e-4},
+        run={"turns": 2, "until": None},
+    )  # fmt: skip
+    motion = flexible.simulate(scene)
+    assert motion.completed, motion.ended
+    assert len(motion.turns) == 2
+    timed = flexible.simulate(scene.replace(run={"turns": None, "t_end": motion.turns[0].t + 1}))
+    assert timed.turns[0].t == pytest.approx(motion.turns[0].t, abs=1e-9)
+    slow = motion.at(np.linspace(6, 10, 50)).phi - 2 * pi
+    assert np.abs(slow).max() < 0.2
+
+
+@pytest.mark.parametrize("k", [0.05, 0.5, 0.95])
+def test_no_rigid_hoop_is_next_to_the_top_for_longer(k):
+    """Let go there by a round-off's angle it falls in one half of what is allowed beyond ``SWINGS`` swings."""
+    scene = HOOP.replace(hoop={"k": k}, friction={"mu_s": 9.0, "mu": 9.0})
+    falls, swings = (rigid.simulate(scene.replace(release={"phi0": phi0})).t_end for phi0 in (1e-16, 1.0))
+    allowed = longest(scene, swings) - SWINGS * swings
+    assert swings < 2 * falls < allowed + 2 * swings
+    assert falls == pytest.approx((allowed - 10) / 2, rel=0.2)  # and that is no more than it takes, but for the swing
