@@ -9,7 +9,9 @@ from __future__ import annotations
 import inspect
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from decimal import Decimal
 from difflib import get_close_matches
+from fractions import Fraction
 from functools import wraps
 from math import log10, radians
 from typing import Any, TypeVar
@@ -58,14 +60,23 @@ def plain(key: str, value: Any) -> Any:
         told = "hoop study sweep runs the values of a list"
         raise SceneError(f"{key} = {shown(value)} is not possible: {told}.")
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-        raise SceneError(f"{key} = {shown(value)} is not possible: it must be a number or a word.")
+        raise SceneError(
+            f"{key} = {shown(value)} is not possible: it must be a real number, or a word where one is asked for."
+        )
     return value
 
 
 def _item(value: Any) -> Any:
-    """What Python has for a scalar of numpy's; anything else, and what is masked, as it is."""
+    """What Python has for a scalar of numpy's, and the float next to a fraction or a decimal; anything else, and what
+    is masked, as it is.
+    """
     if value is np.ma.masked:
         return value
+    if isinstance(value, (Fraction, Decimal)):
+        try:
+            return float(value)
+        except (OverflowError, ValueError):  # none is next to it
+            return value
     scalar = isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0)
     return value.item() if scalar else value
 

@@ -70,8 +70,9 @@ class Lazy(Sequence[T], Generic[T]):
         return hash(tuple(self))
 
     def __repr__(self) -> str:
-        first = ", ".join(repr(self.item(i)) for i in range(min(2, len(self))))
-        return f"<{len(self)} items: {first}, ...>"
+        first = [repr(self.item(i)) for i in range(min(2, len(self)))]
+        rest = ["..."] if len(self) > 2 else []
+        return f"<{len(self)} item{'s' * (len(self) != 1)}{': ' * bool(first)}{', '.join(first + rest)}>"
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -249,13 +249,13 @@ class Motion(summary.Summarised):
         Raises
         ------
         ValueError
-            A motion of a solver that says not how.
+            A motion of a solver that says not how; what is no path.
         """
         from .output.file import write
 
         stored = getattr(self.sample, "stored", None)
-        if stored is None:
-            raise ValueError("A motion of this solver cannot be saved.")
+        if stored is None or not isinstance(path, (str, PathLike)):
+            raise ValueError("This motion cannot be saved." if stored is None else f"{path!r} is no path to save to.")
         write(path, scene_to_dict(self.scene), stored(self))
 
     def _table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:

@@ -41,8 +41,10 @@ def table_of(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
         missing = set(QUANTITIES) - set(scenes) - set(DEFAULTS)
         if unknown or missing:
             what = "is not a quantity of" if unknown else "is missing in"
+            hint = " phi0 = np.radians(...) is the angle." if "phi0_deg" in unknown else ""
             raise SceneError(
-                f"{', '.join(sorted(unknown or missing))} {what} a batch: {', '.join(QUANTITIES)}; angles in radians."
+                f"{', '.join(sorted(unknown or missing))} {what} a batch: {', '.join(QUANTITIES)};"
+                f" angles in radians.{hint}"
             )
         table = _broadcast([_numbers(name, scenes.get(name, DEFAULTS.get(name))) for name in QUANTITIES])
         _check(table)
@@ -68,9 +70,15 @@ def _numbers(name: str, values: ArrayLike | None) -> Array:
     try:
         if np.ma.isMA(values):  # what is masked is no number, and refused as one that is none
             return np.ma.asarray(values, dtype=float).filled(np.nan)
-        return np.asarray(values, dtype=float)
+        known = (
+            getattr(getattr(values, "dtype", None), "kind", "O") in "fiu"
+        )  # else a float would be made of what is none
+        entries = [] if known else np.asarray(values, dtype=object).ravel().tolist()
+        if not any(one is None or isinstance(one, (bool, np.bool_)) for one in entries):
+            return np.asarray(values, dtype=float)
     except (TypeError, ValueError):
-        raise SceneError(f"{name} = {shown(values)} is not possible: a batch takes a number, or an array.") from None
+        pass
+    raise SceneError(f"{name} = {shown(values)} is not possible: a batch takes a number, or an array of them.")
 
 
 def _broadcast(columns: list[Array]) -> Array:

@@ -30,7 +30,7 @@ def test_all_smaller_disks_slip(mu_s):
 
 
 def test_a_window_narrower_than_any_grid():
-    """With a part in a million more than the least that sizes between 0.6 and 0.7 ask for, next to none of them roll."""
+    """With a part in a million more than the least that sizes from 0.6 to 0.7 ask for, next to none of them roll."""
     least = minimize_scalar(needed, bounds=(0.6, 0.7), method="bounded", options={"xatol": 1e-12})
     assert needed(0.6) > least.fun < needed(0.7)
     mu_s = least.fun * (1 + 1e-6)
