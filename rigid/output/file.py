@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from .whole import write_whole
 
-FORMAT = 5
+FORMAT = 6
 """Of the file; one that this program does not know is not guessed at."""
 
 S = TypeVar("S")
