@@ -108,10 +108,12 @@ class FullHoop(RimContact):
     ----------
     points : float, optional
         See :class:`flexible.models.rim_contact.RimContact`.
+    through : int
+        Least number of elements through the wall, unless the scene says how many.
     """
 
-    def __init__(self, scene: Scene, points: float | None = None) -> None:
-        self.ring = self._make_ring(scene, ring_of(scene, linear=self.linear))
+    def __init__(self, scene: Scene, points: float | None = None, through: int = 1) -> None:
+        self.ring = self._make_ring(scene, ring_of(scene, through, self.linear))
         super().__init__(scene, self.ring.vertex, points)
         self._factored: _Factored | None = None
         #: momenta of the slow vibrations, by which steps are chosen, of a rate of the free dofs
