@@ -53,6 +53,8 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         elif pulse is not None and abs(pulse.phi_start - whirls_from) >= 2 * pi:
             builder.add_rigid(motion, lead(motion, pulse))
             return motion  # once round, as the rigid hoop goes
+        if pulse is None and rest.turns is not None:
+            motion, pulse = _turned_in(motion, released(TO_A_PULSE), done == 0)
         start = inf if pulse is None else lead(motion, pulse, hoop.law.rolls_to)
         if rest.t_end is not None and rest.t_end - start < SHORTEST:
             motion, pulse = released(rest), None
@@ -91,6 +93,14 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         if left_to_run is None:
             return run_over(scene.run)
         released, rest = partial(from_here, scene, hoop, state), left_to_run
+
+
+def _turned_in(motion: Motion, further: Motion, begins: bool) -> tuple[Motion, Pulse | None]:
+    """A motion whose last turn is in a pulse that it does not list, for it does not come to the bottom: the same motion
+    run further, and that pulse; if there is none, as it is. Only one that ``begins`` may begin in its pulse."""
+    ahead = (p for p in further.pulses if p.t_start < motion.t_end and (p.t_start > 0 or begins))
+    pulse = next(ahead, None)
+    return (motion, None) if pulse is None else (further, pulse)
 
 
 def _uncut(motion: Motion, pulse: Pulse, further: Motion) -> tuple[Motion, Pulse]:

@@ -5,7 +5,10 @@ from __future__ import annotations
 import os
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
+from decimal import Decimal
 from math import inf, pi
+from numbers import Real
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -67,18 +70,20 @@ def table_of(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
 
 
 def _numbers(name: str, values: ArrayLike | None) -> Array:
+    kind = getattr(getattr(values, "dtype", None), "kind", "O")
     try:
-        if np.ma.isMA(values):  # what is masked is no number, and refused as one that is none
-            return np.ma.asarray(values, dtype=float).filled(np.nan)
-        known = (
-            getattr(getattr(values, "dtype", None), "kind", "O") in "fiu"
-        )  # else a float would be made of what is none
-        entries = [] if known else np.asarray(values, dtype=object).ravel().tolist()
-        if not any(one is None or isinstance(one, (bool, np.bool_)) for one in entries):
+        # else a float would be made of what is none
+        if kind in "fiu" or (kind == "O" and all(map(_is_number, np.asarray(values, dtype=object).ravel()))):
+            if np.ma.isMA(values):  # what is masked is no number, and refused as one that is none
+                return np.ma.asarray(values, dtype=float).filled(np.nan)
             return np.asarray(values, dtype=float)
-    except (TypeError, ValueError):
+    except (OverflowError, TypeError, ValueError):
         pass
     raise SceneError(f"{name} = {shown(values)} is not possible: a batch takes a number, or an array of them.")
+
+
+def _is_number(one: Any) -> bool:
+    return isinstance(one, (Real, Decimal)) and not isinstance(one, (bool, np.bool_))
 
 
 def _broadcast(columns: list[Array]) -> Array:

@@ -191,7 +191,7 @@ def parse_over(text: str) -> tuple[str, tuple[Any, ...]]:
     if not (0 <= first < last < float("inf")) or not 2 <= number <= 10_000:
         raise SceneError(f"--over {text} is not possible: a range runs upward from 0 or above, in 2 to 10000 values.")
     run = np.linspace(first, last, number) if first == 0 else np.geomspace(first, last, number)
-    return key, tuple((np.unique(run.round().astype(int)) if whole else run).tolist())
+    return key, tuple(sorted({round(value) for value in run.tolist()}) if whole else run.tolist())
 
 
 def _takes_whole_numbers(key: str) -> bool:

@@ -30,9 +30,16 @@ def test_what_is_no_real_number_is_none_of_a_scene(value):
         Hoop(value)
 
 
-@pytest.mark.parametrize("values", [True, [True, 0.2], np.array([True]), None, [None, 0.2], [1j]])
+@pytest.mark.parametrize(
+    "values",
+    [
+        True, [True, 0.2], np.array([True]), np.ma.array([True, False]), [np.array(True)], None, [None, 0.2],
+        [1j], np.array([0.1 + 1j]), "0.1", ["0.1"], b"0.1", np.array(["2020-01-01"], "datetime64[D]"),
+        [Fraction(10**400), 0.2], np.array([10**400], object),
+    ],
+)  # fmt: skip
 def test_nor_is_it_one_of_a_batch(values):
-    """Of a list of truths and numbers numpy makes numbers, of None a NaN."""
+    """Of truths, dates, text and complex numbers numpy makes numbers, of None a NaN; some are beyond a float."""
     with pytest.raises(SceneError, match=r"^k = .* is not possible: a batch takes a number, or an array of them\.$"):
         simulate_batch({**BATCH, "k": values})
 

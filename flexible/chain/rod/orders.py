@@ -70,7 +70,7 @@ def _answers(ring: Ring, compliance: RodCompliance, theta: float) -> SecondOrder
 
     for a in range(3):
         for b in range(a + 1):
-            bent = wall.at_nodes(-wall.under(wall.square(fields[:, a], fields[:, b])))
+            bent = wall.at_nodes(wall.second[:, a, b] / (size[a] * size[b]))
             turned = (even(moved[a] + moved[b]) - even(moved[a] - moved[b])) / 8
             second[:, a, b] = second[:, b, a] = wall.line.mean(bent) + turned
             rim[..., a, b] = rim[..., b, a] = bent[ring.mesh.rim_nodes]
@@ -148,7 +148,7 @@ def _slopes(strain: Array, powers: NDArray[np.int64]) -> Array:
 def _along(wall: Wall, known: Known, same: Array, load: Array) -> tuple[Array, Array]:
     """Strains (x, tau_1, tau_2) and stresses along a way of loading: their factors of t, t^2 and t^3, (3, 3) each."""
     one = wall.fields @ load
-    two = -wall.under(wall.square(one, one))
+    two = wall.second @ load @ load
     three = -wall.under(2 * wall.square(one, two) + wall.cube(one))
     fields, borne = np.stack([wall.at_nodes(u) for u in (one, two, three)]), wall.at_nodes(wall.linear(one))
     turns = known.by @ same @ wall.line.mean(fields[0]) / [np.hypot(*known.chord), 1, 1]

@@ -40,7 +40,10 @@ def strained_of(chord: float, wall: float) -> float:
 
 
 def fading_of(far: Array, local: Array) -> float:
-    """1/U_s, by the fourth derivatives of an energy and its stiffness: by bends without a force along the line."""
+    """1/U_s, by the fourth derivatives of an energy and its stiffness: by bends without a force along the line.
+
+    Zero, so that nothing fades, where the fourth order stiffens all of them.
+    """
     angle = np.linspace(0, pi, 181)
     bends = np.stack([np.cos(angle), np.sin(angle)])
     strains = np.concatenate([-(local[:1, 1:] @ bends) / local[0, 0], bends])

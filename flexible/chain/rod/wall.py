@@ -7,6 +7,7 @@ with the wall, and what that does besides has faded some walls before it.
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -79,6 +80,17 @@ class Wall:
     def cube(self, u: Array) -> Array:
         """Forces of third order, all that are left."""
         return np.asarray((self._near.forces(u) - self._near.forces(-u)) / 2 - self.linear(u))
+
+    @cached_property
+    def second(self) -> Array:
+        """(n_free, 3, 3): displacement to second order under two of the loads that make the fields."""
+        size = np.abs(self.fields).max(axis=0)
+        one, bent = self.fields / size, np.empty((len(self.fields), 3, 3))
+        for a in range(3):
+            for b in range(a + 1):
+                both = -size[a] * size[b] * self.under(self.square(one[:, a], one[:, b]))
+                bent[:, a, b] = bent[:, b, a] = both
+        return bent
 
     def under(self, load: Array) -> Array:
         """Displacement to first order under forces."""

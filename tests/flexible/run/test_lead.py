@@ -64,6 +64,23 @@ THROWN = HOOP.replace(
 CREEPING = HOOP.replace(hoop={"mass_ratio": 0.0}, contact={"law": "regularised"}, ring={"bending_stiffness": 1e4})
 
 
+#: thrown so that it turns in a pulse that it leaves at once, never over the bottom
+TURNED = HOOP.replace(
+    hoop={"k": 0.2834, "mass_ratio": 0.0}, friction={"mu_s": 1.054, "mu": 1.054},
+    release={"phi0": 3.38116, "omega0": -3.99692, "slip0": 8.66496}, solve={"rtol": 1e-2},
+    ring={"bending_stiffness": 1e4}, run={"until": None, "turns": 1},
+)  # fmt: skip
+
+
+def test_a_turn_is_the_same_however_many_are_asked_for():
+    """The rigid hoop that turns there and stops lists no pulse, and all was rigid; further it has one."""
+    assert not rigid.simulate(flexible.rigid_limit(TURNED)).pulses
+    one, two = (flexible.simulate(TURNED.replace(run={"turns": turns})) for turns in (1, 2))
+    assert one.turns[0] == two.turns[0]
+    assert one.turns[0].t != rigid.simulate(flexible.rigid_limit(TURNED)).turns[0].t
+    assert one.steps > 0
+
+
 def flexible_from(motion):
     """When its flexible segments begin."""
     return [piece.t_start for piece in motion.sample.pieces if piece.segment is not None]
