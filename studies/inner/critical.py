@@ -104,7 +104,13 @@ def may_slide_on(body: Body, contact: ScaledContact, event: Event) -> bool:
 
 
 def slides_on(body: Body, contact: ScaledContact, event: Event) -> bool:
-    """Whether the layer of such a stop leaves the patch sliding the way that rolling's F would push it."""
+    """Whether the layer of such a stop leaves the patch sliding the way that rolling's F would push it.
+
+    Of a damper above the critical one none is looked at: it keeps the stick, and may be too fast to be followed.
+    """
+    least = critical_theta(body, contact, event)
+    if least is not None and least < contact.theta:
+        return False
     onward = np.sign(outer_forces(body, event, True)[1])
     duration = None
     while True:

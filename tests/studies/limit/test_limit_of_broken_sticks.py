@@ -183,3 +183,9 @@ def test_a_hoop_that_still_rolls_half_a_pulse_before_creeps_from_where_it_is_pre
     here, term = at_foundation(scene, 1e10), predict(scene).terms["normal_impulse"]
     seen = (go_through(here).normal_impulse - term.limit) / here.contact.slip_velocity_scale
     assert seen == pytest.approx(term.coefficient, rel=1e-3)
+
+
+def test_a_damper_far_above_the_critical_one_keeps_the_stick():
+    """Its layer takes more steps than are allowed, and none is needed: the limit is the paper's to the last bit."""
+    paper = simulate(RIGHT).pulses[0].impulse_ratio
+    assert predict(RIGHT.replace(contact={"damping": 1000.0})).terms["impulse_ratio"].limit == paper
