@@ -7,7 +7,7 @@ is fitted, p too (``fitted``), and its uncertainty says how well it holds. L and
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import hypot, inf, isfinite, nan
 from typing import Any
 
@@ -41,7 +41,8 @@ class Limit:
     rigid: float
     """The value of the rigid hoop that this limit is expected to be."""
     rate: float
-    """Observed rate at which the distance to the rigid value goes to zero; NaN where none is to be seen."""
+    """Observed rate at which the distance to the rigid value goes to zero; NaN where none is to be seen: one that has
+    not fallen over the cases, or has another limit beyond doubt."""
     rate_interval: tuple[float, float]
     """Confidence interval of that rate."""
     rate_cases: tuple[int, ...]
@@ -137,7 +138,7 @@ def limit_of(
         if is_confirmed(series[0].size, cases[0].size, exponents):
             (value, uncertainty), rates, known = of_one_series(series, exponents, CONFIDENCE), tuple(exponents), True
     rate = observed_rate(s, np.where(np.abs(values - rigid) > alike, values - rigid, 0.0), error)
-    return Limit(
+    found = Limit(
         value,
         max(uncertainty, alike),
         rates,
@@ -151,6 +152,10 @@ def limit_of(
         fitted,
         _grows(values, off, rigid),
     )
+    away = np.abs(values - rigid)[list(rate.cases)]
+    if isfinite(rate.value) and (found.rigid_excluded or not away[-1] < away[0]):
+        return replace(found, rate=nan, rate_interval=(-inf, inf))
+    return found
 
 
 def fitted_series(

@@ -412,3 +412,13 @@ def test_errors_that_come_about_by_chance_are_known_together() -> None:
         together += not limit_of(s, y + fine, 1.0, known_alike(s, error), powers).rigid_inside
     assert one_by_one > 15
     assert together < 0.8 * one_by_one
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_distance_that_does_not_fall_to_zero_has_no_rate(sign):
+    """To another limit from either side: from above it falls, to a plateau, from below it grows to it."""
+    s = np.geomspace(1e6, 1e12, 9)
+    found = limit_of(s, 1 + 0.5 * (1 + sign * 30 * s ** (-1 / 3)), 1.0)
+    assert found.rigid_excluded
+    assert np.isnan(found.rate)
+    assert not np.isfinite(found.rate_interval).any()
