@@ -30,6 +30,8 @@ from .compliant import at_foundation, go_through
 from .prediction import ROUND_OFF, Prediction, foreseen, predict
 
 DAMPINGS = (0.0, 0.003, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
+AROUND = (0.7, 1.5, 3.0)
+"""Times a critical ratio at which the limit changes, beside these."""
 FOUNDATIONS = (1e8, 1e9, 1e10, 1e11, 1e12)
 
 
@@ -66,11 +68,12 @@ class Spot:
 
 
 def damping_map(
-    scene: Scene, dampings: Sequence[float] = DAMPINGS, foundations: Sequence[float] = FOUNDATIONS
+    scene: Scene, dampings: Sequence[float] | None = None, foundations: Sequence[float] = FOUNDATIONS
 ) -> list[Spot]:
-    """The first pulse's J_F/J_N over damping ratio and foundation."""
+    """The first pulse's J_F/J_N over damping ratio and foundation; the ratios are by default those of a scene's own
+    map (:func:`dampings_of`)."""
     spots = []
-    for damping in dampings:
+    for damping in dampings_of(scene) if dampings is None else dampings:
         damped = scene.replace(contact={"damping": damping})
         foreseen = predict(damped)
         term = foreseen.terms["impulse_ratio"]
@@ -81,6 +84,13 @@ def damping_map(
             predicted = float(term.at(small))
             spots.append(Spot(damping, foundation, decay_in_stick(here), seen, term.limit, predicted))
     return spots
+
+
+def dampings_of(scene: Scene) -> tuple[float, ...]:
+    """Damping ratios of a map: some on both sides of each critical one, too, at which the limit is another."""
+    critical = [stop.damping for stop in hanging(scene, followed(scene)) if stop.damping is not None]
+    beside = {float(f"{part * ratio:.3g}") for ratio in critical if ratio < inf for part in AROUND}
+    return tuple(sorted({*DAMPINGS, *beside}))
 
 
 def decay_in_stick(scene: Scene) -> float:

@@ -68,10 +68,12 @@ def approach(study: LimitStudy) -> Figure:
 
 
 def damping_figure(spots: Sequence[Spot]) -> Figure:
-    """The distance to the limit over the damping ratio, and beyond the predicted one over what decays in the stick."""
+    """The distance to the limit over the damping ratio, and beyond the predicted one over what decays in the stick,
+    where one ends within the pulse."""
     with matplotlib.rc_context(STYLE):
-        figure = blank(10, 4.2)
-        left, right = figure.subplots(1, 2)
+        sticks = any(np.isfinite(spot.decay) for spot in spots)
+        figure = blank(10 if sticks else 5.5, 4.2)
+        left, *more = figure.subplots(1, 1 + sticks, squeeze=False)[0]
         foundations = sorted({spot.foundation for spot in spots})
         for foundation, colour in zip(foundations, colours(len(foundations)), strict=True):
             row = sorted((s for s in spots if s.foundation == foundation), key=lambda s: s.damping)
@@ -79,13 +81,14 @@ def damping_figure(spots: Sequence[Spot]) -> Figure:
             left.plot([s.damping for s in row], [s.impulse_ratio for s in row], "o-", color=colour, label=label, ms=3.5)
             beyond = [(s.decay, s.impulse_ratio - s.predicted) for s in row if np.isfinite(s.decay)]
             if beyond:
-                right.plot(*np.array(beyond).T, "o", color=colour, ms=4)
+                more[0].plot(*np.array(beyond).T, "o", color=colour, ms=4)
         for limit in {spot.limit for spot in spots}:
             left.axhline(limit, color=RIGID, lw=2.6, alpha=0.3)
         left.set_xscale("symlog", linthresh=0.003)
         left.set(xlabel="damping ratio", ylabel="$J_F/J_N$", xlim=(0, None))
         left.legend(ncols=2, title="foundation ε_n R²/(mg)")
-        right.axhline(0, color=RIGID, lw=2.6, alpha=0.3)
-        right.set_xscale("symlog", linthresh=0.3)
-        right.set(xlabel=r"$x = \zeta\omega T_{stick}$", ylabel="beyond the predicted distance", xlim=(0, None))
+        for right in more:
+            right.axhline(0, color=RIGID, lw=2.6, alpha=0.3)
+            right.set_xscale("symlog", linthresh=0.3)
+            right.set(xlabel=r"$x = \zeta\omega T_{stick}$", ylabel="beyond the predicted distance", xlim=(0, None))
         return figure

@@ -18,8 +18,8 @@ circles are a rigid ring on a compliant floor, squares the flexible solver.""",
 Normal force, friction force and slip velocity through the layer of each event at which forces jump, on its own
 clock, over the rigid hoop's forces before and behind it and the creep towards which the patch goes (grey).""",
     "damping": """\
-J_F/J_N over damping ratio and foundation; on the right what is left beyond the predicted distance, over how often the
-ringing falls by e within the stick.""",
+J_F/J_N over damping ratio and foundation; on the right, where a stick ends within the pulse, what is left beyond the
+predicted distance, over how often the ringing falls by e within the stick.""",
 }
 
 FOUND = """\
