@@ -8,7 +8,7 @@ slides on, at any stiffness, and the limit is the rigid hoop that does so (:func
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import inf
+from math import inf, nan
 
 import numpy as np
 
@@ -26,6 +26,8 @@ from .separate import PERIODS
 _THETAS = np.geomspace(8.0, 1e-3, 40)  # of the patch's period over 2 pi: far over critical to next to none
 _STRONGER = np.geomspace(1024.0, 8.0, 8)
 _ACCURACY = 1e-5
+_DECADES = range(23, 5, -1)  # of foundations, down to the softest within the range of the model
+_SPLITS = 6  # of a decade: what a layer leaves out of order eps is a tenth of it and more
 
 
 def critical_theta(body: Body, contact: ScaledContact, event: Event) -> float | None:
@@ -36,11 +38,7 @@ def critical_theta(body: Body, contact: ScaledContact, event: Event) -> float | 
     """
     if contact.law != PATCH:
         return None
-    period = period_of(body, event)
-    half = half_width(outer_forces(body, event, True)[0])
-    duration = 5 * period + 4 * half / abs(event.omega)  # overshoot comes in the first swings and passages
-
-    scale = period / (2 * np.pi)
+    duration, scale = _first_swings(body, event), period_of(body, event) / (2 * np.pi)
 
     def follows(theta: float) -> bool | None:
         try:
@@ -67,6 +65,12 @@ def critical_theta(body: Body, contact: ScaledContact, event: Event) -> float | 
     return float(high)
 
 
+def _first_swings(body: Body, event: Event) -> float:
+    """Within which a layer overshoots, if it does: swings, and passages of a point."""
+    half = half_width(outer_forces(body, event, True)[0])
+    return 5 * period_of(body, event) + 4 * half / abs(event.omega)
+
+
 @dataclass(frozen=True, slots=True)
 class Hanging:
     """A stop behind which rolling takes more than mu N: what breaks there slides on."""
@@ -78,20 +82,83 @@ class Hanging:
     """Damping ratio above which no transient breaks the patch there; infinite where none that can be followed is
     enough, None of a brush, where it is not known."""
     broken: bool
-    """Whether the patch of the scene breaks there, and slides on."""
+    """Whether the patch of the scene breaks there, and slides on, where it is ever stiffer."""
+    other: float
+    """J_F/J_N of the rigid hoop that does otherwise there; NaN where it comes to no end that is known."""
+    holds: float
+    """Foundation from which on a patch does there what it does in the limit, by its layer at a finite eps: the critical
+    damping is zeta_c + O(eps). 0 where it does so from 1e6 on, and of a brush, where it is not known."""
+
+    def is_otherwise(self, impulse_ratio: float, foreseen: float) -> bool:
+        """Whether a pulse is nearer to the other hoop than to what is foreseen of it."""
+        return abs(impulse_ratio - self.other) < abs(impulse_ratio - foreseen)
+
+    def to_dict(self) -> dict[str, float | bool | None]:
+        """As JSON prints it."""
+        return {
+            "phi": self.phi,
+            "force_ratio": self.ratio,
+            "critical_damping": self.damping,
+            "broken": self.broken,
+            "other_impulse_ratio": self.other,
+            "holds": self.holds,
+        }
 
 
 def hanging(scene: Scene, way: Passage) -> tuple[Hanging, ...]:
     """The stops of a pulse on whose sticks the limit hangs: those that a transient breaks at some damping or other."""
-    found = []
-    for event in way.events:
+    found, breaks = [], list[int]()
+    for number, event in enumerate(way.events):
         if may_slide_on(way.body, way.contact, event.stop):
             theta = critical_theta(way.body, way.contact, event.stop)
             normal, friction = outer_forces(way.body, event.stop, True)
             least = None if theta is None else damping_of(scene, theta)
             if least != 0:
-                found.append(Hanging(event.phi, abs(friction) / normal, least, event.kind == BREAK))
+                broken, ratio = event.kind == BREAK, abs(friction) / normal
+                other = _impulse_ratio(scene, breaks if broken else [*breaks, number])
+                found.append(Hanging(event.phi, ratio, least, broken, other, _holds_from(way, number)))
+        if event.kind == BREAK:
+            breaks.append(number)
     return tuple(found)
+
+
+def _impulse_ratio(scene: Scene, breaks: list[int]) -> float:
+    try:
+        return passage(scene, None, breaks).pulse.impulse_ratio
+    except StudyError:
+        return nan
+
+
+def _holds_from(way: Passage, number: int) -> float:
+    """Foundation from which on the layer of a stop, with angle and phidot that go on, is that of the limit."""
+    event, whole = way.events[number], 1 + way.scene.hoop.mass_ratio
+    if way.contact.law != PATCH:
+        return 0.0
+    stick = way.events[number + 1].t - event.t if number + 1 < len(way.events) else inf
+
+    def alike(decade: float) -> bool:
+        eps = (10**decade / whole) ** (-1 / 3)
+        duration = min(_first_swings(way.body, event.stop), stick / (2 * eps))  # the next event is another one's
+        try:
+            kept = layer(way.body, way.contact, event.stop, duration, eps=eps).faithful
+        except StudyError:  # nothing else is known of it
+            return True
+        return kept != (event.kind == BREAK)
+
+    high: float = _DECADES.start + 1
+    if not alike(high):
+        return inf
+    for decade in _DECADES:
+        if not alike(decade):
+            break
+        high = decade
+    else:
+        return 0.0
+    low = high - 1
+    for _ in range(_SPLITS):
+        middle = (low + high) / 2
+        low, high = (low, middle) if alike(middle) else (middle, high)
+    return float(10**high)
 
 
 def may_slide_on(body: Body, contact: ScaledContact, event: Event) -> bool:

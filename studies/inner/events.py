@@ -20,7 +20,7 @@ from .body import Body, arms, body_of
 from .march import BRUSH, PATCH, REGULARISED, ScaledContact
 from .scales import epsilon, theta_of
 
-START, STOP, REVERSAL, BREAK = "slip starts", "slip stops", "slip reverses", "stick breaks"
+START, STOP, REVERSAL, BREAK = "slip starts", "slip stops", "slip reverses", "slip stops, stick breaks"
 """The last is a stop of the rigid hoop behind which a compliant one slides on: its layer ends so."""
 
 _LONGEST = 20.0  # of what is left of a pulse: a hoop that slides on in it has then come to its end, or never does

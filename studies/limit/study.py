@@ -98,6 +98,15 @@ class LimitStudy(summary.Summarised):
     hanging: tuple[Hanging, ...] = ()
     """Stops that a patch of less damping than there says slides through, or may, at any stiffness."""
 
+    def otherwise(self, sight: Sight) -> bool:
+        """Whether what was observed is not yet near the limit: a stick on which that hangs is kept, or lost, the other
+        way."""
+        ratio = sight.values.get("impulse_ratio")
+        return ratio is not None and any(
+            stop.is_otherwise(ratio, ratio - np.subtract(*self.distance("impulse_ratio", sight)))
+            for stop in self.hanging
+        )
+
     def _title(self) -> str:
         return f"Limit study: {len(self.events)} events, {len(self.sights)} runs beside them"
 
@@ -183,6 +192,7 @@ class LimitStudy(summary.Summarised):
             "complete": self.prediction.complete,
             "prediction": {name: term.to_dict() for name, term in self.prediction.terms.items()},
             "separate": self.separate,
+            "hanging": [stop.to_dict() for stop in self.hanging],
             "stiff": self.stiff,
             "others": [{"name": other.name, "impulse_ratio": list(other.impulse_ratio)} for other in self.others],
             "observed": observed,

@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from math import degrees, inf, isfinite
 from typing import Any
 
+from rigid import Friction
+
 from ..inner.critical import Hanging
 from ..plots.sheet import Column, Sheet, number, power_of
 from ..running.measures import MEASURES
@@ -71,7 +73,7 @@ def sight_sheet(study: LimitStudy) -> Sheet:
                 continue
             found, foreseen = study.distance(name, sight)
             error = f"{sight.errors[name] / scale:.2g}" if name in sight.errors else "-"
-            share = f"{found / foreseen:.3f}" if foreseen else "-"
+            share = f"{found / foreseen:.3f}" if foreseen and not study.otherwise(sight) else "-"
             rows.append(
                 (sight.solver, number(sight.foundation, 3), MEASURES[name].symbol, number(sight.values[name]),
                  number(found / scale, 4), error, number(foreseen / scale, 4), share)
@@ -161,9 +163,10 @@ def verdict(study: LimitStudy) -> str:
 
 def damping_sentences(study: LimitStudy) -> list[str]:
     """What damping is needed, and from where on the prediction holds."""
-    critical = [e.critical_damping for e in study.events if e.critical_damping is not None]
+    hang = {stop.phi for stop in study.hanging}  # told below
+    critical = [e.critical_damping for e in study.events if e.critical_damping is not None and e.event.phi not in hang]
     said = []
-    if critical:
+    if critical and not (hang and max(critical) == 0):
         largest = max(critical)
         ratio = study.scene.contact.damping
         if largest == 0:
@@ -175,10 +178,12 @@ def damping_sentences(study: LimitStudy) -> list[str]:
         else:
             above = "above" if ratio > largest else "below"
             said.append(
-                f"Below a damping ratio of {number(largest, 4)} the transient breaks the patch again; this scene's "
+                f"Below a damping ratio of {number(largest, 4)} the transient breaks the patch again, for the time of"
+                " the layer: with any damping at all the limit is the same below it; this scene's "
                 f"{number(ratio, 4)} is {above} it."
             )
-    said += hanging_sentences(study.hanging, study.scene.friction.mu)
+    softer = [sight.foundation for sight in study.sights if study.otherwise(sight)]
+    said += hanging_sentences(study.hanging, study.scene.friction, max(softer, default=0.0))
     if study.stiff > max(study.separate, _LEAST):
         said.append(
             f"All this is of a rigid rim: below a foundation of {number(study.stiff, 2)} a ring in the"
@@ -199,13 +204,20 @@ def damping_sentences(study: LimitStudy) -> list[str]:
     return said
 
 
-def hanging_sentences(stops: Sequence[Hanging], mu: float) -> list[str]:
-    """Which sticks are lost for good if they break, whether they do, and what that makes of the limit."""
+def hanging_sentences(
+    stops: Sequence[Hanging], friction: Friction, softer: float = 0.0, limit: str = "the limit"
+) -> list[str]:
+    """Which sticks are lost for good if they break, whether they do, and what that makes of the limit.
+
+    ``softer`` is the largest foundation at which a pulse was seen to be that of the other hoop, 0 if none was;
+    ``limit`` what it is the rigid hoop of.
+    """
     said = []
     for stop in stops:
         told = (
             f"Behind the slip that stops at {degrees(stop.phi):.1f}° rolling takes |F|/N = {number(stop.ratio, 4)},"
-            f" more than mu = {number(mu)}: a patch that breaks there slides on, at any stiffness"
+            f" more than mu = {number(friction.mu)} and less than mu_s = {number(friction.mu_s)}: a patch that breaks"
+            " there slides on, at any stiffness"
         )
         least = ""
         if stop.damping is not None:
@@ -218,11 +230,26 @@ def hanging_sentences(stops: Sequence[Hanging], mu: float) -> list[str]:
                 if stop.damping and isfinite(stop.damping)
                 else ""
             )
-            told += f". With this damping it does, and the limit is that of the rigid hoop that slides on there{kept}."
+            told += f". With this damping it does, and {limit} is that of the rigid hoop that slides on there{kept}."
         else:
             told += f". With this damping it does not, but{least or ' with another'} it may."
-        said.append(told)
+        said.append(told + _softer_sentence(stop, softer))
     return said
+
+
+def _softer_sentence(stop: Hanging, softer: float) -> str:
+    """What becomes of a stick on floors that are too soft for the limit."""
+    does = "keeps its stick" if stop.broken else "breaks"
+    if stop.holds == inf:
+        return f" On softer floors the critical ratio is another, and it still {does} at all within reach."
+    if stop.holds > max(softer, _LEAST):
+        return (
+            f" On softer floors the critical ratio is another, and it still {does} below a foundation of about"
+            f" {number(stop.holds, 1)}."
+        )
+    if softer:
+        return f" The pulses observed up to a foundation of {number(softer, 2)} are still those of one that {does}."
+    return ""
 
 
 def other_sentences(study: LimitStudy) -> list[str]:

@@ -32,7 +32,9 @@ LIMITS = ("impulse_ratio", "friction_loss", "normal_impulse")
 
 _OF_MEASURES = ("value", "uncertainty", "rigid", "error", "last_distance", "limit", "coefficient", "observed")
 _RATES = ("rate", "rate_interval", "exponent", "exponents")
-_PURE = ("bending_stiffness", "contact_stiffness", "low", "high", "count", "separate", "stiff", "mu_s", "rtol", *_RATES)
+_OF_STOPS = ("force_ratio", "critical_damping", "other_impulse_ratio", "holds")
+_OF_SCENE = ("bending_stiffness", "contact_stiffness", "low", "high", "count", "separate", "stiff", "mu_s", "rtol")
+_PURE = (*_OF_SCENE, *_RATES, *_OF_STOPS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +106,9 @@ class StiffnessStudy(summary.Summarised):
     than the foundation (the regularised law), and where the pulse has more in it than rolling and sliding."""
     separate: float = 0.0
     """Foundation from which on the prediction, and any series in powers of it, holds: each event is over before the
-    next one comes."""
+    next one comes, and a stick on which the limit hangs is kept or lost as there."""
+    late: float = 0.0
+    """The part of ``hanging`` in that; 0 where there is none."""
     stiff: float = 0.0
     """That from which on the ring gives way by less than the patch where a slip ends or turns round; on softer ones it
     may break a stick that the prediction's rigid rim keeps, or leave the floor. 0 too where no case does otherwise."""
@@ -281,6 +285,7 @@ class StiffnessStudy(summary.Summarised):
             "cases": [rung.to_dict() for rung in self.rungs],
             "limit": {name: limit.to_dict() for name, limit in self.limits.items()},
             "prediction": self._foreseen(),
+            "hanging": [stop.to_dict() for stop in self.hanging],
         }
 
     def _foreseen(self) -> dict[str, Any] | None:

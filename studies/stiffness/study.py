@@ -12,7 +12,7 @@ The solvers are known here only by what every motion has: its pulses and their m
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -25,11 +25,12 @@ from ..running.runs import run_cases
 from ..running.solvers import ensure_accepts
 from ..running.workers import Here, Pool
 from .errors import errors_of
-from .extrapolation.limits import limit_of
+from .extrapolation.limits import Limit, limit_of
 from .found import LIMITS, Rung, StiffnessStudy
 from .ladder import Ladder
 
 if TYPE_CHECKING:
+    from ..inner.critical import Hanging
     from ..limit.prediction import Prediction
 
 TIED = ("impulse_ratio", "friction_loss")
@@ -82,7 +83,7 @@ def stiffness_study(
     """
     from flexible import rigid_limit
 
-    from ..inner.critical import followed, hanging
+    from ..inner.critical import followed
     from ..inner.separate import stiff_from
 
     if exponent is not None and not 0 < exponent < inf:
@@ -105,6 +106,9 @@ def stiffness_study(
 
     # 2. what is foreseen of the rungs
     foreseen, separate = _prediction(scene, ladder, solver)
+    hangs = _hanging(scene, solver)
+    late = 0.0 if foreseen is None else max([stop.holds for stop in hangs], default=0.0)
+    separate = max(separate, late)
 
     import scipy.optimize  # noqa: F401  what the limits take, while other processes are still loading what cases take
 
@@ -122,6 +126,9 @@ def stiffness_study(
         for rung, stiffness, outcome in zip(scenes, ladder.stiffness.tolist(), outcomes, strict=True)
     )
 
+    if foreseen is not None and (above := _above_otherwise(foreseen, hangs, rungs)) > separate:
+        separate = late = above
+
     # 4. rate and limit of the first pulse's measures over the rungs that came through
     through = [rung for rung in rungs if not rung.outcome.failure]
     if not through:
@@ -129,15 +136,8 @@ def stiffness_study(
             f"No rung of the ladder came through; the stiffest says: {rungs[-1].outcome.failure.rstrip('.')}."
         )
     rates: tuple[float, ...] | None = None if exponent is None else (exponent,)
-    holds = 0.0
-    # of a ring with a mass the vibrations of the ring itself come between: its rate is fitted
-    if rates is None and foreseen is not None and scene.hoop.mass_ratio == 0:
-        rates, holds = foreseen.rates, separate
-    limits = {}
-    for name in LIMITS:
-        values, errors = [r.measure(name) for r in through], errors_of(through, name, scene)
-        limits[name] = limit_of([r.stiffness for r in through], values, pulse[name], errors, rates, holds)
-    stiff, hangs = 0.0, () if foreseen is None else hanging(scene, followed(scene))
+    limits = _limits(scene, through, pulse, foreseen, rates, separate)
+    stiff = 0.0
     # one that slides on does otherwise at any stiffness
     kept = foreseen is not None and not any(stop.broken for stop in hangs)
     if kept and any(rung.outcome.phases[0] != reference.phases[0] for rung in through):
@@ -145,8 +145,9 @@ def stiffness_study(
     if foreseen is not None and foreseen.parameter != "eps":
         foreseen = None  # it is told by the foundation alone
     return StiffnessStudy(
-        scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits, foreseen, separate, stiff, hangs
-    )
+        scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits, foreseen,
+        separate, late, stiff, hangs,
+    )  # fmt: skip
 
 
 def _against(
@@ -180,3 +181,49 @@ def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction |
         return predict(scene), separate_from(followed(scene))
     except StudyError:
         return None, 0.0
+
+
+def _hanging(scene: Scene, solver: str) -> tuple[Hanging, ...]:
+    """Stops on whose sticks the limit of the cases hangs, whether it is predicted or not."""
+    from ..inner.critical import followed, hanging
+
+    if solver != "flexible":
+        return ()
+    try:
+        return hanging(scene, followed(scene))
+    except StudyError:
+        return ()
+
+
+def _above_otherwise(foreseen: Prediction, hangs: Sequence[Hanging], rungs: Sequence[Rung]) -> float:
+    """Foundation of the next rung above those whose pulses are nearer to the hoop that does otherwise at such a stop
+    than to what is foreseen of them; 0 where none is. They are the softest: what a stiffer one does that its softer
+    neighbour does not is not for its being too soft."""
+    term, least = foreseen.terms["impulse_ratio"], 0.0
+    step = rungs[1].contact_stiffness / rungs[0].contact_stiffness
+    for rung in rungs:
+        expected, ratio = float(term.at(rung.contact_stiffness ** (-1 / 3))), rung.measure("impulse_ratio")
+        if not any(stop.is_otherwise(ratio, expected) for stop in hangs):
+            break
+        least = rung.contact_stiffness * step
+    return least
+
+
+def _limits(
+    scene: Scene,
+    through: Sequence[Rung],
+    pulse: Mapping[str, float],
+    foreseen: Prediction | None,
+    rates: tuple[float, ...] | None,
+    separate: float,
+) -> dict[str, Limit]:
+    """Limits of the measures of a pulse, by ``rates`` if they are given."""
+    holds = 0.0
+    # of a ring with a mass the vibrations of the ring itself come between: its rate is fitted
+    if rates is None and foreseen is not None and scene.hoop.mass_ratio == 0:
+        rates, holds = foreseen.rates, separate
+    limits = {}
+    for name in LIMITS:
+        values, errors = [r.measure(name) for r in through], errors_of(through, name, scene)
+        limits[name] = limit_of([r.stiffness for r in through], values, pulse[name], errors, rates, holds)
+    return limits

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ...plots.sheet import number, power_of
 from ...running.measures import MEASURES
+from ..extrapolation.cases import FEWEST
 from ..extrapolation.limits import CLEAR
 from .rows import fixed
 
@@ -31,7 +32,10 @@ def verdict(study: StiffnessStudy) -> str:
     inside = [limit.rigid_inside for limit in tied.values()]
     hoop = "the rigid one" if study.reference_mu_s == study.scene.friction.mu_s else "a rigid one"
     question = f"as {_RAISED[study.ladder.along]} made stiffer, the flexible hoop"
-    if any(limit.rigid_excluded for limit in tied.values()):
+    if _too_soft(study):
+        why = "these rungs are too soft to say, as a stick is not yet that of the limit"
+        answer = f"Open: whether, {question} becomes {hoop}, {why}"
+    elif any(limit.rigid_excluded for limit in tied.values()):
         answer = f"No: {question} does not become {hoop} within the uncertainty of its limit"
     elif not all(limit.extrapolated for limit in tied.values()):
         answer = f"Open: whether, {question} becomes {hoop}, too few rungs say"
@@ -52,6 +56,12 @@ def verdict(study: StiffnessStudy) -> str:
     if study.failures:
         said.append(f"{len(study.failures)} of {len(study.rungs)} cases failed.")
     return " ".join(said)
+
+
+def _too_soft(study: StiffnessStudy) -> bool:
+    """Whether the rungs are too few, or none, at which a stick on which the limit hangs is kept or lost as there."""
+    stiff = [rung for rung in study.rungs_through if rung.contact_stiffness >= study.late]
+    return study.late > 0 and len(stiff) < FEWEST
 
 
 def _rings_on(study: StiffnessStudy) -> bool:
@@ -171,14 +181,16 @@ def law_sentence(study: StiffnessStudy) -> str:
 def damping_sentence(study: StiffnessStudy) -> str:
     """How the contact was damped, and what an undamped one does."""
     damping = study.scene.contact.damping
+    # where nothing is predicted it is said here of which sticks the limit hangs
+    more = "" if study.prediction is not None else _hanging_words(study)
     if damping > 0:
         return (
             f"The patch is damped, at {damping:g} of critical for the hoop that stands on it under its own weight; "
-            "under a larger load the ratio is larger, like N^(1/6)."
+            f"under a larger load the ratio is larger, like N^(1/6).{more}"
         )
     return (
         "The contact is undamped: where slip ends or begins the normal force jumps, and the patch then rings "
-        "with an amplitude that no stiffness makes smaller, so the limit need not be the rigid hoop."
+        f"with an amplitude that no stiffness makes smaller, so the limit need not be the rigid hoop.{more}"
     )
 
 
@@ -186,8 +198,6 @@ def prediction_sentence(study: StiffnessStudy) -> str:
     """What is predicted without any of the cases, and what the cases show of that."""
     if study.prediction is None:
         return ""
-    from ...limit.summary import hanging_sentences
-
     told = []
     for name in ("impulse_ratio", "friction_loss"):
         term = study.prediction.terms[name]
@@ -206,9 +216,11 @@ def prediction_sentence(study: StiffnessStudy) -> str:
     said = f"Predicted without a fit, ε the foundation to the power −1/3: {'; '.join(told)}."
     if not study.prediction.complete:
         said += " This is the leading power alone; those behind it are the larger ones at any stiffness within reach."
-    for told_of_stop in hanging_sentences(study.hanging, study.scene.friction.mu):
-        said += " " + told_of_stop
-    if not isfinite(study.separate):
+    said += _hanging_words(study)
+    if 0 < study.late == study.separate:
+        which = f"below a foundation of {number(study.separate, 2)}" if isfinite(study.separate) else "as soft as these"
+        said += f" Cases {which} are not described by it."
+    elif not isfinite(study.separate):
         said += " A patch of so little damping does not come to rest between the events, and it holds at none of these."
     elif study.separate > study.ladder.low:
         said += (
@@ -223,6 +235,14 @@ def prediction_sentence(study: StiffnessStudy) -> str:
             " in the pulse than that of the rigid hoop, which it does not foresee."
         )
     return said
+
+
+def _hanging_words(study: StiffnessStudy) -> str:
+    from ...limit.summary import hanging_sentences
+
+    # a ring that is not stiffened keeps its own distance
+    limit = "the limit" if study.ladder.along == "both" else "the limit of a stiff ring on a stiff floor"
+    return "".join(f" {said}" for said in hanging_sentences(study.hanging, study.scene.friction, limit=limit))
 
 
 def _wall_sentence(scene: Scene) -> str:

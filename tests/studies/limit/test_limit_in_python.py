@@ -134,6 +134,7 @@ def test_a_damping_is_said_to_be_on_the_side_of_the_critical_one_on_which_it_is(
     scene = study.scene.replace(contact={"damping": damping})
     (said, *_) = damping_sentences(dataclasses.replace(study, scene=scene, events=(found,)))
     assert said.startswith("Below a damping ratio of 0.1 ")
+    assert "for the time of the layer: with any damping at all the limit is the same below it" in said  # mu N holds it
     assert said.endswith(f"this scene's {damping} is {word} it.")
 
 

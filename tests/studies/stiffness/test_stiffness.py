@@ -19,7 +19,13 @@ from studies.inner.critical import followed, hanging
 from studies.running.case import SHARE
 from studies.stiffness.study import _prediction
 from studies.stiffness.told.rows import LIMIT_HEADING, limit_rows
-from studies.stiffness.told.sentences import extrapolation_sentence, law_sentence, prediction_sentence, verdict
+from studies.stiffness.told.sentences import (
+    damping_sentence,
+    extrapolation_sentence,
+    law_sentence,
+    prediction_sentence,
+    verdict,
+)
 
 THIRD = "third_solver:softened"
 
@@ -388,3 +394,30 @@ def test_a_stick_that_soft_hoops_break_is_no_part_of_the_limit_of_the_stiff_ones
                  for rung in (study.otherwise[-1], study.rungs[-3]))  # fmt: skip
     assert far > 50 * near
     assert f"at {len(study.otherwise)} of these cases the contact does something else" in prediction_sentence(study)
+
+
+@pytest.mark.parametrize(("along", "damping"), [("contact", 1.0), ("both", 0.0)])
+def test_a_stick_that_breaks_for_good_is_told_where_nothing_is_predicted(along, damping):
+    scene = Scene(Hoop(0.28, 1.02), Coefficients(0.41, 0.302), Release(phi0_deg=83.4), Run(until="pulse"))
+    found = stiffness_study(scene.replace(contact={"damping": damping}), Ladder(along, 1e7, 1e8, 2))
+    assert found.prediction is None
+    said = damping_sentence(found)
+    assert "Behind the slip that stops at 197.3° rolling takes |F|/N = 0.3957" in said
+    assert ("the limit of a stiff ring on a stiff floor" in said) is (along == "contact")
+    assert found.to_dict()["hanging"][0]["broken"] is True
+
+
+def test_rungs_too_soft_for_a_stick_to_be_kept_say_nothing_of_the_limit():
+    """0.4 % above the critical damping, 2.132, a rigid ring breaks its patch up to a foundation of 1e13 (bisection in
+    the tests of its limit): the rungs tend to the hoop that slides on, and none is held to the other's coefficient."""
+    scene = Scene(Hoop(0.28, 1.02), Coefficients(0.41, 0.302), Release(phi0_deg=83.4), Run(until="pulse"))
+    found = stiffness_study(scene.replace(contact={"damping": 2.14}), Ladder("both", 1e7, 1e11, 5))
+    assert not found.hanging[0].broken
+    assert found.separate == found.late > 1e12
+    assert found.coefficient("impulse_ratio") is None
+    assert not found.limits["impulse_ratio"].known
+    assert verdict(found).startswith("Open: ")
+    said = prediction_sentence(found)
+    assert "observed" not in said
+    assert "it still breaks below a foundation of about" in said
+    assert "are not described by it" in said
