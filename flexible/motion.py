@@ -170,7 +170,7 @@ class March(NamedTuple):
 class FlexibleMotion(Motion):
     """The motion of the flexible hoop: the common vocabulary, the energy ledger, the steps if they were asked for.
 
-    ``period`` is that of the rigid hoop which, released from this one's state at the end, will roll for ever.
+    Its period is that of the rigid hoop which, released from this one's state at the end, will roll for ever.
     With the steps come the states of the ring (``kept``, one per flexible segment), of which fields are made.
     ``marches`` is what :func:`flexible.simulate` goes on from. Two motions are equal if all but these three are, which
     are arrays that follow from the same steps.
