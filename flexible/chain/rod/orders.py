@@ -13,13 +13,16 @@ from __future__ import annotations
 
 from itertools import combinations_with_replacement, permutations, product
 from math import factorial, prod
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...ring.fem import Ring
+from .corotated import strains
 from .section import RodCompliance
+from .tangent import outwards
 from .wall import Wall, crossed, wall_beside
 
 Array = NDArray[np.float64]
@@ -151,30 +154,21 @@ def _along(wall: Wall, known: Known, same: Array, load: Array) -> tuple[Array, A
     two = wall.second @ load @ load
     three = -wall.under(2 * wall.square(one, two) + wall.cube(one))
     fields, borne = np.stack([wall.at_nodes(u) for u in (one, two, three)]), wall.at_nodes(wall.linear(one))
-    turns = known.by @ same @ wall.line.mean(fields[0]) / [np.hypot(*known.chord), 1, 1]
+    length, by = float(np.hypot(*known.chord)), np.empty((3, 3))
+    part = SimpleNamespace(chord=np.array([[*known.chord, length]]), bow=known.bow[None])
 
     def both(t: float) -> Array:
         u = np.tensordot(t ** np.arange(1, 4), fields, 1)
         d = wall.line.place(u)
         moment = t * (load[2] + crossed(u - d[:2], borne).sum())
-        strain, by = _strains(known, same @ d)
-        return np.concatenate([strain, np.linalg.solve(by.T, [t * load[0], t * load[1], moment])])
+        q = np.stack([np.zeros(3), same @ d])
+        outwards(part, q, 0, 0, by)
+        return np.concatenate([strains(part, q, 0)[3:6], np.linalg.solve(by.T, [t * load[0], t * load[1], moment])])
 
+    turns = known.by @ same @ wall.line.mean(fields[0]) / [length, 1, 1]
     steps = np.array([-4, -3, -2, -1, 1, 2, 3, 4]) * (_STRAINED / 4 / np.abs(turns).max())
     values = np.stack([both(t) for t in steps])
     powers = np.arange(1, len(steps) + 1)
     scaled = np.linalg.solve((steps[:, None] / steps[-1]) ** powers, values)
     factors = scaled[:3] / steps[-1] ** powers[:3, None]
     return factors[:, :3], factors[:, 3:]
-
-
-def _strains(known: Known, d: Array) -> tuple[Array, Array]:
-    """(x, tau_1, tau_2) of the part whose section off the weld moves by ``d``, and their derivatives by that."""
-    rest, now = np.hypot(*known.chord), np.hypot(*(known.chord + d[:2]))
-    along, across = (known.chord + d[:2]) / now, np.array([-known.chord[1] - d[1], known.chord[0] + d[0]]) / now
-    dot = known.chord @ d[:2]
-    alpha = np.arctan2(crossed(known.chord, d[:2]), rest**2 + dot)
-    tau = np.array([-alpha, d[2] - alpha])
-    by = np.array([[*along, 0.0], [*(-across / now), 0.0], [*(-across / now), 1.0]])
-    by[0] += known.bow @ tau @ by[1:]
-    return np.array([(2 * dot + d[:2] @ d[:2]) / (now + rest) + tau @ known.bow @ tau / 2, *tau]), by

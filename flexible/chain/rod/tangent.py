@@ -113,7 +113,7 @@ def _within(rod: Any, q: Any, diagonal: Any, up: Any, down: Any) -> None:
 
 
 @loop
-def _outwards(rod: Any, q: Any, p: int, end: int, by: Any) -> None:
+def outwards(rod: Any, q: Any, p: int, end: int, by: Any) -> None:
     """Derivatives (3, 3) of the strains of the first or the last part, of its line, by its section off the weld."""
     t1, t2, now, _, _, _, w1, w2 = strains(rod, q, p)
     for k in range(3):
@@ -126,8 +126,8 @@ def _outwards(rod: Any, q: Any, p: int, end: int, by: Any) -> None:
 def _add_across(rod: Any, q: Any, up: Any, down: Any) -> None:
     """What the last section feels of the first, and the first of the last."""
     first, final = np.empty((3, 3)), np.empty((3, 3))
-    _outwards(rod, q, 0, 0, first)
-    _outwards(rod, q, rod.local.shape[0] - 1, 1, final)
+    outwards(rod, q, 0, 0, first)
+    outwards(rod, q, rod.local.shape[0] - 1, 1, final)
     for i in range(3):
         for j in range(3):
             for a in range(3):
