@@ -175,7 +175,7 @@ class StiffnessStudy(summary.Summarised):
         unit = MEASURES[name].unit.of(self.scene)
         stiffness = np.array([rung.stiffness for rung in through])
         values, errors = (np.array([of(rung, name) for rung in through]) for of in (Rung.measure, Rung.error))
-        series = fitted_series(limit, stiffness, values, errors_of(through, name, self.scene), self.separate)
+        series = fitted_series(limit, stiffness, values, errors_of(through, name, self.scene))
         predicted = None
         softest, stiffest = max(through[0].contact_stiffness, self.separate), through[-1].contact_stiffness
         if self.prediction is not None and self.prediction.complete and softest < stiffest:

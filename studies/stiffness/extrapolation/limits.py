@@ -55,6 +55,8 @@ class Limit:
     """Limit and half width with a rate that is fitted to all cases, whatever theory says."""
     grows: bool = False
     """Whether the stiffest case is farther from the rigid value than the one before it, by more than their errors."""
+    holds: float = 0.0
+    """Stiffness of the cases from which on the known exponents were asked of them."""
 
     @property
     def rigid_excluded(self) -> bool:
@@ -151,6 +153,7 @@ def limit_of(
         max(_span(values, error), alike),
         fitted,
         _grows(values, off, rigid),
+        holds,
     )
     away = np.abs(values - rigid)[list(rate.cases)]
     if isfinite(rate.value) and (found.rigid_excluded or not away[-1] < away[0]):
@@ -159,15 +162,15 @@ def limit_of(
 
 
 def fitted_series(
-    limit: Limit, s: ArrayLike, y: ArrayLike, error: ArrayLike, holds: float = 0.0, points: int = 120
+    limit: Limit, s: ArrayLike, y: ArrayLike, error: ArrayLike, points: int = 120
 ) -> tuple[Array, Array] | None:
     """Stiffness and measure of the series that a limit was extrapolated with, over the cases that it was fitted to.
 
-    Parameters as of :func:`limit_of`; None where no exponents were known, or cases too few.
+    Parameters as of :func:`limit_of`, whose ``limit`` it is; None where no exponents were known, or cases too few.
     """
     if not (limit.known and limit.extrapolated):
         return None
-    stiff = np.asarray(s, float) >= holds
+    stiff = np.asarray(s, float) >= limit.holds
     x, v, e = (np.asarray(values, float)[stiff] for values in (s, y, error))
     x, v, e = one_series(x, v, e, limit.exponents, CONFIDENCE)
     along = np.geomspace(x[0], x[-1], points)

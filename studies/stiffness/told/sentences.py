@@ -147,7 +147,8 @@ def extrapolation_sentence(study: StiffnessStudy) -> str:
             f"c{i + 1} s^-{p:.3g}" + (" log s" if p in known[0].exponents[:i] else "")
             for i, p in enumerate(known[0].exponents)
         )
-        since = f" from the cases above {number(study.separate, 2)}" if study.separate > study.ladder.low else ""
+        holds = known[0].holds
+        since = f" from the cases above {number(holds, 2)}" if holds > study.ladder.low else ""
         said.append(
             f"The limit is L in L + {powers} + ..., {s}, its exponents known and L and all c inferred{since} "
             "without knowing the rigid value. Its uncertainty ± holds what the terms not seen and the cases' numerical "

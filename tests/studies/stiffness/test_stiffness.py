@@ -35,6 +35,16 @@ def study():
     return stiffness_study(load_scene("paper-3.3-massless"), solver=THIRD)
 
 
+def test_a_rate_that_is_asked_for_is_that_of_all_rungs():
+    """However stiff they would have to be for the theory's own: its line and its sentence leave none out."""
+    found = stiffness_study("paper-3.3-massless", solver=THIRD, exponent=RATE)
+    assert found.limits["impulse_ratio"].known
+    soft = replace(found, separate=10 * found.ladder.high)
+    line = soft.distance("impulse_ratio").series
+    assert line[0] == pytest.approx(np.geomspace(found.ladder.low, found.ladder.high, len(line[0])))
+    assert "from the cases above" not in extrapolation_sentence(soft)
+
+
 def test_the_ladder_has_at_least_eight_rungs_over_six_decades(study):
     stiffness = [rung.contact_stiffness for rung in study.rungs]
     assert len(stiffness) >= 8
