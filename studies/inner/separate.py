@@ -35,10 +35,10 @@ def separate_from(way: Passage, layers: list[Layer] | None = None) -> float:
     """Foundation eps_n R^2/(m g) at which each layer takes as long as the stretch that follows it.
 
     Infinite where one does not settle, without damping or with next to none; 0 where every event is the last, or jumps
-    into a state that it stays in. ``layers`` are those of the events, where they are known.
+    into a state that it stays in. ``layers`` are those of the events, where they are known; the last is not asked.
     """
     least = 0.0
-    known = layers or [layer(way.body, way.contact, event) for event in way.events]
+    known = layers or [layer(way.body, way.contact, event) for event in way.events[:-1]]
     for now, (event, following) in zip(known, itertools.pairwise(way.events), strict=False):
         normal = outer_forces(way.body, event, True)[0]
         settles = now.settled(normal)
