@@ -23,7 +23,9 @@ from .scales import epsilon, theta_of
 START, STOP, REVERSAL, BREAK = "slip starts", "slip stops", "slip reverses", "slip stops, stick breaks"
 """The last is a stop of the rigid hoop behind which a compliant one slides on: its layer ends so."""
 
-_LONGEST = 20.0  # of what is left of a pulse: a hoop that slides on in it has then come to its end, or never does
+_LONGEST = (
+    20.0  # times as long as the paper's pulse: a hoop that slides on in it has then come to its end, or never does
+)
 
 
 @dataclass(frozen=True, slots=True)
