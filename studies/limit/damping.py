@@ -75,12 +75,12 @@ def damping_map(
     spots = []
     for damping in dampings_of(scene) if dampings is None else dampings:
         damped = scene.replace(contact={"damping": damping})
-        foreseen = predict(damped)
-        term = foreseen.terms["impulse_ratio"]
+        prediction = predict(damped)
+        term = prediction.terms["impulse_ratio"]
         for foundation in foundations:
             here = at_foundation(damped, foundation)
             seen = go_through(here).impulse_ratio
-            small = foundation ** (-1 / 3) if foreseen.parameter == "eps" else here.contact.slip_velocity_scale
+            small = foundation ** (-1 / 3) if prediction.parameter == "eps" else here.contact.slip_velocity_scale
             predicted = float(term.at(small))
             spots.append(Spot(damping, foundation, decay_in_stick(here), seen, term.limit, predicted))
     return spots
