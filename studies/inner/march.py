@@ -41,6 +41,7 @@ ScaledContact = namedtuple("ScaledContact", ["law", "kappa", "mu_s", "mu", "thet
 ScaledContact.__doc__ = "Law, tangential ratio, coefficients, relaxation time and V_s on the scaled clock."
 
 _arms = part(mechanics.arms)
+_AT_ONCE = 1e-9  # of the excess: nearer to a switch than that is at it
 _NARROW = 0.2  # of the half-width at the start: a patch below it is taken to be that wide when a step is chosen
 
 
@@ -232,17 +233,17 @@ def march(system: Any, start: Any, mode: int, kept: Any, ends: Any) -> Any:
     tau, steps, rows, marks = 0.0, 0, 0, 0
     widest = max(_normal(state, 0.0)[0], 1.0)
     records, switches = np.empty((1024, len(COLUMNS))), np.empty((64, 2))
-    running, fresh = True, True
+    # right at a switch the excess is round-off of zero; a march that goes on from a state before one must see it
+    running, fresh = True, _excess(state, contact, mode, kept) > -_AT_ONCE
     _note(records[rows], tau, state, contact, mode, kept)
     rows += 1
     while running and steps < ends[4]:
         h = ends[2] * _step_length(state, system.body, contact, widest)
-        if fresh:
+        if fresh or steps == 0:
             h /= 8
         if tau + h >= ends[0]:
             h, running = ends[0] - tau, False
         after = _advance(state, system, mode, kept, h)
-        # right after a switch the excess is round-off of zero
         event = not fresh and _excess(after, contact, mode, kept) > 0
         if event or (after[PSI] - ends[1]) * state[OMEGA] > 0:
             h, after, event, late = _cut(state, system, mode, kept, h, event, ends[1])
