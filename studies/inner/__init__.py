@@ -4,6 +4,6 @@
 ``body``      the rigid hoop as its contact sees it     ``bristles``  the tangential side of the patch
 ``march``     the equations in time                     ``creep``     what a patch in steady rolling must slip
 ``events``    the instants to look at                   ``layers``    their inner problems solved
-``critical``  the damping below which the sequence of phases changes
+``cut``       their part in a pulse that begins or ends there    ``stops``  which sticks break, and what follows then
 ``separate``  the foundation from which on one layer is over before the next event comes, and the ring is the stiffer
 """

@@ -27,6 +27,8 @@ _LONGEST = (
     20.0  # times as long as the paper's pulse: a hoop that slides on in it has then come to its end, or never does
 )
 
+_ROUND_OFF = 1e-12  # of the times at which a phase and a pulse begin or end together
+
 
 @dataclass(frozen=True, slots=True)
 class Event:
@@ -87,6 +89,8 @@ class Passage:
     """Slip velocity there."""
     first_slip: float
     """Slip velocity at the start."""
+    last: Event | None = None
+    """The event with which the pulse ends; None where N falls below the weight without one."""
 
 
 def scaled_contact(scene: Scene, damping: float | None = None) -> ScaledContact:
@@ -118,7 +122,8 @@ def passage(scene: Scene, rolls_to: float | None = None, breaks: Sequence[int] =
         Share of mu N up to which the rolling before the pulse is left out, that of the law's by default; 1 leaves out
         all that is more than half a pulse before.
     breaks : sequence of int, optional
-        Which events, ascending, are stops behind which the hoop slides on: see :func:`studies.inner.critical.followed`.
+        Which events, ascending, are stops behind which the hoop slides on: see
+        :func:`studies.inner.stops.hanging.followed`.
 
     Raises
     ------
@@ -149,15 +154,42 @@ def passage(scene: Scene, rolls_to: float | None = None, breaks: Sequence[int] =
     stretches, events = _walked(tended, parts, first, pulse, turn, breaks)
     start = _state(motion, first, turn)
     last, t_end = parts[-1], pulse.t_end
+    before, t_start = parts[0], pulse.t_start
     if breaks:
+        way = copysign(1.0, pulse.phi_end - pulse.phi_start)
+        # a stick may break before the pulse begins
+        before = [p for p in parts if (p.phase.phi_start - pulse.phi_start) * way < 0 or p is before][-1]
+        t_start = t_start if before.motion is motion else _reaches(before, pulse.phi_start)
         t_end = _reaches(last, pulse.phi_end)
-    ends = _state(motion, pulse.t_start, turn), _state(last.motion, t_end, turn)
+    ends = _state(before.motion, t_start, turn), _state(last.motion, t_end, turn)
     if breaks:
-        pulse = _of_ends(tended, pulse, (motion, pulse.t_start), (last.motion, t_end), last.since, ends)
+        pulse = _of_ends(tended, pulse, (before, t_start), (last, t_end), ends)
     return Passage(
         tended, body_of(scene.hoop), scaled_contact(scene), pulse, start[1], stretches, events,
         (pulse.phi_start - turn, pulse.phi_end - turn), (ends[0][2], ends[1][2]), start[2],
+        None if breaks else _last(tended, pulse, stretches[-1].pull, turn),
     )  # fmt: skip
+
+
+def _pulls(scene: Scene) -> dict[Kind, float | None]:
+    """F/N of the phases that have an inner problem at their ends; None where F is what rolling takes."""
+    return {Kind.ROLL: None, Kind.SPIN: scene.friction.mu, Kind.SKID: -scene.friction.mu}
+
+
+def _kind(before: float | None, behind: float | None) -> str:
+    return START if before is None else STOP if behind is None else REVERSAL
+
+
+def _last(scene: Scene, pulse: Pulse, before: float | None, turn: float) -> Event | None:
+    """The event at the end of a pulse, if it ends with one: a phase of the motion beyond it begins just there."""
+    pulls, t = _pulls(scene), pulse.t_end
+    beyond = simulate(scene.replace(run=Run(t_end=t + (t - pulse.t_start))))
+    for phase in beyond.phases:
+        if abs(phase.t_start - t) <= _ROUND_OFF * (1 + abs(t)) and phase.kind in pulls and pulls[phase.kind] != before:
+            omega, psi = _state(beyond, t, turn)[:2]
+            behind = pulls[phase.kind]
+            return Event(_kind(before, behind), t / scene.time_unit, psi, omega, before, behind, turn)
+    return None
 
 
 def _walked(
@@ -166,7 +198,7 @@ def _walked(
     """The stretches of a motion that is put together of parts, and the events between them."""
     stretches: list[Stretch] = []
     events: list[Event] = []
-    pulls = {Kind.ROLL: None, Kind.SPIN: scene.friction.mu, Kind.SKID: -scene.friction.mu}
+    pulls = _pulls(scene)
     for number, (motion, phase, since) in enumerate(parts):
         if phase.kind not in pulls:
             article = "an" if phase.kind.value[0] in "aeiou" else "a"
@@ -181,8 +213,7 @@ def _walked(
         if number > 0:
             psi = phase.phi_start - turn
             before, behind = stretches[-1].pull, pulls[phase.kind]
-            kind = START if before is None else STOP if behind is None else REVERSAL
-            kind = BREAK if number - 1 in breaks else kind
+            kind = BREAK if number - 1 in breaks else _kind(before, behind)
             t = (since + phase.t_start) / scene.time_unit
             events.append(Event(kind, t, psi, omega, before, behind, turn))
         stretches.append(Stretch(psi, psi_end, omega, pulls[phase.kind]))
@@ -225,22 +256,22 @@ def _reaches(part: _Part, phi: float) -> float:
 def _of_ends(
     scene: Scene,
     pulse: Pulse,
-    begins: tuple[Motion, float],
-    ends: tuple[Motion, float],
-    since: float,
+    begins: tuple[_Part, float],
+    ends: tuple[_Part, float],
     states: Sequence[tuple[float, float, float]],
 ) -> Pulse:
     """The pulse of a motion between two states: impulses are those of the mass centre, M v_x and M (v_y + g t)."""
     body = body_of(scene.hoop)
     momenta = []
-    for (_, t), (omega, psi, slip), shift in zip((begins, ends), states, (0.0, since), strict=True):
+    for (part, t), (omega, psi, slip) in zip((begins, ends), states, strict=True):
         a, b, _ = arms(body.e, body.one_minus_e, psi)
-        momenta.append((slip + b * omega, (t + shift) / scene.time_unit - a * omega))
+        momenta.append((slip + b * omega, (t + part.since) / scene.time_unit - a * omega))
     unit = (1 + scene.hoop.mass_ratio) * scene.impulse_unit
-    energies = [float(motion.at(t).energy) for motion, t in (begins, ends)]
+    energies = [float(part.motion.at(t).energy) for part, t in (begins, ends)]
     return replace(
         pulse,
-        t_end=ends[1] + since,
+        t_start=begins[1] + begins[0].since,
+        t_end=ends[1] + ends[0].since,
         friction_impulse=(momenta[1][0] - momenta[0][0]) * unit,
         normal_impulse=(momenta[1][1] - momenta[0][1]) * unit,
         friction_loss=energies[0] - energies[1],

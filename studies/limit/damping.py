@@ -19,11 +19,11 @@ from typing import Any
 from flexible.contact.laws.listing import LAWS
 from rigid import Scene, simulate
 
-from ..inner.critical import followed, hanging
 from ..inner.events import STOP
 from ..inner.layers import period_of
 from ..inner.march import PATCH
 from ..inner.scales import epsilon, theta_of
+from ..inner.stops.hanging import followed, hanging
 from ..plots.sheet import number
 from ..running.files import StudyError
 from .compliant import at_foundation, go_through

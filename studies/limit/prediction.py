@@ -4,7 +4,8 @@ L is the rigid value of the law's own hoop. At order eps the compliance does thr
 where the hoop rolls its contact point creeps, v = eps V; at an event the patch passes from one steady state to the next
 in a layer whose impulses are those that change v by eps times the change of V, since dot h is of order eps^2 on both
 sides; and the next events come earlier or later for it. The layers' history does not enter, as long as the patch has
-come to rest in them. Laws without a jump at the start of a slip add a term of their own (:mod:`studies.limit.onset`).
+come to rest in them, but for a layer that an end of the pulse cuts (:mod:`studies.inner.cut`). Laws without a jump at
+the start of a slip add a term of their own (:mod:`studies.limit.onset`).
 """
 
 from __future__ import annotations
@@ -20,11 +21,12 @@ from rigid import Scene
 
 from ..inner.body import arms, rolling_forces, rolling_inertia
 from ..inner.creep import creep
-from ..inner.critical import followed
+from ..inner.cut import impulses_far_behind, impulses_until
 from ..inner.events import START, STOP, Event, Passage, Stretch
 from ..inner.layers import slip_behind
 from ..inner.march import BRUSH, REGULARISED
 from ..inner.scales import epsilon
+from ..inner.stops.hanging import followed
 from ..running.files import StudyError
 from ..running.measures import OF_THE_MEASURE, units_of_measures
 from . import onset
@@ -138,14 +140,15 @@ def powers(way: Passage) -> dict[float, NDArray[np.float64]]:
     for number, event in starts:
         if law == REGULARISED:
             shift = onset.regularised_gain(way.body, way.contact, event)
-            _add(found, REGULARISED_GAIN, _walk(way, number + 1, shift, False))
+            _add(found, REGULARISED_GAIN, _walk(way, number + 1, shift, REGULARISED_GAIN))
         elif breaks:
             shift = onset.brush_delay(way.body, way.contact, event, way.scene.friction.mu_s)
-            _add(found, BRUSH_DELAY, _walk(way, number + 1, shift, False))
+            _add(found, BRUSH_DELAY, _walk(way, number + 1, shift, BRUSH_DELAY))
         elif law == BRUSH:
-            _add(found, BRUSH_LAG, _walk(way, number + 1, onset.brush_lag(way.body, way.contact, event), False))
+            shift = onset.brush_lag(way.body, way.contact, event)
+            _add(found, BRUSH_LAG, _walk(way, number + 1, shift, BRUSH_LAG))
     if not (starts and (breaks or law == REGULARISED)):
-        _add(found, CREEP, _walk(way, 0, _handed_over(way), True))
+        _add(found, CREEP, _walk(way, 0, _handed_over(way), CREEP))
     return found
 
 
@@ -153,12 +156,12 @@ def _add(found: dict[float, NDArray[np.float64]], exponent: float, change: NDArr
     found[exponent] = found.get(exponent, 0.0) + change
 
 
-def _walk(way: Passage, number: int, shift: Shift, creeps: bool) -> NDArray[np.float64]:
-    """What a shift at the start of stretch ``number`` makes of J_F, J_N, energy and damping loss over the pulse;
-    ``creeps`` adds what the creep does from there on.
+def _walk(way: Passage, number: int, shift: Shift, exponent: float) -> NDArray[np.float64]:
+    """What a shift of order eps^``exponent`` at the start of stretch ``number`` makes of J_F, J_N, energy and damping
+    loss over the pulse; of that of the creep, with what the creep does from there on.
     """
-    body = way.body
-    before = np.zeros(4)
+    body, creeps = way.body, exponent == CREEP
+    before, cut = np.zeros(4), np.zeros(4)
     for i in range(number, len(way.stretches)):
         stretch = way.stretches[i]
         if _reaches(stretch, way.edges[0]) or (i == 0 and way.edges[0] == way.start):
@@ -166,9 +169,22 @@ def _walk(way: Passage, number: int, shift: Shift, creeps: bool) -> NDArray[np.f
             before = np.append(grown(body, way.edges[0], omega, way.slips[0], here), here.damping_loss)
         shift, omega = _along(way, stretch, shift, creeps)
         if i < len(way.events):
+            if abs(way.events[i].psi - way.edges[0]) < ROUND_OFF:
+                cut[:2] -= _cut(way, way.events[i], shift, exponent)
             shift = _through(way, way.events[i], shift, creeps)
+    if way.last is not None:
+        cut[:2] += _cut(way, way.last, shift, exponent)
     after = np.append(grown(body, way.edges[1], omega, way.slips[1], shift), shift.damping_loss)
-    return after - before
+    return after - before + cut
+
+
+def _cut(way: Passage, event: Event, shift: Shift, exponent: float) -> Any:
+    """What has come of an event at an end of the pulse, to J_F and J_N, by the angle of that end."""
+    tau = -_later(way, event, shift, exponent == CREEP) / event.omega
+    if exponent == CREEP:
+        return impulses_until(way.body, way.contact, event, tau)
+    # a shift of lower order passes the whole layer over the end; one of higher order is little of it
+    return impulses_far_behind(way.body, event, tau) if exponent < CREEP else np.zeros(2)
 
 
 def _reaches(stretch: Stretch, psi: float) -> bool:
@@ -192,19 +208,24 @@ def _along(way: Passage, stretch: Stretch, shift: Shift, creeps: bool) -> tuple[
     return slide_along(way.body, stretch, shift)
 
 
+def _later(way: Passage, event: Event, shift: Shift, creeps: bool) -> float:
+    """By how much in psi an event comes later."""
+    where = way.body, event.psi, event.omega
+    if event.before is not None:
+        return delay_of_stop(*where, shift, event.before)
+    # without a jump it does not matter when it happens
+    if way.contact.mu_s == way.contact.mu or way.contact.law == REGULARISED:
+        return 0.0
+    return delay_of_break(way.body, way.contact if creeps else None, way.scene.friction.mu_s, *where[1:], shift)
+
+
 def _through(way: Passage, event: Event, shift: Shift, creeps: bool) -> Shift:
     """The shift behind an event: it comes later, and its layer changes the slip."""
-    pulls = event.before, event.behind
     body, contact = way.body, way.contact
-    where = (body, event.psi, event.omega)
+    later = _later(way, event, shift, creeps)
+    shift = passed(body, event.psi, event.omega, shift, later, (event.before, event.behind))
     if event.kind == START:
-        # without a jump it does not matter when it happens
-        if contact.mu_s == contact.mu or contact.law == REGULARISED:
-            return shift
-        later = delay_of_break(body, contact if creeps else None, way.scene.friction.mu_s, *where[1:], shift)
-        return passed(*where, shift, later, pulls)
-    assert event.before is not None
-    shift = passed(*where, shift, delay_of_stop(*where, shift, event.before), pulls)
+        return shift
     if event.kind != STOP and creeps:
         change = slip_behind(body, contact, event)
         _, b, _ = arms(body.e, body.one_minus_e, event.psi)

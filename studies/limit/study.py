@@ -17,11 +17,12 @@ from rigid import Run, Scene, SceneLike, as_scene, scene_to_dict
 from rigid.output import summary
 
 from ..inner.creep import creep
-from ..inner.critical import Hanging, critical_theta, followed, hanging
 from ..inner.events import Event
 from ..inner.layers import Layer, layer, outer_forces
 from ..inner.scales import damping_of
 from ..inner.separate import separate_from, stiff_from
+from ..inner.stops.critical import critical_theta
+from ..inner.stops.hanging import Hanging, followed, hanging
 from ..plots.sheet import power_of
 from ..running.case import Case
 from ..running.measures import MEASURES, known

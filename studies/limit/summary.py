@@ -8,7 +8,7 @@ from typing import Any
 
 from rigid import Friction
 
-from ..inner.critical import Hanging
+from ..inner.stops.hanging import Hanging
 from ..plots.sheet import Column, Sheet, number, power_of
 from ..running.measures import MEASURES
 from .damping import Spot

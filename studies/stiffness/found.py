@@ -23,7 +23,7 @@ from .ladder import Ladder
 if TYPE_CHECKING:
     import pandas
 
-    from ..inner.critical import Hanging
+    from ..inner.stops.hanging import Hanging
     from ..limit.prediction import Prediction
     from ..plots.distance import Distance
 

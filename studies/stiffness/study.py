@@ -30,7 +30,7 @@ from .found import LIMITS, Rung, StiffnessStudy
 from .ladder import Ladder
 
 if TYPE_CHECKING:
-    from ..inner.critical import Hanging
+    from ..inner.stops.hanging import Hanging
     from ..limit.prediction import Prediction
 
 TIED = ("impulse_ratio", "friction_loss")
@@ -83,8 +83,8 @@ def stiffness_study(
     """
     from flexible import rigid_limit
 
-    from ..inner.critical import followed
     from ..inner.separate import stiff_from
+    from ..inner.stops.hanging import followed
 
     if exponent is not None and not 0 < exponent < inf:
         raise StudyError(f"exponent = {exponent!r} is not possible: a rate is finite and above 0.")
@@ -170,8 +170,8 @@ def _against(
 
 def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction | None, float]:
     """The prediction, where it is that of the cases, and the foundation from which on it holds."""
-    from ..inner.critical import followed
     from ..inner.separate import separate_from
+    from ..inner.stops.hanging import followed
     from ..limit.prediction import predict
 
     # a ring that is not stiffened keeps its own distance, an undamped patch rings at any stiffness
@@ -185,7 +185,7 @@ def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction |
 
 def _hanging(scene: Scene, solver: str) -> tuple[Hanging, ...]:
     """Stops on whose sticks the limit of the cases hangs, whether it is predicted or not."""
-    from ..inner.critical import followed, hanging
+    from ..inner.stops.hanging import followed, hanging
 
     if solver != "flexible":
         return ()

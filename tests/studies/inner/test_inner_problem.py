@@ -14,7 +14,6 @@ from studies import StudyError
 from studies.inner.body import Body, accelerations, arms, body_of, contact_mobility, sliding_force
 from studies.inner.bristles import bristles, brush_pull, set_stretch
 from studies.inner.creep import creep, half_width, sticking_part
-from studies.inner.critical import critical_theta
 from studies.inner.events import REVERSAL, START, STOP, Event, passage
 from studies.inner.layers import Layer, layer, outer_forces, period_of, slip_behind
 from studies.inner.march import (
@@ -38,6 +37,7 @@ from studies.inner.march import (
 )  # fmt: skip
 from studies.inner.scales import damping_of, epsilon, theta_of
 from studies.inner.separate import separate_from
+from studies.inner.stops.critical import critical_theta
 from studies.limit.compliant import at_foundation
 
 

@@ -25,7 +25,7 @@ from studies.limit.compliant import at_foundation, go_through, march_through, se
 from studies.limit.damping import damping_map, decay_in_stick
 from studies.limit.onset import brush_end, regularised_lead
 from studies.limit.outer import Shift, delay_of_break, roll_along
-from studies.limit.prediction import _walk, powers, predict
+from studies.limit.prediction import BRUSH_DELAY, _walk, powers, predict
 
 MEASURES = ("impulse_ratio", "friction_impulse", "normal_impulse")
 
@@ -64,7 +64,7 @@ def test_sensitivities_are_those_of_the_rigid_solver(k, mass_ratio):
         return np.array([now.slip_velocity + b * now.omega, t_end - a * now.omega, now.energy / (1 + mass_ratio)])
 
     for direction in ((1.0, 0.0), (0.0, 1.0)):
-        found = _walk(way, number, Shift(*direction, 0.0), False)[:3]
+        found = _walk(way, number, Shift(*direction, 0.0), BRUSH_DELAY)[:3]
         step = 1e-5
         expected = (gains(step, direction) - gains(-step, direction)) / (2 * step)
         # central differences: 1e-10 of their second derivatives, which are up to 1e3 times the first

@@ -15,7 +15,7 @@ from flexible.contact.laws.brush import effective_mu_s
 from rigid import Friction as Coefficients
 from rigid import Hoop, Release, Run, Scene, SceneError, load_scene, simulate
 from studies import Ladder, StudyError, stiffness_study
-from studies.inner.critical import followed, hanging
+from studies.inner.stops.hanging import followed, hanging
 from studies.running.case import SHARE
 from studies.stiffness.study import _prediction
 from studies.stiffness.told.rows import LIMIT_HEADING, limit_rows
