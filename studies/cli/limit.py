@@ -105,5 +105,5 @@ def limit(
             click.echo(f"Figures and limit.json are in {target}; open {target / 'report.html'}.")
     failed = [sight.foundation for sight in found.sights if sight.failure]
     if failed:
-        complain(f"{len(failed)} of {len(foundations)} foundations failed; the study says why.")
+        complain(f"{len(failed)} of {len(found.sights)} pulses beside the prediction failed; the study says why.")
     return 1 if failed else 0

@@ -15,7 +15,7 @@ import numpy as np
 from .body import Body
 from .events import START, Event
 from .layers import layer, outer_forces
-from .march import REGULARISED, ScaledContact
+from .march import PATCH, REGULARISED, ScaledContact
 
 
 def impulses_until(body: Body, contact: ScaledContact, event: Event, tau: float) -> Any:
@@ -26,6 +26,8 @@ def impulses_until(body: Body, contact: ScaledContact, event: Event, tau: float)
     none = np.zeros(2)
     if (event.kind == START and contact.mu_s == contact.mu) or contact.law == REGULARISED:
         return none  # there is no jump; how much longer the layer of a smoothed law lasts is not looked at
+    if tau <= 0 and contact.law == PATCH:
+        return none
     history = layer(body, contact, event, tau if tau > 0 else None)
     seen = history.tau <= tau * (1 + 1e-12) if tau > 0 else history.tau <= tau
     normal, friction = outer_forces(body, event, False)

@@ -23,6 +23,7 @@ from .march import (
     BRUSH,
     COLUMNS,
     HEIGHT,
+    NARROW,
     OMEGA,
     PATCH,
     PSI,
@@ -44,13 +45,17 @@ FINENESS = 0.1  # of the fastest time to a step: forces to 1e-4, times of switch
 #: some 3 s of interpreted steps where the march is not compiled yet
 _patience = Patience(is_ready=lambda: not is_cold(march.__module__), load=0, compiling=60_000)
 MOST = 1_000_000  # steps of a layer: some 1 s
-TOO_FAST = "its damper, or the smoothing of its friction, is far faster than its patch"
+TOO_FAST = "its damper, or the smoothing of its friction, is far faster than what is followed"
 _POINTS = 300  # of a brush to its patch
 _CARRIED = 1 - 1e-8  # of mu N, by a smoothed law whose slip starts: all of it is carried by no finite V
 _FULL = 2.0  # times the creep at which a brush rolls with all of mu_s N: of so fast a slip no point sticks
 _FAR = 10.0  # times V_s: smoothed friction lacks half the square of its inverse of mu N there, which is known to 1e-4
 _AHEAD = 100.0  # of a layer's duration, for which its slip is looked at before it or behind at most
 _RELEASED = 0.95  # of the part that sticks at the most a brush carries, where its running away begins
+
+
+class TooFastError(StudyError):
+    """Something is so fast that explicit steps do not come to the end of what is followed."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -155,6 +160,10 @@ def layer(
         duration = 10 * period + 10 * half / abs(event.omega)
         if contact.law == REGULARISED and event.behind is not None and slow > 0:
             duration += min(slow / abs(_quickening(body, event, True)), _AHEAD * duration)
+    too_many = f"The layer at phi = {event.phi:.4g} takes more than {MOST:g} steps: {TOO_FAST}."
+    # the rate of the damper as the march has it, which takes no patch to be narrower
+    if contact.theta * NARROW * half * (1 + contact.kappa) / 2 * duration / fineness > MOST:
+        raise TooFastError(too_many)
     state = np.zeros(STATE)
     state[PSI], state[OMEGA], state[HEIGHT] = event.psi, event.omega, -(half**2) / 2
     kept = bristles(2 * half / _POINTS)
@@ -179,7 +188,7 @@ def layer(
     ends = np.array([ahead + duration, np.inf * np.sign(event.omega), fineness, 1.0, MOST])
     records, switches, end, done = _marched(System(body, contact, eps), state, mode, kept, ends)
     if not done:
-        raise StudyError(f"The layer at phi = {event.phi:.4g} takes more than {MOST:g} steps: {TOO_FAST}.")
+        raise TooFastError(too_many)
     records[:, 0] -= ahead
     columns = dict(zip(COLUMNS, records.T, strict=True))
     return Layer(

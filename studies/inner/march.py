@@ -42,7 +42,7 @@ ScaledContact.__doc__ = "Law, tangential ratio, coefficients, relaxation time an
 
 _arms = part(mechanics.arms)
 _AT_ONCE = 1e-9  # of the excess: nearer to a switch than that is at it
-_NARROW = 0.2  # of the half-width at the start: a patch below it is taken to be that wide when a step is chosen
+NARROW = 0.2  # of the half-width at the start: a patch below it is taken to be that wide when a step is chosen
 
 
 @part
@@ -120,7 +120,7 @@ def _excess(state: Any, contact: Any, mode: int, kept: Any) -> float:
 def _step_length(state: Any, body: Any, contact: Any, widest: float) -> float:
     """The inverse of the fastest rate that is at work."""
     half, normal, _ = _normal(state, contact.theta)
-    half = max(half, _NARROW * widest)
+    half = max(half, NARROW * widest)
     a, b, _ = _arms(body.e, body.one_minus_e, state[PSI])
     square = 2 * half * (1 + a * a / body.gyration + contact.kappa * (1 + b * b / body.gyration))
     # an overdamped approach follows N; its rate counts for stability alone

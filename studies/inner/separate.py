@@ -21,8 +21,8 @@ from numpy.typing import NDArray
 from meshes import Placement
 from rigid import Scene
 
-from .events import START, Passage
-from .layers import Layer, layer, outer_forces
+from .events import START, Event, Passage
+from .layers import Layer, TooFastError, layer, outer_forces, period_of
 
 Array = NDArray[np.float64]
 
@@ -31,27 +31,41 @@ PERIODS = 1000  # for which a layer is followed at most
 _COARSE = {"level": "reduced", "elements": 240, "rtol": 1e-3}  # a compliance to some percent is enough
 
 
-def separate_from(way: Passage, layers: list[Layer] | None = None) -> float:
+def separate_from(way: Passage, layers: list[Layer | None] | None = None) -> float:
     """Foundation eps_n R^2/(m g) at which each layer takes as long as the stretch that follows it.
 
     Infinite where one does not settle, without damping or with next to none; 0 where every event is the last, or jumps
-    into a state that it stays in. ``layers`` are those of the events, where they are known; the last is not asked.
+    into a state that it stays in. ``layers`` are those of the events, where they are known; the last is not asked. Of
+    one that cannot be followed the slowest of its exponentials tells.
     """
     least = 0.0
-    known = layers or [layer(way.body, way.contact, event) for event in way.events[:-1]]
+    known = layers or [_followed(way, event) for event in way.events[:-1]]
     for now, (event, following) in zip(known, itertools.pairwise(way.events), strict=False):
-        normal = outer_forces(way.body, event, True)[0]
-        settles = now.settled(normal)
-        # what rings for longer than a layer is followed for falls like exp(-theta omega^2 tau/2)
-        longer = LONGER / (way.contact.theta * (2 * pi / now.period) ** 2 / 2) if way.contact.theta > 0 else inf
-        if settles is None and longer < PERIODS * now.period:
-            settles = layer(way.body, way.contact, event, now.tau[-1] + longer).settled(normal)
+        normal, period, theta = outer_forces(way.body, event, True)[0], period_of(way.body, event), way.contact.theta
+        settles = None if now is None else now.settled(normal)
+        # what rings for longer than a layer is followed for falls like exp(-theta omega^2 tau/2), what creeps back like
+        # exp(-tau/theta)
+        longer = LONGER * max(2 / (theta * (2 * pi / period) ** 2), theta) if theta > 0 else inf
+        if now is None:
+            settles = longer
+        elif settles is None and longer < PERIODS * period:
+            until = float(now.tau[-1]) + longer
+            longest = _followed(way, event, until)
+            settles = until if longest is None else longest.settled(normal)
         if settles is None:
             return inf
         # eps settles = time, eps that of the whole mass
         whole = 1 + way.scene.hoop.mass_ratio
         least = max(least, (settles / (following.t - event.t)) ** 3 * whole)
     return least
+
+
+def _followed(way: Passage, event: Event, duration: float | None = None) -> Layer | None:
+    """The layer of an event; None where something is too fast for it to be followed."""
+    try:
+        return layer(way.body, way.contact, event, duration)
+    except TooFastError:
+        return None
 
 
 def compliance(scene: Scene, phi: float) -> Array:

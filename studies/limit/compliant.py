@@ -6,8 +6,9 @@ stiffness for the price of some hundred thousand explicit steps.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import copysign, nan, sqrt
+from math import copysign, inf, nan, sqrt
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ from ..inner.body import accelerations, rolling_forces, sliding_force
 from ..inner.bristles import SIZE, bristles, set_stretch
 from ..inner.creep import creep, half_width
 from ..inner.events import Passage, passage
-from ..inner.layers import TOO_FAST
+from ..inner.layers import TOO_FAST, TooFastError
 from ..inner.march import (
     BRUSH,
     FRICTION_IMPULSE,
@@ -46,6 +47,7 @@ from ..running.files import StudyError
 _POINTS = 64  # of a brush to its patch where the pulse begins; at its peak there are several times as many
 _SPARSE = 1e9  # steps to a record: none but those at events
 _MOST = 3e7  # steps, some 25 s
+_TOO_MANY = f"This pulse takes a rigid ring more than {_MOST:g} steps: {TOO_FAST}."
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,13 +112,18 @@ def march_through(way: Passage, eps: float, fineness: float = 0.1) -> tuple[np.n
     """What the state of the march gains over a pulse (R = g = M = 1, scaled), and how often it breaks or sticks."""
     state, mode, kept = _start(way, eps)
     switches, before = 0, np.zeros(STATE)
+    # in a pulse N is above Mg: the damper's rate there, as the march has it, is at least this
+    rate = way.contact.theta * 2 * half_width(1.0) * (1 + way.contact.kappa) / 4
+    lasts = (way.pulse.t_end - way.pulse.t_start) / way.scene.time_unit / eps
+    if rate * lasts / fineness > _MOST:
+        raise TooFastError(_TOO_MANY)
     for psi in way.edges:
         if psi != way.start:
             ends = np.array([np.inf, psi, fineness, _SPARSE, _MOST])
             with between_calls():
                 records, turned, state, done = march(System(way.body, way.contact, eps), state, mode, kept, ends)
             if not done:
-                raise StudyError(f"This pulse takes a rigid ring more than {_MOST:g} steps: {TOO_FAST}.")
+                raise TooFastError(_TOO_MANY)
             mode = int(records[-1, 5])
             switches = len(turned)
         if psi == way.edges[0]:
@@ -180,11 +187,26 @@ class Sight:
 
 
 def seen_by_rigid_ring(scene: Scene, foundation: float) -> Sight:
-    """A scene's pulse at a foundation, of a rigid ring."""
-    seen = go_through(at_foundation(scene, foundation))
+    """A scene's pulse at a foundation, of a rigid ring; or why it cannot be followed there."""
+    try:
+        seen = go_through(at_foundation(scene, foundation))
+    except TooFastError as error:
+        return Sight("rigid ring", foundation, {}, {}, str(error))
     values = {
         "impulse_ratio": seen.impulse_ratio,
         "friction_impulse": seen.friction_impulse,
         "normal_impulse": seen.normal_impulse,
     }
     return Sight("rigid ring", foundation, values, {})
+
+
+def seen_by_rigid_rings(scene: Scene, foundations: Sequence[float]) -> list[Sight]:
+    """The same at several; what takes too many steps takes more of them on a stiffer one, where it is not tried."""
+    failed, seen = Sight("rigid ring", inf, {}, {}), dict[float, Sight]()
+    for foundation in sorted(foundations):
+        if failed.failure:
+            seen[foundation] = replace(failed, foundation=foundation)
+            continue
+        seen[foundation] = seen_by_rigid_ring(scene, foundation)
+        failed = seen[foundation]
+    return [seen[foundation] for foundation in foundations]

@@ -23,8 +23,8 @@ def of_limit(study: LimitStudy) -> dict[str, Figure]:
 
 
 def _jumps(found: EventFound) -> bool:
-    """Whether the forces jump at an event; where they do not, its layer is round-off."""
-    return not np.allclose(found.before, found.behind, rtol=1e-6, atol=1e-9)
+    """Whether an event has a layer, and forces jump in it; where they do not, it is round-off."""
+    return found.layer is not None and not np.allclose(found.before, found.behind, rtol=1e-6, atol=1e-9)
 
 
 def layers(study: LimitStudy) -> Figure:
@@ -35,6 +35,7 @@ def layers(study: LimitStudy) -> Figure:
         grid = figure.subplots(3, len(events), sharex="col", squeeze=False)
         for column, found in zip(grid.T, events, strict=True):
             layer = found.layer
+            assert layer is not None
             show = abs(layer.tau) <= min(layer.tau[-1], 6 * layer.period)
             tau = layer.tau[show]
             rows = (

@@ -17,8 +17,8 @@ from rigid import Run, Scene, SceneLike, as_scene, scene_to_dict
 from rigid.output import summary
 
 from ..inner.creep import creep
-from ..inner.events import Event
-from ..inner.layers import Layer, layer, outer_forces
+from ..inner.events import Event, Passage
+from ..inner.layers import Layer, TooFastError, layer, outer_forces
 from ..inner.scales import damping_of
 from ..inner.separate import separate_from, stiff_from
 from ..inner.stops.critical import critical_theta
@@ -28,7 +28,7 @@ from ..running.case import Case
 from ..running.measures import MEASURES, known
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
-from .compliant import Sight, at_foundation, seen_by_rigid_ring
+from .compliant import Sight, at_foundation, seen_by_rigid_rings
 from .damping import Other, others
 from .prediction import Prediction, predict, units_told
 
@@ -52,12 +52,14 @@ class EventFound:
     """(N, F) of the rigid hoop before it, over the weight of the whole hoop."""
     behind: tuple[float, float]
     """Behind it."""
-    layer: Layer
-    """History on the clock tau = (t - t*)/eps."""
+    layer: Layer | None
+    """History on the clock tau = (t - t*)/eps; None where its damper, or the smoothing of its friction, is too fast."""
     critical_damping: float | None
     """Damping ratio below which the patch breaks or sticks once more than the paper's hoop; None without phases."""
     creep: float
     """V towards which the layer goes; 0 where the hoop slides."""
+    failure: str = ""
+    """Why there is no layer."""
 
     def to_dict(self) -> dict[str, Any]:
         """As JSON prints it."""
@@ -68,12 +70,13 @@ class EventFound:
             "omega": self.event.omega,
             "normal_force": [self.before[0], self.behind[0]],
             "friction_force": [self.before[1], self.behind[1]],
-            "peak_ratio": self.layer.peak_ratio,
+            "peak_ratio": self.layer and self.layer.peak_ratio,
             "critical_damping": self.critical_damping,
-            "resticks": self.layer.resticks,
-            "settles": self.layer.settled(self.behind[0]),
+            "resticks": self.layer and self.layer.resticks,
+            "settles": self.layer and self.layer.settled(self.behind[0]),
             "creep": self.creep,
-            "period": self.layer.period,
+            "period": self.layer and self.layer.period,
+            **({"failure": self.failure} if self.failure else {}),
         }
 
 
@@ -240,22 +243,31 @@ def limit_study(
     prediction = predict(scene)
     found = []
     for event in way.events:
+        history, failure = _layer_of(way, event)
         theta = critical_theta(way.body, way.contact, event.stop)
         behind = outer_forces(way.body, event, True)
         slow = creep(way.contact, *behind, event.omega).slip if event.behind is None else 0.0
         found.append(
             EventFound(
-                event, outer_forces(way.body, event, False), behind, layer(way.body, way.contact, event),
-                None if theta is None else damping_of(scene, theta), slow,
+                event, outer_forces(way.body, event, False), behind, history,
+                None if theta is None else damping_of(scene, theta), slow, failure,
             )
         )  # fmt: skip
-    sights = [seen_by_rigid_ring(scene, foundation) for foundation in foundations]
+    sights = seen_by_rigid_rings(scene, foundations)
     sights += _flexible(scene, prediction, flexible, pool or Here(), out, progress)
     separate = separate_from(way, [event.layer for event in found])
     stiff, hangs = stiff_from(way, scene), hanging(scene, way)
     return LimitStudy(
         scene, tuple(found), prediction, separate, tuple(sights), others(scene, FOUNDATIONS), stiff, hangs
     )
+
+
+def _layer_of(way: Passage, event: Event) -> tuple[Layer | None, str]:
+    """The layer of an event, or why it cannot be followed."""
+    try:
+        return layer(way.body, way.contact, event), ""
+    except TooFastError as error:
+        return None, str(error)
 
 
 def _flexible(

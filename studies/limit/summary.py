@@ -31,8 +31,8 @@ def event_sheet(study: LimitStudy) -> Sheet:
             Column("behind\n[Mg]", [number(e.behind[0], 5) for e in found], joined=True),
             Column("F before\n[Mg]", [number(e.before[1], 5) for e in found]),
             Column("behind\n[Mg]", [number(e.behind[1], 5) for e in found], joined=True),
-            Column("largest\n|F|/N", [number(e.layer.peak_ratio, 4) for e in found]),
-            Column("sticks\nfrom τ", [number(e.layer.resticks, 4) for e in found]),
+            Column("largest\n|F|/N", [number(e.layer.peak_ratio if e.layer else None, 4) for e in found]),
+            Column("sticks\nfrom τ", [number(e.layer.resticks if e.layer else None, 4) for e in found]),
             Column("critical\ndamping", [number(e.critical_damping, 4) for e in found]),
         ],
     )
@@ -109,7 +109,6 @@ def map_sheet(spots: Sequence[Spot]) -> Sheet:
 
 def limit_sheets(study: LimitStudy) -> list[Any]:
     """The answer in words, the events, the prediction and what is observed."""
-    failed = [f"Foundation {number(s.foundation, 3)} failed: {s.failure}" for s in study.sights if s.failure]
     return [
         verdict(study),
         *damping_sentences(study),
@@ -119,8 +118,15 @@ def limit_sheets(study: LimitStudy) -> list[Any]:
         *([event_sheet(study)] if study.events else []),
         term_sheet(study),
         sight_sheet(study),
-        *failed,
+        *failures(study),
     ]
+
+
+def failures(study: LimitStudy) -> list[str]:
+    """Which layers and runs there are not, and why."""
+    layers = [f"Not followed: {found.failure}" for found in study.events if found.failure]
+    runs = [sight for sight in study.sights if sight.failure]
+    return layers + [f"Foundation {number(s.foundation, 3)}, {s.solver}, failed: {s.failure}" for s in runs]
 
 
 def verdict(study: LimitStudy) -> str:
@@ -199,7 +205,8 @@ def damping_sentences(study: LimitStudy) -> list[str]:
         )
     else:
         said.append(
-            "A layer rings for more than a thousand periods: the numbers hold for far stiffer floors than these."
+            "A layer takes more than a thousand of its periods to settle: the numbers hold for far stiffer floors than"
+            " these."
         )
     return said
 

@@ -115,6 +115,8 @@ class StiffnessStudy(summary.Summarised):
     hanging: tuple[Hanging, ...] = ()
     """Stops of the pulse behind which a patch that breaks slides on at any stiffness, so that the limit may be another
     than ``reference``, whose stick is kept."""
+    lost: str = ""
+    """Why there is no prediction where one was begun: something in a layer is too fast for it to be followed."""
 
     @property
     def failures(self) -> list[Rung]:

@@ -105,7 +105,7 @@ def stiffness_study(
             raise StudyError(f"The rigid hoop has no pulse to study here: {outcome.failure or outcome.ended}.")
 
     # 2. what is foreseen of the rungs
-    foreseen, separate = _prediction(scene, ladder, solver)
+    foreseen, separate, lost = _prediction(scene, ladder, solver)
     hangs = _hanging(scene, solver)
     late = 0.0 if foreseen is None else max([stop.holds for stop in hangs], default=0.0)
     separate = max(separate, late)
@@ -146,7 +146,7 @@ def stiffness_study(
         foreseen = None  # it is told by the foundation alone
     return StiffnessStudy(
         scene, ladder, solver, rigid, reference, tended.friction.mu_s, rungs, limits, foreseen,
-        separate, late, stiff, hangs,
+        separate, late, stiff, hangs, lost,
     )  # fmt: skip
 
 
@@ -168,19 +168,22 @@ def _against(
     return tuple(tied)
 
 
-def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction | None, float]:
-    """The prediction, where it is that of the cases, and the foundation from which on it holds."""
+def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction | None, float, str]:
+    """The prediction, where it is that of the cases, the foundation from which on it holds, and why it was lost."""
+    from ..inner.layers import TooFastError
     from ..inner.separate import separate_from
     from ..inner.stops.hanging import followed
     from ..limit.prediction import predict
 
     # a ring that is not stiffened keeps its own distance, an undamped patch rings at any stiffness
     if ladder.along != "both" or solver != "flexible" or scene.contact.damping == 0:
-        return None, 0.0
+        return None, 0.0, ""
     try:
-        return predict(scene), separate_from(followed(scene))
-    except StudyError:
-        return None, 0.0
+        return predict(scene), separate_from(followed(scene)), ""
+    except TooFastError as error:
+        return None, 0.0, str(error)
+    except StudyError:  # the pulse has more in it than rolling and sliding
+        return None, 0.0, ""
 
 
 def _hanging(scene: Scene, solver: str) -> tuple[Hanging, ...]:

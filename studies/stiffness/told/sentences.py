@@ -198,7 +198,7 @@ def damping_sentence(study: StiffnessStudy) -> str:
 def prediction_sentence(study: StiffnessStudy) -> str:
     """What is predicted without any of the cases, and what the cases show of that."""
     if study.prediction is None:
-        return ""
+        return f"Nothing is predicted: {study.lost}" if study.lost else ""
     told = []
     for name in ("impulse_ratio", "friction_loss"):
         term = study.prediction.terms[name]

@@ -498,5 +498,5 @@ def test_a_slip_that_ends_near_a_jam_wants_a_damper_that_the_strongest_are_too_f
     theta = critical_theta(way.body, way.contact, event)
     assert layer(way.body, way.contact._replace(theta=1.01 * theta), event).faithful
     assert not layer(way.body, way.contact._replace(theta=0.99 * theta), event).faithful
-    with pytest.raises(StudyError, match="far faster than its patch"):
+    with pytest.raises(StudyError, match="far faster than what is followed"):
         layer(way.body, way.contact._replace(theta=1000 * theta), event)
