@@ -98,15 +98,15 @@ def test_an_event_is_where_the_rigid_motion_has_it(phi0_deg):
 
 def test_what_is_far_faster_than_the_patch_costs_its_rows_alone():
     """The prediction of a stick that is kept needs no layer: it is there, and by the creep of that damper."""
-    study = limit_study("paper-3.3-massless", damping=1000, foundations=(1e11, 1e12))
+    study = limit_study("paper-3.3-massless", damping=1000, foundations=(1e13, 1e14))
     # a damper that carries all of F, but for A/(theta Omega) of it, some 1e-3, creeps at F/(2 kappa A theta)
     weaker = predict(study.scene.replace(contact={"damping": 200})).terms["impulse_ratio"].coefficient
     assert study.prediction.terms["impulse_ratio"].coefficient == pytest.approx(weaker / 5, rel=5e-3)
     assert [found.layer for found in study.events] == [None] * len(study.events)
-    assert all(re.search(r"takes more than .* steps: its damper", sight.failure) for sight in study.sights)
+    assert all(re.search(r"takes .*more than .* steps: its damper", sight.failure) for sight in study.sights)
     said = failures(study)
     assert len(said) == len(study.events) + len(study.sights)
-    assert [line.split(",")[0] for line in said[-2:]] == ["Foundation 1e+11", "Foundation 1e+12"]
+    assert [line.split(",")[0] for line in said[-2:]] == ["Foundation 1e+13", "Foundation 1e+14"]
     assert "failure" in study.to_dict()["events"][0]
 
 
