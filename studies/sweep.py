@@ -36,6 +36,11 @@ class Row:
     outcome: Outcome
     """The result, or the reason why there is none."""
 
+    @property
+    def impossible(self) -> bool:
+        """Whether no hoop can have these values: the reason says why, and nothing was run."""
+        return not self.outcome.scene
+
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Table:
@@ -45,8 +50,13 @@ class Table:
 
     @property
     def failures(self) -> int:
-        """How many rows have a reason instead of a result."""
-        return sum(bool(row.outcome.failure) for row in self.rows)
+        """How many rows that were run have a reason instead of a result."""
+        return sum(bool(row.outcome.failure) and not row.impossible for row in self.rows)
+
+    @property
+    def impossible(self) -> int:
+        """How many rows are of values that no hoop can have; they have the reason, and are no failures."""
+        return sum(row.impossible for row in self.rows)
 
     @property
     def units(self) -> dict[str, str]:
@@ -81,7 +91,8 @@ class Table:
         return pandas.DataFrame.from_records(self.records())
 
     def __repr__(self) -> str:
-        return f"Table({len(self.rows)} rows, {self.failures} failed)"
+        none = f", {self.impossible} no hoop" if self.impossible else ""
+        return f"Table({len(self.rows)} rows, {self.failures} failed{none})"
 
     def _repr_html_(self) -> str:
         return str(self.to_dataframe().to_html(max_rows=20, index=False))
@@ -117,6 +128,8 @@ def run_sweep(
     say: Callable[[str], None] | None = None,
 ) -> Table:
     """Run a sweep and give its table.
+
+    Combinations that no hoop can have (mu above mu_s) are rows with the reason; they are not run and have not failed.
 
     Parameters
     ----------

@@ -7,6 +7,7 @@ import os
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import inf, prod
 from os import PathLike
 from pathlib import Path
@@ -26,9 +27,9 @@ MAX_CASES = 100_000
 """Cases of a sweep unless more are asked for: a product of lists soon has more than anyone wants to run."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Sweep:
-    """What a sweep runs: the product of its lists, made one combination after the other when it is asked for."""
+    """What a sweep runs: the product of its lists, whose scenes are made when they are asked for, and once."""
 
     keys: tuple[str, ...]
     """The keys that vary, "hoop.k" for instance."""
@@ -55,19 +56,36 @@ class Sweep:
 
     @property
     def points(self) -> Iterator[tuple[tuple[Any, ...], Scene | str]]:
-        """The values in every combination, and the scene there or the sentence that says why there is none."""
+        """The values in every combination, and the scene there or the sentence that says why no hoop can have them."""
+        return iter(self._made)
+
+    @cached_property
+    def _made(self) -> tuple[tuple[tuple[Any, ...], Scene | str], ...]:
+        made: list[tuple[tuple[Any, ...], Scene | str]] = []
         for values in itertools.product(*self.choices):
             try:
-                yield values, scene_from_dict(_filled(self.tables, self.keys, values))
+                made.append((values, scene_from_dict(_filled(self.tables, self.keys, values))))
             except SceneError as error:
-                yield values, str(error)
+                made.append((values, str(error)))
+        return tuple(made)
 
-    def announcement(self) -> str:
-        """How many cases there are, and of what."""
+    @property
+    def impossible(self) -> int:
+        """Number of cases that no hoop can be, mu above mu_s for instance: they are not run."""
+        return sum(isinstance(scene, str) for _, scene in self.points) * len(self.solvers)
+
+    @property
+    def refusal(self) -> str:
+        """What is said of the first combination that no hoop can have; empty where there is none."""
+        return next((scene for _, scene in self.points if isinstance(scene, str)), "")
+
+    def announcement(self, made: bool = False) -> str:
+        """How many cases there are, and of what; ``made`` also says how many no hoop can be, as its scenes tell."""
         lists = [f"{len(values)} of {key}" for key, values in zip(self.keys, self.choices, strict=True)]
         factors = [*lists, f"{len(self.solvers)} {'solver' if len(self.solvers) == 1 else 'solvers'}"]
         once = " (of equal values one)" if self.repeated else ""
-        return f"{self.cases} {'case' if self.cases == 1 else 'cases'}: {' × '.join(factors)}{once}"
+        none = f", {self.impossible} of them no hoop" if made and self.impossible else ""
+        return f"{self.cases} {'case' if self.cases == 1 else 'cases'}{none}: {' × '.join(factors)}{once}"
 
 
 def load_sweep(path: str | PathLike[str], solvers: str | Sequence[str] = (), max_cases: int = MAX_CASES) -> Sweep:

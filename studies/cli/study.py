@@ -212,7 +212,9 @@ def sweep(
     "flexible"; both by default), a `scene` from which all starts (a shipped one by its name, or a file by the
     path to it from FILE's folder), and ask for `histories = true`. FILE is data: it names no code.
 
-    How many cases there are is said first, and what they will take once the first are done.
+    How many cases there are is said first, and what they will take once the first are done. Combinations that no
+    hoop can have (mu above mu_s) are counted there; they are rows with the reason and no failures. A sweep of nothing
+    else is refused.
     """
     from ..running.progress import announce, bar, complain
     from ..running.solvers import solver
@@ -227,19 +229,21 @@ def sweep(
     target = results_folder(out if out is not None else beside)
     assert target is not None
     if not as_json:
-        announce(f"{asked.announcement()}, into {target}.")
-    with bar(f"{asked.cases} cases") as progress, pool(workers, scheduler) as place:
+        why = f" No hoop: {asked.refusal}" if asked.refusal else ""
+        announce(f"{asked.announcement(made=True)}, into {target}.{why}")
+    with bar(f"{asked.cases - asked.impossible} cases") as progress, pool(workers, scheduler) as place:
         table = run_sweep(asked, place, target, progress, announce)
     begin_results(target)
     write_text(target / "table.csv", table.to_csv())
     write_text(target / "units.json", to_json(table.units))
     if as_json:
-        click.echo(to_json({"rows": table.records(), "failures": table.failures}))
+        click.echo(to_json({"rows": table.records(), "failures": table.failures, "impossible": table.impossible}))
     else:
         from .shared.tables import show, sweep_tables
 
         show(*sweep_tables(table))
         click.echo(f"The table is in {target / 'table.csv'}.")
     if table.failures:
-        complain(f"{table.failures} of {len(table.rows)} cases failed; their rows say why.")
+        ran = len(table.rows) - table.impossible
+        complain(f"{table.failures} of {ran} {'case' if ran == 1 else 'cases'} failed; their rows say why.")
         ctx.exit(1)

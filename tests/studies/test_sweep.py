@@ -242,12 +242,60 @@ def test_a_case_that_fails_is_a_row_with_its_reason(hoop, tmp_path):
     line = ["study", "sweep", file, "--out", tmp_path / "out", "--workers", 1, "--json"]
     status, out, err = hoop(*line, *by("third_solver:failing"))
     assert status == 1
-    assert "3 of 4" in err
+    assert "1 of 2 cases failed" in err  # the other two are no hoop
     rows = {(row["friction.mu_s"], row["contact.stiffness"]): row for row in json.loads(out)["rows"]}
     assert rows[0.35, 1e9]["failure"] == ""
     assert "no step could be found at t = 4.2" in rows[0.35, 1e11]["failure"]
     assert "friction.mu = 0.3" in rows[0.2, 1e9]["failure"]  # mu > mu_s: this scene cannot be
     assert rows[0.35, 1e11]["impulse_ratio"] is None
+
+
+def impossible(folder: Path, *mus: float) -> Path:
+    """A sweep over mu_s = 0.35, 0.2 and these kinetic coefficients."""
+    file = folder / "many.toml"
+    lists = f"[friction]\nmu_s = [0.35, 0.2]\nmu = {list(mus)}\n"
+    file.write_text(f"[sweep]\nscene = 'paper-3.1'\nsolvers = ['rigid']\n{lists}")
+    return file
+
+
+def test_combinations_that_no_hoop_can_have_are_counted_first_and_are_no_failures(hoop, tmp_path):
+    """Of mu_s = 0.35, 0.2 with mu = 0.3, 0.4 kinetic friction exceeds static friction in three of four."""
+    file, out = impossible(tmp_path, 0.3, 0.4), tmp_path / "out"
+    status, printed, err = hoop("study", "sweep", file, "--out", out, "--workers", 1)
+    assert status == 0
+    assert len(err.splitlines()) == 1
+    assert err.startswith("hoop: 4 cases, 3 of them no hoop: 2 of friction.mu_s × 2 of friction.mu × 1 solver, into")
+    assert "No hoop: friction.mu = 0.4 is not possible" in err
+    for mu_s, mu in ((0.35, 0.4), (0.2, 0.3), (0.2, 0.4)):
+        assert f"no hoop at friction.mu_s = {mu_s}, friction.mu = {mu}:" in " ".join(printed.split())
+    rows = pd.read_csv(out / "table.csv")
+    why = rows["failure"].notna()
+    assert list(why) == list(rows["friction.mu"] > rows["friction.mu_s"])
+    assert rows["key"].notna().tolist() == [not each for each in why]
+    status, printed, err = hoop("study", "sweep", file, "--out", out, "--workers", 1, "--json")
+    told = json.loads(printed)
+    assert (status, err, told["failures"], told["impossible"]) == (0, "", 0, 3)
+
+
+def test_a_table_tells_failures_from_what_no_hoop_can_be(tmp_path):
+    """For each solver; an outcome that there is not has no scene."""
+    data = {"hoop": {"k": 0.1, "r": 1.02}, "friction": {"mu_s": [0.35, 0.2], "mu": 0.3}, "release": {"phi0_deg": 10},
+            "run": {"until": "pulse"}, "contact": {"stiffness": [1e9, 1e11]}}  # fmt: skip
+    sweep = sweep_from_dict(data, ["rigid", "third_solver:failing"])
+    assert (sweep.cases, sweep.impossible) == (8, 4)
+    table = run_sweep(sweep)
+    assert (table.failures, table.impossible) == (1, 4)
+    assert repr(table) == "Table(8 rows, 1 failed, 4 no hoop)"
+    assert [row.impossible for row in table.rows] == [row.values["friction.mu_s"] < 0.3 for row in table.rows]
+
+
+def test_a_sweep_in_which_no_hoop_can_be_is_refused_and_leaves_nothing(hoop, tmp_path):
+    file, out = impossible(tmp_path, 0.4, 0.5), tmp_path / "out"
+    status, printed, err = hoop("study", "sweep", file, "--out", out, "--workers", 1)
+    assert (status, printed) == (2, "")
+    assert is_one_sentence(err)
+    assert "friction.mu = 0.4 is not possible" in err
+    assert not out.exists()
 
 
 def test_what_a_solver_prints_is_no_part_of_the_output(tmp_path):

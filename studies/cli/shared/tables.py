@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from flexible import FlexibleMotion
 
     from ...stiffness.found import StiffnessStudy
+    from ...sweep import Row
     from ...sweep import Table as SweepTable
 
 _REASONS = 10
@@ -160,13 +161,21 @@ def sweep_tables(sweep: SweepTable, most: int = 40) -> list[Any]:
     shown: list[Any] = [Sheet(f"{len(records)} rows", keys, columns)]
     if len(records) > most:
         shown.append(f"These are the first {most} rows; all are in table.csv.")
-    failed = [row for row in sweep.rows if row.outcome.failure]
-    for row in failed[:_REASONS]:
-        where = ", ".join(f"{key} = {value}" for key, value in row.values.items())
-        shown.append(f"{row.solver}{' at ' if where else ''}{where}: {row.outcome.failure}")
+    failed = [row for row in sweep.rows if row.outcome.failure and not row.impossible]
+    none = {_at(row): row.outcome.failure for row in sweep.rows if row.impossible}  # each once, for all its solvers
+    shown += [f"{row.solver}{_at(row)}: {row.outcome.failure}" for row in failed[:_REASONS]]
     if len(failed) > _REASONS:
         shown.append(f"{len(failed) - _REASONS} more failed; table.csv says why.")
+    shown += [f"no hoop{where}: {why}" for where, why in [*none.items()][:_REASONS]]
+    if len(none) > _REASONS:
+        shown.append(f"{len(none) - _REASONS} more are no hoop; table.csv says why.")
     return shown
+
+
+def _at(row: Row) -> str:
+    """The values of a row, as they follow a word."""
+    told = ", ".join(f"{key} = {value}" for key, value in row.values.items())
+    return f" at {told}" if told else ""
 
 
 def _heading(sweep: SweepTable, name: str) -> str:
