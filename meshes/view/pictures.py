@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -29,9 +28,9 @@ from ..draw.lens import Lens, enlargement
 from ..draw.renderer import ABOVE_FLOOR, Renderer
 from ..draw.shots import Shot, Source
 from ..series import Series
-from ..times import frame_times
 from . import film
 from .setting import Setting, as_told, setting
+from .timing import Timing, instants
 
 Image = NDArray[np.uint8]
 Progress = Callable[[int, int], None]
@@ -39,42 +38,6 @@ Progress = Callable[[int, int], None]
 SMALLEST = 320, 240  # pixels on which there is room for a view between title and curves
 
 __all__ = ["Timing", "ViewError", "animate", "picture", "render", "window"]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Timing:
-    """Which instants of a run an animation shows, and how fast.
-
-    Parameters
-    ----------
-    frames : int, optional
-        Number of pictures; 60 for a gif or a page, 150 for a film.
-    fps : int
-        Pictures per second.
-    start, stop : float, optional
-        Stretch of time; the whole run by default.
-    pace : {"force", "time"}
-        "time" runs evenly in time; "force" spends half of its pictures where the normal force changes, so
-        that a pulse is seen in slow motion.
-
-    Raises
-    ------
-    ViewError
-        Fewer than two pictures or one per second, or another pace.
-    """
-
-    frames: int | None = None
-    fps: int = 20
-    start: float | None = None
-    stop: float | None = None
-    pace: str = "force"
-
-    def __post_init__(self) -> None:
-        if not ((self.frames is None or (self.frames >= 2 and self.frames % 1 == 0)) and self.fps >= 1):
-            count = "any number of" if self.frames is None else self.frames
-            raise ViewError(f"{count} frames at {self.fps} per second are no animation: it takes 2 at 1 per second.")
-        if self.pace not in ("force", "time"):
-            raise ViewError(f"pace = {self.pace!r} is not possible: it is 'force' or 'time'.")
 
 
 class Camera:
@@ -246,7 +209,7 @@ def animate(
     film.require_folder(path)
     timing = timing or Timing()
     chosen = setting(thing, field, factor, zoom)
-    times = [chosen.source.instant(float(time)) for time in _instants(chosen.source, timing, kind.frames)]
+    times = [chosen.source.instant(float(time)) for time in instants(chosen.source, timing, kind.frames)]
 
     def pages(camera: Camera) -> Iterator[Image]:
         for done, time in enumerate(times, 1):
@@ -276,19 +239,6 @@ def window(
     if chosen.source.span[0] == chosen.source.span[1]:
         raise ViewError("a window needs more than one frame: ask for a picture (--png).")
     Window(chosen).open()
-
-
-def _instants(source: Source, timing: Timing, usual: int) -> NDArray[np.float64]:
-    """The instants of an animation, ``usual`` in number unless told."""
-    count = usual if timing.frames is None else timing.frames
-    first, last = source.span
-    asked = first if timing.start is None else timing.start, last if timing.stop is None else timing.stop
-    start, stop = (as_told(time, (first, last)) for time in asked)
-    if not first <= start < stop <= last:
-        raise ViewError(f"{start!r} to {stop!r} is not possible: the run goes from {first:g} to {last:g}.")
-    if timing.pace == "time":
-        return np.linspace(start, stop, count)
-    return frame_times(start, stop, count, source.curves.t, np.cbrt(source.curves.normal_force))
 
 
 def _liveliest(source: Source) -> float:

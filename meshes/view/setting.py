@@ -35,7 +35,7 @@ class Setting:
     patches: tuple[Shot, ...] = ()  # spread over the run, if they know the contact's pressure
 
 
-def as_told(time: float, span: tuple[float, float]) -> float:
+def as_told(time: float, span: tuple[float, ...]) -> float:
     """A time, or the end of the span of which it is what is printed, to six digits.
 
     Raises

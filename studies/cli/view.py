@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rigid import Motion, load_scene
+from rigid import Motion, Scene, load_scene
 
 from ..running.files import StudyError
-from .shared.options import Names, SceneName, colour_names
+from .shared.options import Finite, Names, SceneName, colour_names
 
 if TYPE_CHECKING:
     from meshes import Series
@@ -28,7 +28,7 @@ SHOWN = "by default so much that the largest displacement is 2 to 6 % of R, not 
 @click.option("--png", type=FILE, metavar="FILE", help="Draw one instant, at --time or else at the peak of N.")
 @click.option(
     "--time",
-    type=float,
+    type=Finite(0),
     metavar="T",
     help=f"The instant of --png, {TIME}; of fields the nearest frame, from their first to their last.",
 )
@@ -36,10 +36,12 @@ SHOWN = "by default so much that the largest displacement is 2 to 6 % of R, not 
 @click.option("--mp4", type=FILE, metavar="FILE", help="Animate the run.")
 @click.option("--html", type=FILE, metavar="FILE", help="Animate the run in a page with a slider.")
 @click.option("--field", type=Names(colour_names), metavar="NAME", help="What is coloured; von_mises by default.")
-@click.option("--factor", type=float, metavar="X", help=f"How much the deformation is exaggerated; {SHOWN}.")
-@click.option("--zoom", type=float, metavar="X", help="Enlarge what is about the contact, X from 1, the default.")
-@click.option("--start", type=float, metavar="T", help=f"Begin the animation at this time, {TIME}.")
-@click.option("--stop", type=float, metavar="T", help="End it at this time; by default it is the whole run.")
+@click.option("--factor", type=Finite(0), metavar="X", help=f"How much the deformation is exaggerated; {SHOWN}.")
+@click.option("--zoom", type=Finite(1), metavar="X", help="Enlarge what is about the contact, X from 1, the default.")
+@click.option("--start", type=Finite(0), metavar="T", help=f"Begin the animation at this time, {TIME}.")
+@click.option(
+    "--stop", type=Finite(0, min_open=True), metavar="T", help="End it at this time; by default it is the whole run."
+)
 @click.option(
     "--frames", type=click.IntRange(2, 100_000), metavar="N", help="Frames of the animation, 60 by default, of mp4 150."
 )
@@ -80,17 +82,23 @@ def view(
             raise StudyError(f"{file} is not possible: a file for --{suffix[1:]} ends in {suffix}.")
     if time is not None and png is None:
         raise StudyError("--time needs --png FILE: it is the instant that is drawn.")
+    if start is not None and stop is not None and start >= stop:
+        raise StudyError(f"--start {start:g} is not possible: it must lie before --stop {stop:g}.")
 
     from meshes import Series, SeriesError
-    from meshes.view import Timing, ViewError, animate, picture, window
+    from meshes.view import Timing, ViewError, animate, picture, require_folder, window
 
     from ..running.progress import announce, bar
 
     look: dict[str, Any] = {"field": field, "factor": factor, "zoom": 1.0 if zoom is None else zoom}
+    asked = {"time": time, "start": start, "stop": stop}
     try:
-        thing = _thing(path)
+        for file in (png, *films):
+            if file is not None:
+                require_folder(file)
+        thing = _thing(path, asked, field)
         if isinstance(thing, Series):
-            _ensure_frames(thing, {"time": time, "start": start, "stop": stop})
+            _ensure_frames(thing, asked)
         if png is not None:
             picture(thing, png, time, **look)
             if time is not None and isinstance(thing, Series) and (drawn := _drawn(thing, time)) != f"{time:.6g}":
@@ -126,8 +134,11 @@ def _fraction(told: Callable[[float], None], done: int, total: int) -> None:
     told(done / max(total, 1))
 
 
-def _thing(path: str) -> Series | Motion:
-    """The field series at ``path``, or the rigid motion of the scene that it names."""
+def _thing(path: str, asked: Mapping[str, float | None], field: str | None) -> Series | Motion:
+    """The field series at ``path``, or the rigid motion of the scene that it names.
+
+    The motion is run when what is asked of it can be, as far as the scene knows.
+    """
     place = Path(path)
     if place.is_dir() or place.suffix in (".pvd", ".vtu", ".vtk", ".vtp"):
         from meshes import read
@@ -135,4 +146,21 @@ def _thing(path: str) -> Series | Motion:
         return read(place)
     from ..running.solvers import solver
 
-    return solver("rigid")(load_scene(path))
+    scene = load_scene(path)
+    if field is not None:
+        raise StudyError(f"--field {field} is not possible: the rigid motion of {path} has no fields.")
+    _ensure_run(scene, asked)
+    return solver("rigid")(scene)
+
+
+def _ensure_run(scene: Scene, asked: Mapping[str, float | None]) -> None:
+    """A run to a time ends there at the latest, and every run begins at 0."""
+    from meshes.view import as_told
+
+    end = scene.run.t_end
+    for name, value in asked.items():
+        if value is None or end is None:
+            continue
+        told = as_told(value, (end,))
+        if told > end or (told == end and name == "start"):
+            raise StudyError(f"--{name} {value:g} is not possible: the run goes from 0 to run.t_end = {_told(end)}.")

@@ -10,7 +10,8 @@ from meshes import Block, Frame, SeriesWriter, read
 from meshes.draw.scales import field_names
 from meshes.draw.shots import Curves, MotionSource, SeriesSource
 from meshes.draw.style import SI_UNITS, UNITS
-from meshes.view.pictures import Timing, _instants, _liveliest
+from meshes.view.pictures import _liveliest
+from meshes.view.timing import Timing, instants
 from rigid import load_scene, simulate
 
 TIMES = np.linspace(0, 1.2, 7)
@@ -101,9 +102,9 @@ def test_an_animation_runs_in_slow_motion_through_a_pulse_or_evenly():
     """More than a third of its pictures are of the pulse, a twentieth of the time; the ends are as asked."""
     source = MotionSource(simulate(SCENE))
     end = source.span[1]
-    even = _instants(source, Timing(frames=9, pace="time"), 60)
+    even = instants(source, Timing(frames=9, pace="time"), 60)
     np.testing.assert_array_equal(even, np.linspace(0, end, 9))
-    slow = _instants(source, Timing(start=0.1 * end), 60)
+    slow = instants(source, Timing(start=0.1 * end), 60)
     assert (slow[0], slow[-1], len(slow)) == (0.1 * end, end, 60)
     (pulse,) = source.motion.pulses
     assert pulse.t_end - pulse.t_start < 0.05 * end

@@ -329,10 +329,24 @@ def test_bad_animations_are_one_sentence(series, tmp_path):
     nan = float("nan")
     for name, arguments in (
         ("a.avi", {}), ("a.gif", {"frames": 1}), ("a.gif", {"frames": 2.5}), ("a.gif", {"frames": nan}),
-        ("a.gif", {"fps": nan}), ("a.gif", {"start": 1.0, "stop": 0.5}),
+        ("a.gif", {"fps": nan}), ("a.gif", {"start": 1.0, "stop": 0.5}), ("a.gif", {"start": nan}),
     ):  # fmt: skip
         with pytest.raises(ViewError):
             animate(series, tmp_path / name, timing=Timing(**arguments))
+
+
+@pytest.mark.parametrize(
+    ("wishes", "told"),
+    [
+        ({"start": float("nan")}, "start = nan"),
+        ({"stop": float("inf")}, "stop = inf"),
+        ({"start": "1"}, "start = '1'"),
+        ({"start": 0.5, "stop": 0.5}, "start = 0.5 is not possible: it must lie before stop = 0.5"),
+    ],
+)
+def test_a_stretch_that_no_run_has_is_refused_as_it_is_made(wishes, told):
+    with pytest.raises(ViewError, match=told):
+        Timing(**wishes)
 
 
 @pytest.mark.parametrize("size", [(300, 240), (320, 200), (0, 0), (-100, 50), (400.5, 300), 300, "big"])

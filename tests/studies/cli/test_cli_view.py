@@ -104,7 +104,7 @@ def test_the_ends_that_are_told_are_taken(run, number):
         (("--gif", "a.gif", "--pace", "odd"), "odd"),
         (("--png", "a.png", "--time", 99), "the frames go from"),
         (("--png", "a.png", "--time", 1.3), "the frames go from"),
-        (("--png", "a.png", "--time", "nan"), "the frames go from"),
+        (("--png", "a.png", "--time", "nan"), "--time"),
         (("--gif", "a.gif", "--start", 1.3), "the frames go from"),
         (("--png", "a.png", "--zoom", 0.1), "zoom"),
         (("--png", "a.png", "--factor", -1), "factor"),
@@ -117,6 +117,38 @@ def test_bad_wishes_are_one_sentence(hoop, run, arguments, words):
     assert (status, out) == (2, "")
     assert words in err
     assert is_one_sentence(err)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--png", "a.png", "--time", "nan"), "--time"),
+        (("--png", "a.png", "--time", -1), "--time"),
+        (("--png", "a.png", "--time", 0.95), "--time 0.95 is not possible: the run goes from 0 to run.t_end = 0.9"),
+        (("--gif", "a.gif", "--start", "inf"), "--start"),
+        (("--gif", "a.gif", "--start", 0.9), "--start 0.9 is not possible"),
+        (("--gif", "a.gif", "--start", 0.3, "--stop", 0.3), "--start 0.3 is not possible"),
+        (("--gif", "a.gif", "--stop", -1), "--stop"),
+        (("--gif", "a.gif", "--stop", 0), "--stop"),
+        (("--png", "a.png", "--factor", "nan"), "--factor"),
+        (("--png", "a.png", "--zoom", 0.5), "--zoom"),
+        (("--png", "a.png", "--field", "von_mises"), "--field von_mises"),
+        (("--png", "nowhere/a.png"), "nowhere"),
+    ],
+)
+def test_what_needs_no_motion_is_refused_before_it_is_run(hoop, tmp_path, monkeypatch, arguments, words):
+    """The scene "printed" runs to 0.9 s."""
+
+    def run(*_: object) -> None:
+        raise AssertionError("it ran")
+
+    monkeypatch.setattr("studies.running.solvers.solver", run)
+    monkeypatch.chdir(tmp_path)
+    status, out, err = hoop("view", "printed", *arguments)
+    assert (status, out) == (2, "")
+    assert words in err
+    assert is_one_sentence(err)
+    assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
