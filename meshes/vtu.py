@@ -116,10 +116,11 @@ class Encoder:
         dtype = value.dtype.newbyteorder("<")
         if dtype not in _NAMES:
             raise SeriesError(f"field {name} holds {value.dtype}, which a VTU file does not.")
-        columns = value.shape[1] if value.ndim == 2 else 1
+        if value.ndim == 2:  # one number each is what VTK takes where none is said; of one column meshio makes (n, 1)
+            more = f'NumberOfComponents="{value.shape[1]}" {more}'
         for i, component in enumerate(_COMPONENTS.get(name, ())):
             more += f' ComponentName{i}="{component}"'
-        attributes = f'type="{_NAMES[dtype]}" Name="{escape(name)}" NumberOfComponents="{columns}" {more}'
+        attributes = f'type="{_NAMES[dtype]}" Name="{escape(name)}" {more}'
         return attributes, _coded(np.ascontiguousarray(value, dtype=dtype).tobytes(), self.strategy)
 
     def _word(self, word: str) -> tuple[str, bytes]:
@@ -210,5 +211,5 @@ def _decode_array(attributes: Mapping[str, str], data: bytes) -> AnyArray:
     if blocks != 1 or len(raw) != size:
         raise ValueError("wrong length")
     flat = np.frombuffer(raw, _TYPES[attributes["type"]])
-    columns = int(attributes["NumberOfComponents"])
+    columns = int(attributes.get("NumberOfComponents", 1))
     return flat.reshape(-1, columns) if columns > 1 else flat
