@@ -300,3 +300,63 @@ def test_numbers_that_a_page_names_are_there(page: Path) -> None:
             if not re.search(rf"^ *(def |self\.|(\w+, )*){number}\b", source, re.M)
         ]
         assert not missing, file
+
+
+#: by why they are none; file and name of each, with a star all of a file
+NO_THRESHOLDS = {
+    "codes, sizes and places in arrays": """
+        contact/assembly.py:X contact/assembly.py:Y contact/laws/brush.py:CODE contact/laws/patch.py:CODE
+        contact/laws/patch.py:SLIDE_LEFT contact/laws/patch.py:SLIDE_RIGHT contact/laws/patch.py:STICK
+        contact/laws/regularised.py:CODE contact/newton.py:FRAME contact/room.py:* chain/bordered.py:FRAME
+        chain/bordered.py:WIDTH chain/rod/surface.py:ONWARD chain/rod/surface.py:OUTWARD chain/rod/surface.py:SLOPE
+        chain/rod/surface.py:STRETCH models/stage.py:FORESEEN models/stage.py:HELD models/stage.py:LET_GO
+        models/stage.py:RAISED output/patch.py:FREE output/patch.py:SLIPS output/patch.py:STICKS run/pulses.py:BACKWARD
+        run/pulses.py:FORWARD time/advance.py:COLUMNS time/course.py:CAPPED time/course.py:LACKS
+        time/course.py:MODE_ENDED time/course.py:NO_FORCES time/course.py:PAUSED time/course.py:REACHED
+        time/course.py:STALLED time/course.py:UNSOLVED time/events.py:HIGH_END time/events.py:LOW_END
+        time/events.py:MODE_ENDS time/events.py:NO_EVENT time/events.py:TURN
+    """,
+    "round-off, and steps of differences that lose next to nothing beside it": """
+        airborne.py:LOWEST airborne.py:ON chain/bordered.py:FADED chain/corner.py:_SMALL chain/rod/orders.py:_SMALL
+        contact/points/data.py:EXACTLY contact/points/detection.py:TURNED_ON contact/points/entry.py:ENTERS
+        output/chain_interior.py:_SMALL run/pulses.py:AT_REST segment.py:NO_TIME time/advance.py:SHORTEST
+        time/control.py:SHORT time/course.py:PAST time/events.py:ANGLE time/events.py:RATE time/events.py:SHARE
+        time/events.py:TIME time/events.py:VELOCITY time/stages.py:INSTANT
+    """,
+    "how long is tried, and how much at once": """
+        contact/guess.py:GUESSES contact/guess.py:SEARCHES contact/points/data.py:MOST_ITERATIONS
+        contact/points/entry.py:MOST models/full.py:_WINDOWS models/stage.py:MOST_POINTS output/fields.py:_TOGETHER
+        ring/fem.py:COLUMNS ring/fem.py:LOT time/advance.py:SPAN time/events.py:OTHERS
+    """,
+    "what is shown of a motion": "output/curves.py:BETWEEN output/instants.py:_AROUND",
+}
+
+
+def numbers_of(path: Path) -> set[str]:
+    """Names, all in capitals, of the numbers of a module, and of its rows of numbers."""
+    found = set()
+    for node in tree_of(path).body:
+        targets = (
+            node.targets if isinstance(node, ast.Assign) else [node.target] if isinstance(node, ast.AnnAssign) else []
+        )
+        names = {name.id for target in targets for name in ast.walk(target) if isinstance(name, ast.Name)}
+        found |= {name for name in names if name.isupper()}
+    module = importlib.import_module(".".join(path.relative_to(ROOT).with_suffix("").parts))
+    rows = {name: value if type(value) is tuple else (value,) for name in found for value in [getattr(module, name)]}
+    return {name for name, row in rows.items() if row and all(type(number) in (int, float) for number in row)}
+
+
+def test_every_number_stands_on_a_page() -> None:
+    """Of the flexible hoop: on one of the pages of thresholds, or for a reason among those that are none."""
+    package = ROOT / "flexible"
+    pages = [(package / folder / "README.md").read_text(encoding="utf-8") for folder in (".", "chain")]
+    told = {
+        f"{file}:{name}" for page in pages for file, names in NAMED.findall(page) for name in re.findall(r"\w+", names)
+    }
+    none = [number for numbers in NO_THRESHOLDS.values() for number in numbers.split()]
+    paths = {path.relative_to(package).as_posix(): path for path in SOURCES.values() if package in path.parents}
+    there = {f"{file}:{name}" for file, path in paths.items() for name in numbers_of(path)}
+    listed = {number for number in there for one in none if number == one or one == f"{number.split(':')[0]}:*"}
+    assert sorted(there - told - listed) == []
+    assert not listed & told, "which is it?"
+    assert all(one.endswith(":*") or one in there for one in none), "names that are no more"

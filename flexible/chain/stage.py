@@ -19,7 +19,7 @@ from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by,
 from ..contact.guess import GUESSES, as_before, guess_again, held_again, is_let_go, on_its_way
 from ..contact.newton import before_bend, breaks_loose, goes, move, reached
 from ..contact.points.data import MOST_ITERATIONS, Before, Bristles, Parameters, Rim, at_start, pulling
-from ..contact.points.rim import vertex_angle, window_around
+from ..contact.points.rim import margin_around, vertex_angle, window_around
 from ..contact.stage import Predictor, Stage
 from ..contact.vectors import eliminate, largest, plus, times
 from .bordered import FRAME, Factors, as_one, factor, nothing_factored, solve
@@ -217,7 +217,7 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         if old.res.normal > 0:
             low, high = min(low, old.res.low), max(high, old.res.high)
         looked[0], looked[1] = low, high
-    margin = 0.3 * (looked[1] - looked[0]) + 0.1 * arrays.element
+    margin = margin_around(looked[0], looked[1], arrays.element)
     found = Stage(
         False, expected, expected, expected, nothing_factored(), old.window, old.u, old.nodal, old.res, old.bristles
     )  # fmt: skip

@@ -18,6 +18,7 @@ from ..contact.forces import contact_forces
 from ..contact.guess import off_its_way, shift, slipping_on
 from ..contact.newton import before_bend, goes, round_off
 from ..contact.points.data import MOST_ITERATIONS, Damper, Rim, at_start, pulling
+from ..contact.points.rim import margin_around
 from ..contact.stage import Near, Predictor, Stage
 from ..contact.vectors import largest
 from ..ring.choice import ring_of
@@ -160,7 +161,7 @@ class FullHoop(RimContact):
         low, high = self.reach(expected[2], expected[1], expected[3:][self.ring.ring.rim_dofs])
         if old.res.normal > 0:
             low, high = min(low, old.res.low), max(high, old.res.high)
-        margin = 0.3 * (high - low) + 0.1 * self.element
+        margin = margin_around(low, high, self.element)
         for _ in range(4):
             window = self.window(float(expected[2]), low, high, margin)
             solved, outside = self._newton(old, mode, damper, predictor, window, near.known)

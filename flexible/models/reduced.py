@@ -17,7 +17,7 @@ from ..contact.laws.listing import is_smoothed, may_end
 from ..contact.points.data import Damper, Parameters, at_start
 from ..contact.points.data import Rim as NearFloor
 from ..contact.points.detection import least_gap
-from ..contact.points.rim import below_floor, window_around
+from ..contact.points.rim import below_floor, margin_around, window_around
 from ..contact.stage import Near, Predictor, Stage
 from ..contact.vectors import largest, plus
 from ..ring.frame import Frame, energies, inertia
@@ -109,7 +109,7 @@ def _solved(
     found = Stage(False, expected, expected, expected, unknown, old.window, old.u, old.nodal, old.res, old.bristles)
     if old.res.normal == 0 and arrays.law.eps_n * (high - low) ** 3 / 12 > FALLS_ON:
         return found
-    margin = 0.3 * (high - low) + 0.1 * arrays.element
+    margin = margin_around(low, high, arrays.element)
     deepest = least_gap(near.pos[1], near.pos[2], near.u, NearFloor(near.window[0], arrays.vertex))
     for _ in range(4):
         window = window_around(arrays.vertex, expected[2], low, high, margin)

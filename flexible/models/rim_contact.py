@@ -26,7 +26,7 @@ KNOWN = EXACTLY, 1e-4  # of 1 + N: Newton's least and largest tolerance on the f
 #: E I below which the first and the last are less, like its power 3/2
 STEPS = 0.3, 33.0, 3e-4, 1.0
 #: wall over R from which on a step may have less of the tolerance, how much of it, and from which rtol down how much
-THICK = 0.15, 0.7, 3e-4, 0.3
+TIGHTER = 0.15, 0.7, 3e-4, 0.3
 #: wall over R from which on a step's tolerance falls faster than rtol, from which rtol down, like which power more, and
 #: rtol as which no step is more exact: what is left then is round-off
 FASTER = 0.06, 1e-4, 0.6, 5e-8
@@ -116,7 +116,7 @@ def share_of_linear_steps(scene: Scene) -> float:
     often as there are steps, and fall like a lower power of their tolerance. See README.md, section 5.
     """
     rtol = scene.solve.rtol
-    wall, share, fine, of_fine = THICK
+    wall, share, fine, of_fine = TIGHTER
     thick = 1.0 if scene.wall < wall else of_fine if rtol <= fine else share
     wall, fine, power, finest = FASTER
     return thick if scene.wall < wall else max(thick * min(1.0, rtol / fine) ** power, min(1.0, finest / rtol))

@@ -36,7 +36,7 @@ from .law import Law, PatchState, Rolling
 Array = NDArray[np.float64]
 
 CODE = 1
-NEAR = 0.97  # of all that a rolling patch can carry
+LIMITED = 0.97  # of all that a rolling patch can carry
 
 
 @loop
@@ -91,7 +91,7 @@ def effective_mu_s(mu_s: float, mu: float) -> float:
 def breaks(law: Any, before: Any, now: Any) -> bool:
     """Whether the patch breaks loose in a step, or may: it carries next to all that a rolling one can."""
     res = before.res
-    near = abs(res.friction) > NEAR * effective_mu_s(law.mu_s, law.mu) * res.normal
+    near = abs(res.friction) > LIMITED * effective_mu_s(law.mu_s, law.mu) * res.normal
     return bool(res.stuck > 0 and now.res.normal > 0 and (near or now.res.stuck == 0))
 
 

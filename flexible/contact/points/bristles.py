@@ -17,7 +17,7 @@ from .data import Before, Bristles, Damper, Parameters, PointForces, Resultants,
 from .dent import dent_at, displaced, next_dent
 from .entry import Point, entry_of
 
-HELD = 1 / 64  # of the square of the points' distance: a spot of the rim less deep lets go of its bristles
+SHALLOW = 1 / 64  # of the square of the points' distance: a spot of the rim less deep lets go of its bristles
 
 
 class Carried(NamedTuple):
@@ -137,7 +137,7 @@ def weigh(forces: PointForces, points: Any, carried: Any, spacing: float, curved
     weight, by = forces.weight, forces.weight_by
     gap = points.gap
     total = gap.shape[0]
-    held = HELD * spacing * spacing
+    held = SHALLOW * spacing * spacing
     for i in range(total - 1):
         if points.last[i] or (gap[i] >= 0 and gap[i + 1] >= 0):
             continue

@@ -57,6 +57,7 @@ def vertex_angle(vertex: Any, element: Any) -> Any:
     return vertex[element - turn * n] + 2 * pi * turn
 
 
+MARGIN, LEAST_MARGIN = 0.3, 0.1  # of a patch, and of an element: what of the rim is looked at to either side of it
 STIFF = 1e-4  # displacement over R below which no turn of the rim is worth its arithmetic
 
 
@@ -119,6 +120,15 @@ def below_floor(theta: Any, phi: float, height: float, moved: Any) -> tuple[floa
         if gap[i] <= deepest:
             low, high = min(low, psi[i]), max(high, psi[i])
     return low, high
+
+
+@loop
+def margin_around(low: float, high: float, element: float) -> float:
+    """How far beyond ``low`` and ``high``, the ends of a patch, its window reaches; ``element`` is the length of one.
+
+    A patch that comes to reach beyond its window is solved again in a wider one.
+    """
+    return MARGIN * (high - low) + LEAST_MARGIN * element
 
 
 @part
