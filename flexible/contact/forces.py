@@ -18,7 +18,7 @@ floor, rolling included: at the rim of a wide patch that alone is phidot psi^2/2
 
 from __future__ import annotations
 
-from math import cos, pi, sin
+from math import cos, sin
 from typing import Any
 
 import numpy as np
@@ -41,10 +41,9 @@ from .points.data import (
     Rim,
     Slip,
 )
-from .points.dent import dent_at, displaced, next_dent
 from .points.detection import find, place
+from .points.leaving import all_stick, work_of_those_let_go, work_of_those_that_left
 from .points.normal import force_by_gaps, press
-from .points.rim import lift
 from .room import (
     PULL,
     SCRATCH,
@@ -110,39 +109,6 @@ def _ends(points: Any) -> tuple[float, float]:
             high = points.psi[i]
             active += 1
     return low, high
-
-
-@loop
-def _work_of_those_that_left(
-    points: Any, before: Before, rim: Rim, slip: Slip, moved: float, dphi: float, law: Parameters, stuck: float
-) -> float:
-    """Work of the bristles now farther off the patch than its neighbours, beyond their force times the mean way.
-
-    They left one after the other, as evenly as the patch's edge went over them: those that stuck with what they pulled
-    then, those that slid with nothing.
-    """
-    bristles = before.bristles
-    number, last = bristles.number, bristles.number.shape[0] - 1
-    low, high = points.number[0], points.number[-1]
-    work = 0.0
-    was = left = dent_at(before, rim, pi - before.pose[2])
-    for i in range(number.shape[0]):
-        j = number[i]
-        if j > high:
-            share = (number[last] + 0.5 - j) / (number[last] - high)
-        elif j < low:
-            share = (j - number[0] + 0.5) / (low - number[0])
-        else:
-            continue
-        theta = j * law.spacing + share * dphi
-        rolled = share * dphi * lift(before.pose[2] - pi + theta - share * dphi / 2)
-        was, left = next_dent(was, before, rim, j * law.spacing), next_dent(left, before, rim, theta)
-        rolled += displaced(left, theta)[0] - displaced(was, j * law.spacing)[0]
-        pull = bristles.pull[i] / 2
-        if stuck > 0 and abs(bristles.sliding[i]) != 1 and bristles.stretch[i] != 0:
-            pull = bristles.pull[i] - law.eps_t * law.spacing * (rolled + share * moved) / 2
-        work += pull * (rolled - share * (slip.way - moved))
-    return work
 
 
 @loop
@@ -219,7 +185,10 @@ def _touch(
     stuck = min(answer.stuck / length, 1.0) if length > 0 else 0.0  # of weights that miss the length by 1e-4
     beyond, kept = 0.0, 0
     if not answer.like_pressure:
-        beyond = _work_of_those_that_left(points, before, rim, slip, moved, dphi, law, answer.stuck)
+        if all_stick(forces.weight, carried.sliding):
+            beyond = work_of_those_let_go(points, forces.weight, carried.stretch, before, way, law)
+        else:
+            beyond = work_of_those_that_left(points, before, rim, slip, moved, dphi, law, answer.stuck)
     for i in range(pull.shape[0]):
         if not answer.like_pressure:
             beyond += (carried.pull[i] + pull[i]) * (carried.way[i] - carried.mean[i]) / 2

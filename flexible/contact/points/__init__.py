@@ -7,4 +7,5 @@
 ``normal``     the foundation under them
 ``entry``      when and where one touched in a step
 ``bristles``   the bristles that they carry along the floor
+``leaving``    what these do until their points leave it
 """

@@ -1,5 +1,6 @@
 """The contact by itself, on a rigid rim: Winkler's patch, Kalker's rolling brush, exact tangents."""
 
+from itertools import pairwise
 from math import pi, sqrt
 from types import SimpleNamespace
 
@@ -93,6 +94,48 @@ def test_steady_rolling_of_a_sticking_patch(points, way):
     lost = -work - np.diff(stored)
     assert lost[-8 * points :].mean() == pytest.approx(-exact * creep * step, rel=2e-5)
     assert lost.min() > -1e-6 * lost.max()
+
+
+def lost(before, res):
+    """What a patch loses in a step of a steady roll, in which it has the forces of its beginning again."""
+    work = (before.friction + res.friction) / 2 * res.way + res.beyond
+    return -work - (res.bristle_energy - before.bristle_energy)
+
+
+@pytest.mark.parametrize("way", [1, -1])
+@pytest.mark.parametrize("turn", [0.3, 0.9, 1.7])
+def test_a_sticking_patch_loses_friction_times_creep_in_steps_as_long_as_itself(turn, way):
+    """Within two hundredths: of the stretch of a bristle at the edge 48 points know that much."""
+    depth, creep, points = 1e-8, 1e-3, 48
+    a = sqrt(2 * depth)
+    rim = Floor(parameters("patch", 2 * a / points, EPS, 0.8 * EPS), depth, mode=STICK)
+    step = 2 * a * turn
+    found = [rim.move(creep * step, way * step) for _ in range(12)][-6:]
+    friction = -0.8 * EPS * creep * (2 * a) ** 2 / 2
+    for before, res in pairwise(found):
+        assert lost(before, res) == pytest.approx(-friction * creep * step, rel=2e-2)
+
+
+def test_bristles_let_go_of_what_they_hold_however_the_rim_moves_beyond_them():
+    """A soft wall is held to the floor by its patch, and goes along it behind that by fifty times a stretch.
+
+    The same roll as above, on a rim that was displaced so from the rear half of its patch on when the last step began.
+    Bristles stretched by that on their way out would have lost many times as much.
+    """
+    depth, creep, points = 1e-8, 1e-3, 48
+    a = sqrt(2 * depth)
+    corner = element_at(VERTEX, pi - 2.9)
+    step, phi = a, pi + a / 2 - VERTEX[corner]  # an element begins half of a half-width before the rear edge
+    rim = Floor(parameters("patch", 2 * a / points, EPS, 0.8 * EPS), depth, phi - 8 * step, STICK)
+    before = [rim.move(creep * step, step) for _ in range(8)][-1]
+    assert rim.pose[2] == pytest.approx(phi, abs=1e-14)
+    first, flat = corner - 6, np.zeros((27, 2))
+    along = np.maximum(np.arange(27) - 12, 0) * 100 * creep * a / (a / 2) * (VERTEX[1] - VERTEX[0]) / 2
+    dent = np.outer(along, [np.sin(phi), np.cos(phi)])
+    pose, since = rim.pose + np.array([creep * step, 0, step]), Before(rim.pose, dent, rim.bristles, first, dent)
+    res = contact_forces(pose, flat, Rim(first, VERTEX), rim.law, STICK, since, UNDAMPED, False).res
+    assert res.friction == pytest.approx(before.friction, rel=1e-2)
+    assert lost(before, res) == pytest.approx(-res.friction * creep * step, rel=2e-2)
 
 
 MODES = [("patch", STICK), ("patch", SLIDE_RIGHT), ("patch", SLIDE_LEFT), ("brush", 0), ("regularised", 0)]
