@@ -18,7 +18,7 @@ from ..time.advance import SHORTEST
 from ..time.course import Stop
 from ..time.events import Ends
 from .ahead import from_here, from_release, rest_of, slips_no_more, whirls
-from .pulses import AT_REST, LONGEST, comes_to, goes_through_turns, lead, over_bottom
+from .pulses import LONGEST, comes_to, goes_through_turns, lead, over_bottom
 from .told import Ending, Progress, pulse_over, run_over, swept
 
 BACK = 0.01  # of the way through a pulse, by which a hoop that turned back is out where it came in
@@ -53,8 +53,8 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         elif pulse is not None and abs(pulse.phi_start - whirls_from) >= 2 * pi:
             builder.add_rigid(motion, lead(motion, pulse))
             return motion  # once round, as the rigid hoop goes
-        if pulse is None and rest.turns is not None:
-            motion, pulse = _turned_in(motion, released(TO_A_PULSE), done == 0)
+        if not at_rest and _ends_inside(motion, pulse, rest):
+            motion, pulse = _run_through(motion, pulse, released(TO_A_PULSE), done == 0)
         start = inf if pulse is None else lead(motion, pulse, hoop.law.rolls_to)
         if rest.t_end is not None and rest.t_end - start < SHORTEST:
             motion, pulse = released(rest), None
@@ -62,9 +62,6 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
             builder.add_rigid(motion, motion.t_end)
             over = scene.run.turns is not None and len(builder.turns) >= scene.run.turns
             return run_over(scene.run) if over else motion
-        if pulse.cut and pulse.t_end == motion.t_end:  # by the last turn, or after a period of rolling for ever
-            motion, pulse = _uncut(motion, pulse, released(TO_A_PULSE))
-            start = lead(motion, pulse, hoop.law.rolls_to)
         ends_there = builder.add_rigid(motion, start)
         try:
             state = hand_over(hoop, motion, start, one_of(ends_there, 1))
@@ -95,18 +92,19 @@ def through_pulses(scene: Scene, hoop: Hoop, builder: Builder, progress: Progres
         released, rest = partial(from_here, scene, hoop, state), left_to_run
 
 
-def _turned_in(motion: Motion, further: Motion, begins: bool) -> tuple[Motion, Pulse | None]:
-    """A motion whose last turn is in a pulse that it does not list, for it does not come to the bottom: the same motion
-    run further, and that pulse; if there is none, as it is. Only one that ``begins`` may begin in its pulse."""
+def _ends_inside(motion: Motion, pulse: Pulse | None, rest: Run) -> bool:
+    """Whether a motion may end inside its pulse: by the last turn, or after a period of rolling for ever. One that does
+    not come to the bottom by its last turn lists none.
+    """
+    return rest.turns is not None if pulse is None else pulse.cut and pulse.t_end == motion.t_end
+
+
+def _run_through(motion: Motion, pulse: Pulse | None, further: Motion, begins: bool) -> tuple[Motion, Pulse | None]:
+    """The same motion run ``further``, and the pulse in which the first one ends; if there is none, both as they are.
+    Only one that ``begins`` may begin in its pulse.
+    """
     ahead = (p for p in further.pulses if p.t_start < motion.t_end and (p.t_start > 0 or begins))
-    pulse = next(ahead, None)
-    return (motion, None) if pulse is None else (further, pulse)
-
-
-def _uncut(motion: Motion, pulse: Pulse, further: Motion) -> tuple[Motion, Pulse]:
-    """A motion in whose pulse it ends, and that, or if there is one the same pulse of the same motion run further."""
-    same = (other for other in further.pulses if abs(other.t_start - pulse.t_start) <= AT_REST)
-    whole = next(same, None)
+    whole = next(ahead, None)
     return (motion, pulse) if whole is None else (further, whole)
 
 
