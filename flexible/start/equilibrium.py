@@ -13,6 +13,7 @@ from ..contact.points.rim import upward
 from ..models.equilibrium import Patch
 from ..models.select import Hoop
 from ..models.state import State, Touching, in_motion
+from ..output.body import lowest
 from ..time.adaptive import MarchError, compile_steps, restart
 from ..time.course import Stop
 from .pose import Pose
@@ -43,11 +44,13 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
         if u is None:
             lost = ": no shape of the ring was found that its own inertia leaves at rest as it flies"
             raise MarchError(Stop(lost, phi=pose.phi, what="no start", by_ring=True))
-        # just clear of the floor, and as high over that as the rigid hoop is
-        height = pose.height - min(0.0, float(upward(u[:, 0], u[:, 1], s, c).min()))
-        pos = np.concatenate([[0.0, height, pose.phi], ring.coordinates])
+        pos = np.concatenate([[0.0, pose.height, pose.phi], ring.coordinates])
         nothing = (np.zeros_like(u), NOTHING, no_bristles())
-        return in_motion(t, x_C, (pos, zero, zero), mode, Touching(window, u, *nothing), pose.slip_velocity)
+        state = in_motion(t, x_C, (pos, zero, zero), mode, Touching(window, u, *nothing), pose.slip_velocity)
+        # just clear of the floor wherever its rim is lowest, and as high over that as the rigid hoop is
+        below = min(lowest(hoop, state) - pose.height, float(upward(u[:, 0], u[:, 1], s, c).min()), 0.0)
+        pos[1] -= below
+        return state._replace(pos=pos)
     patch = Patch(hoop, pose.phi, pose.normal_force, pose.friction_force)
     if near is not None and near.res.normal > 0:
         patch.start_from(near)

@@ -9,6 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import fsolve
 
 from flexible.models.select import hoop_of
+from flexible.output.body import lowest
 from flexible.start.equilibrium import equilibrium
 from rigid import scene_from_dict, simulate
 
@@ -105,3 +106,21 @@ def test_a_hoop_that_is_let_go_in_flight_is_over_the_floor():
     # linear but for what it gives way over R, 1e-4
     assert soft[:2] == pytest.approx([2 * each for each in stiff[:2]], rel=1e-3)
     assert soft[0] > 0
+
+
+def test_a_bent_hoop_that_is_let_go_in_flight_clears_the_floor_with_all_of_its_rim():
+    """Its own inertia brings the rim lower beside the bottom than there."""
+    scene = scene_from_dict(
+        {
+            "hoop": {"k": 0.18, "r": 1.071, "mass_ratio": 0.3},
+            "friction": {"mu_s": 0.8, "mu": 0.7},
+            "release": {"phi0_deg": -52.3, "omega0": 2.78},
+            "ring": {"bending_stiffness": 0.775},
+            "contact": {"stiffness": 1e6},
+            "solve": {"elements": 120},
+        }
+    )
+    hoop = hoop_of(scene)
+    state = equilibrium(hoop, pose_at(simulate(scene), 0.0))
+    assert state.res.normal == 0
+    assert lowest(hoop, state) == pytest.approx(0.0, abs=1e-8)
