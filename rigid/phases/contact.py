@@ -71,6 +71,8 @@ def contact_kind(par, state):
         return FLIGHT
     if state[SLIP] == 0.0:
         n, f = rolling_forces(par, state[OMEGA], state[ANGLE], state[TOP])
-        if n >= 0.0 and abs(f) <= par[MU_S] * n * (1 + TIE):
+        # without friction what turns rolls for no time, where F passes through 0
+        lasts = par[MU_S] > 0.0 or state[OMEGA] == 0.0
+        if n >= 0.0 and abs(f) <= par[MU_S] * n * (1 + TIE) and lasts:
             return ROLL
     return slip_kind(par, state)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.integrate import quad
+from scipy.integrate import quad, solve_ivp
 
 from rigid import Friction, Hoop, Release, Run, Scene, simulate
 
@@ -142,3 +142,33 @@ def test_what_slides_on_no_friction_or_rolls_loses_nothing(mu_s, mass_ratio):
     pulses = simulate(scene).pulses
     assert len(pulses) == 2
     assert [pulse.friction_loss for pulse in pulses] == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("phi0", [0.0, pi, -pi])
+@pytest.mark.parametrize("omega0", [0.7, -0.7])
+def test_what_turns_on_a_smooth_floor_rolls_for_no_time(phi0, omega0):
+    """Released without slip where friction would have nothing to do, for that instant: it slips from there on."""
+    motion = simulate(Scene(Hoop(0.3, 1.1), SMOOTH, Release(phi0, omega0), Run(t_end=0.05)))
+    assert [(phase.kind, phase.t_start) for phase in motion.phases] == [(motion.phases[0].kind, 0.0)]
+    # G keeps its velocity along the floor
+    states, e, c = motion.at(0.05), motion.scene.hoop.e, np.cos(phi0)
+    slip = omega0 * (1 + e * c) - states.omega * (1 + e * np.cos(states.phi))
+    assert states.slip_velocity == pytest.approx(slip, rel=1e-9)
+    assert (str(motion.phases[0].kind) == "skid") == (slip > 0)
+
+
+@pytest.mark.parametrize(("k", "mass_ratio", "omega0"), [(0.9, 100.0, 5.0), (0.999, 0.0, -3.0), (0.5, 1e6, 8.0)])
+def test_a_disk_next_to_the_centre_is_followed_turn_by_turn(k, mass_ratio, omega0):
+    """Against phidot as the energy has it, (K + e^2 s^2) phidot^2/2 + e c, integrated over the time."""
+    scene = Scene(Hoop(k, 1.0, mass_ratio), SMOOTH, Release(pi / 2, omega0, -omega0), Run(t_end=33.0))
+    motion, e, gyr = simulate(scene), scene.hoop.e, scene.hoop.K
+    assert e < 2e-3
+
+    def omega(_, phi):
+        energy = (gyr + e * e) * omega0**2 / 2 - e * np.cos(phi)
+        return np.copysign(np.sqrt(2 * energy / (gyr + (e * np.sin(phi)) ** 2)), omega0)
+
+    way = solve_ivp(omega, (0.0, 33.0), [pi / 2], rtol=1e-11, atol=1e-10, dense_output=True, method="DOP853")
+    t = np.linspace(0, 33, 12)
+    assert motion.at(t).phi == pytest.approx(way.sol(t)[0], abs=1e-7)
+    assert motion.phases[-1].phi_end == pytest.approx(way.y[0, -1], abs=1e-7)
