@@ -22,8 +22,8 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
 
 What is imported from here is for everyone, and the other packages take it from here too. What is no user's business
 they take from its own module: the ``kernel`` that flexible is compiled with, units, files and texts from ``output``,
-single names from ``elastic``, ``scenefile``, ``solve``, ``lists`` and ``phases``. The theory, with the choices that
-Coulomb's law leaves open, is README.md beside this file.
+single names from ``allowed``, ``elastic``, ``scenefile``, ``solve``, ``lists`` and ``phases``. The theory, with the
+choices that Coulomb's law leaves open, is README.md beside this file.
 """
 
 from typing import TYPE_CHECKING

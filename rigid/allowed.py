@@ -17,6 +17,7 @@ from math import log10, radians
 from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 C = TypeVar("C")
 
@@ -102,14 +103,16 @@ def answering(
     def called(key: str) -> str:
         return key if name is None else f"{name}.{key}"
 
-    def checked(field: str, value: Any) -> Any:
-        return value if name is None or value is None else plain(called(field), value)
-
     def decorate(cls: type[C]) -> type[C]:
         create = cls.__init__
         signature = inspect.signature(create)
         fields = [field for field in signature.parameters if field != "self"]
-        needed = [field for field in fields if signature.parameters[field].default is inspect.Parameter.empty]
+        defaults = {field: signature.parameters[field].default for field in fields}
+        needed = [field for field in fields if defaults[field] is inspect.Parameter.empty]
+
+        def checked(field: str, value: Any) -> Any:
+            left_out = value is None and defaults.get(field) is None
+            return value if name is None or left_out else plain(called(field), value)
 
         @wraps(create)
         def init(self: Any, *values: Any, **keys: Any) -> None:
@@ -163,6 +166,35 @@ def shown(value: Any) -> str:
         return f"{'-' if value < 0 else ''}10^{round(value.bit_length() * log10(2))} or so"
     text = " ".join(repr(value).split())
     return text if len(text) <= _LINE else f"{text[: _LINE - 3]}..."
+
+
+def times_within(t: ArrayLike, end: float, slack: float) -> NDArray[np.float64]:
+    """Times of a motion that goes from 0 to ``end``, of any shape; those that ``slack`` has beyond these are at them.
+
+    Raises
+    ------
+    ValueError
+        What is no real number, or lies outside.
+    """
+    try:
+        given = np.asarray(t)
+        any_object = given.dtype.kind == "O" and not any(
+            one is None or isinstance(one, (bool, str)) for one in given.flat
+        )
+        numbers = any_object or given.dtype.kind in "iuf"
+        times = given.astype(float) if numbers and not np.ma.is_masked(t) else None
+    except (TypeError, ValueError):  # rows of several lengths too
+        times = None
+    wrong = shown(_item(t))
+    if times is not None:
+        outside = times[~((times >= -slack) & (times <= end + slack))]
+        if not outside.size:
+            return np.clip(times, 0.0, end)
+        wrong = shown(float(outside[0])) if times.ndim else wrong
+    told = f"{end:g}"
+    if float(told) > end:  # up to what is told all is possible
+        told = repr(float(end))
+    raise ValueError(f"times = {wrong} is not possible: the motion goes from 0 to {told}.")
 
 
 def require_choice(key: str, value: Any, choices: tuple[str, ...]) -> None:

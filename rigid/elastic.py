@@ -59,7 +59,7 @@ class Ring:
             1e30,
             f"E I/(m g R^2) must be positive, {LEAST:.0e} to 1e+30",
         )
-        require("ring.poisson", self.poisson, -1, 0.5, "Poisson's ratio lies between -1 and 0.5", open_low=True)
+        require("ring.poisson", self.poisson, -1, 0.5, "Poisson's ratio lies above -1, up to 0.5", open_low=True)
         if self.thickness is not None:
             require(
                 "ring.thickness",
@@ -136,7 +136,7 @@ class Contact:
             1 / LEAST,
             f"the tangential over the normal foundation must be positive, {LEAST:.0e} to {1 / LEAST:.0e}",
         )
-        require("contact.damping", self.damping, 0, inf, "the damping ratio is at least 0")
+        require("contact.damping", self.damping, 0, 1e9, "the damping ratio is at least 0, and 1e+09 at most")
         require(
             "contact.slip_velocity_scale",
             self.slip_velocity_scale,

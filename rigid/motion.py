@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .allowed import times_within
 from .output import sampling, summary, units
 from .output.same import Same
 from .output.units import AngularAcceleration, AngularVelocity, Energy, Force, Impulse, Length, Number, Time, Velocity
@@ -180,18 +181,15 @@ class Motion(summary.Summarised):
         Raises
         ------
         ValueError
-            A time before release or after the end.
+            What is no time, or one before release or after the end.
         """
         return self.sample(self._inside(t, side), side)
 
     def _inside(self, t: ArrayLike, side: Side) -> Array:
         """Times within the motion; those that round-off has beyond its ends are at them."""
-        times, slack = np.asarray(t, dtype=float), 1e-12 * max(self.scene.time_unit, self.t_end)
         if side not in ("left", "right"):
             raise ValueError(f"side must be 'left' or 'right', not {side!r}")
-        if times.size and not (times.min() >= -slack and times.max() <= self.t_end + slack):
-            raise ValueError(f"times must lie in [0, {self.t_end}]")
-        return np.clip(times, 0.0, self.t_end)
+        return times_within(t, self.t_end, 1e-12 * max(self.scene.time_unit, self.t_end))
 
     def phase_at(self, t: float, side: Side = "right") -> Phase:
         """The phase at a time; an instant that two phases share belongs to the later one, or with ``side="left"`` to

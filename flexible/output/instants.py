@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from meshes import Placement, SeriesError, frame_times
 from rigid import Pulse
+from rigid.allowed import times_within
 from rigid.output.units import without_units
 
 from ..airborne import rise
@@ -43,13 +44,11 @@ def times_of(motion: FlexibleMotion, frames: int, times: ArrayLike | None, pulse
     end = motion.t_end
     if times is not None:
         try:
-            listed = np.unique(np.asarray(times, dtype=float))
-        except (TypeError, ValueError):
-            raise SeriesError(f"times = {times!r} is not possible: they are numbers.") from None
+            listed = np.unique(times_within(times, end, 1e-12 * end))
+        except ValueError as error:
+            raise SeriesError(str(error)) from None
         if not listed.size:
             raise SeriesError("times are not possible: none is given.")
-        if not (listed[0] >= 0 and listed[-1] <= end * (1 + 1e-12)):
-            raise SeriesError(f"times are not possible: they must lie between 0 and {end:g}, the end of the motion.")
         return listed
     if not (isinstance(frames, int | np.integer) and frames >= 2):
         raise SeriesError(f"frames = {frames!r} is not possible: it is a whole number, at least 2.")

@@ -171,7 +171,7 @@ def test_a_motion_is_a_plain_value():
     assert copy == motion
     assert np.array_equal(copy.at([1.0, 2.0]).phi, motion.at([1.0, 2.0]).phi)
     assert motion.at(np.ones((2, 3))).energy.shape == (2, 3)
-    with pytest.raises(ValueError, match="times must lie"):
+    with pytest.raises(ValueError, match="the motion goes from 0 to"):
         motion.at(-1.0)
 
 

@@ -6,6 +6,7 @@ import copy
 import dataclasses
 import json
 import pickle
+import re
 import subprocess
 import sys
 from math import inf, pi
@@ -188,10 +189,25 @@ def test_thousands_of_pulses_are_sampled_in_a_few_calls():
     assert frame["phase"].tolist() == [str(long.phase_at(one).kind) for one in t[::50]]
 
 
+@pytest.mark.parametrize(
+    ("t", "told"),
+    [
+        ("a", "'a'"), (1j, "1j"), (True, "True"), (None, "None"), ([0, None], "[0, None]"), ([0, 1e9], "1000000000.0"),
+        ([1, [2]], "[1, [2]]"), (np.datetime64("2020"), "datetime.date(2020, 1, 1)"), ("1.0", "'1.0'"),
+    ],
+)  # fmt: skip
+def test_what_is_no_time_of_the_motion_is_told_by_name(motion, t, told):
+    words = f"times = {told} is not possible: the motion goes from 0 to "
+    with pytest.raises(ValueError, match=f"^{re.escape(words)}") as caught:
+        motion.at(t)
+    # all up to what is told is possible
+    assert motion.at(float(str(caught.value).removeprefix(words).removesuffix("."))).t <= motion.t_end
+
+
 def test_times_and_sides_that_there_are_not(motion):
     for t in (-5.0, 500.0, np.nan):
         for ask in (motion.at, motion.phase_at):
-            with pytest.raises(ValueError, match="times must lie in"):
+            with pytest.raises(ValueError, match=rf"^times = {t} is not possible: the motion goes from 0 to "):
                 ask(t)
     for ask in (motion.at, motion.phase_at):
         with pytest.raises(ValueError, match="side must be 'left' or 'right', not 'middle'"):
@@ -337,7 +353,7 @@ def test_what_is_masked_is_no_number():
 
 def test_the_end_is_as_near_in_any_unit():
     motion = simulate(HEAVY.replace(hoop={"R": 1e-30}))
-    with pytest.raises(ValueError, match="times must lie"):
+    with pytest.raises(ValueError, match="the motion goes from 0 to"):
         motion.at(2 * motion.t_end)
 
 

@@ -321,9 +321,9 @@ def test_a_killed_run_leaves_whole_frames(tmp_path):
     [
         ({"fields": ("colour",)}, "fields = colour"),
         ({"fields": ()}, "fields"),
-        ({"times": [-1.0]}, "between 0 and"),
-        ({"times": [1e9]}, "between 0 and"),
-        ({"times": [np.nan]}, "between 0 and"),
+        ({"times": [-1.0]}, "times = -1.0 is not possible: the motion goes from 0 to"),
+        ({"times": [1e9]}, "times = 1000000000.0 is not possible: the motion goes from 0 to"),
+        ({"times": [np.nan]}, "times = nan is not possible: the motion goes from 0 to"),
         ({"times": []}, "times are not possible: none is given"),
         ({"frames": 1}, "frames = 1"),
         ({"frames": 2.5}, "frames = 2.5"),

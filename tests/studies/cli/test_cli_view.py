@@ -192,7 +192,7 @@ def test_a_run_that_ends_before_the_times_is_told_all_the_same(hoop, run, tmp_pa
     )
     assert status == 1
     assert json.loads(out)["completed"] is True
-    assert err.startswith("hoop: No fields were written at --times: times are not possible")
+    assert err.startswith("hoop: No fields were written at --times: times = 1000000000.0 is not possible")
     assert is_one_sentence(err)
     assert (tmp_path / "motion.npz").exists()
 
