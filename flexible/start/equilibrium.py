@@ -9,7 +9,6 @@ import numpy as np
 from rigid import Kind
 
 from ..contact.points.data import NOTHING, no_bristles
-from ..contact.points.rim import upward
 from ..models.equilibrium import Patch
 from ..models.select import Hoop
 from ..models.state import State, Touching, in_motion
@@ -47,9 +46,8 @@ def equilibrium(hoop: Hoop, pose: Pose, t: float = 0.0, x_C: float = 0.0, near: 
         pos = np.concatenate([[0.0, pose.height, pose.phi], ring.coordinates])
         nothing = (np.zeros_like(u), NOTHING, no_bristles())
         state = in_motion(t, x_C, (pos, zero, zero), mode, Touching(window, u, *nothing), pose.slip_velocity)
-        # just clear of the floor wherever its rim is lowest, and as high over that as the rigid hoop is
-        below = min(lowest(hoop, state) - pose.height, float(upward(u[:, 0], u[:, 1], s, c).min()), 0.0)
-        pos[1] -= below
+        # as high over the floor, wherever its rim is lowest, as the rigid hoop is
+        pos[1] += pose.height - lowest(hoop, state)
         return state._replace(pos=pos)
     patch = Patch(hoop, pose.phi, pose.normal_force, pose.friction_force)
     if near is not None and near.res.normal > 0:
