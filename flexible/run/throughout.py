@@ -6,6 +6,8 @@ from collections.abc import Callable
 from math import ceil, floor, pi, sqrt
 from typing import NamedTuple
 
+import numpy as np
+
 from rigid import Motion, Pulse, Run, Scene
 
 from ..builder import Builder
@@ -21,6 +23,7 @@ from .pulses import BACKWARD, add_pulses, swings, turns_of, unfinished
 from .told import Ending, Progress, pulse_over, run_over
 
 SWINGS = 4.0  # of the rigid hoop's
+STANDS = 1e-6  # angle about which a hoop that stands may rock; by round-off it does by 1e-15 or so
 ROUND_OFF = 37.0  # -log(1e-16): powers of e in which a hoop comes next to the top, and in which it leaves it
 
 
@@ -38,7 +41,8 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
 
     A swing ends at a turn where no pulse goes on, or where the disk passes the top. The rigid hoop that says where its
     pulse lies, and whether the run is at rest, is released from the flexible one's state at its beginning. A run is at
-    rest behind a swing over the bottom alone, not where a soft hoop rocks beside its release.
+    rest behind a swing over the bottom alone, not where a soft hoop rocks beside its release. One that rests from the
+    beginning, and is to be run to a time, is marched to that without turns and pulses, which would be of round-off.
     """
     reference = from_release(scene, scene.run)
     try:
@@ -52,6 +56,11 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
     whirled = swung_through = False
     horizon = scene.run.t_end if scene.run.t_end is not None else max(reference.t_end, 1e-3)
     watch = progress.watch(0.0, 1.0, lambda t, phi: t / horizon)
+    if run is not None and run.t_end is not None and _stands(reference):
+        state, stop = _left_alone(scene, builder, hoop, state, watch)
+        if stop is not None:
+            return stop
+        run = rest_of(scene.run, builder)
     while run is not None:
         ahead = Run(until="rest" if run.until == "rest" else "pulse")
         # whether it slips at the release is said by the scene: all points of a brush may stick in the first instant
@@ -82,6 +91,25 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
             return onward
         whirled = goes_round
     return run_over(scene.run)
+
+
+def _stands(motion: Motion) -> bool:
+    """Whether a rigid hoop does not turn at all: right above or below the contact, at rest or on a smooth floor."""
+    ends = motion.at(np.array([0.0, motion.t_end]))
+    return len(motion.phases) == 1 and not ends.omega.any() and not ends.alpha.any()
+
+
+def _left_alone(
+    scene: Scene, builder: Builder, hoop: Hoop, state: State, watch: Callable[[float, float], None] | None
+) -> tuple[State, Stop | None]:
+    """March a hoop whose rigid one stands to the end of the run, or until it has left its place, as one on top does
+    from round-off in time: before that it has no turns, and no pulses.
+    """
+    phi = float(state.pos[2])
+    ends = Ends(scene.run.t_end or 0.0, phi - STANDS, phi + STANDS)
+    state, _, stop = builder.march(hoop, state, ends, scene.solve.rtol, watch)
+    builder.turns.clear()
+    return state, stop
 
 
 def longest(scene: Scene, swing: float) -> float:

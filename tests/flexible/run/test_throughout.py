@@ -245,6 +245,19 @@ def test_a_hoop_at_rest_in_equilibrium_stays_there(phi0_deg, run):
     assert (len(motion.turns), len(motion.pulses), motion.steps) == (0, 0, 0)
 
 
+@pytest.mark.parametrize("start", ["equilibrium", "undeformed"])
+def test_a_hoop_at_rest_below_has_no_turn_to_a_time(start):
+    """It stands by its symmetry, or goes up and down alone: what it rocks by is round-off."""
+    scene = HOOP.replace(
+        release=Release(phi0_deg=180), run=Run(t_end=3.0), solve={"resolve": "all", "start": start, "rtol": 1e-3}
+    )
+    motion = flexible.simulate(scene)
+    assert (motion.ended, motion.completed, motion.t_end) == (rigid.simulate(scene).ended, True, 3.0)
+    assert (len(motion.turns), len(motion.pulses)) == (0, 0)
+    assert motion.kept  # it sags
+    assert motion.at(np.linspace(0, 3, 100)).phi == pytest.approx(pi, abs=1e-12)
+
+
 @pytest.mark.parametrize("share", [1.00098, 1.001])
 def test_a_hoop_may_be_next_to_the_top_for_long(share):
     """Thrown so that it turns 0.005 before the top, or passes it as slowly; the rigid hoop, a thousandth faster than
