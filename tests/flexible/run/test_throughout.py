@@ -254,7 +254,7 @@ def test_a_hoop_at_rest_below_has_no_turn_to_a_time(start):
     motion = flexible.simulate(scene)
     assert (motion.ended, motion.completed, motion.t_end) == (rigid.simulate(scene).ended, True, 3.0)
     assert (len(motion.turns), len(motion.pulses)) == (0, 0)
-    assert motion.kept  # it sags
+    assert motion.steps > 0  # it is marched: its ring sags
     assert motion.at(np.linspace(0, 3, 100)).phi == pytest.approx(pi, abs=1e-12)
 
 
