@@ -50,8 +50,8 @@ class Ledger:
     sagged and with a patch, and where it was put back: it tends to zero with growing stiffness, but for a hoop with
     mass and without thickness (README.md, section 1). ``residual`` is all that the others leave unexplained: the
     work of a patch's points beyond that of the patch as a whole, which is summed by trapezoids over the steps, and
-    falls like the square of their length, rtol^(2/3): below a hundredth of ``solve.rtol`` of the initial energy
-    down to 1e-5 in thin walls that are not soft, but up to a third of it in thick soft ones, and some times
+    falls like the square of their length, rtol^(2/3): a hundredth of ``solve.rtol`` of the initial energy, or less,
+    down to 1e-5 in thin walls that are not soft, but up to a tenth of it in thick soft ones, and some times
     ``solve.rtol`` in hoops that land in a pulse (README.md, section 4). It is a limit of the books, and no part of
     the motion.
     """

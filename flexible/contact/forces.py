@@ -42,7 +42,7 @@ from .points.data import (
     Slip,
 )
 from .points.detection import find, place
-from .points.leaving import all_stick, work_of_those_let_go, work_of_those_that_left
+from .points.leaving import all_stick, those_that_bear, work_of_those_let_go, work_of_those_that_left
 from .points.normal import force_by_gaps, press
 from .room import (
     PULL,
@@ -183,14 +183,15 @@ def _touch(
 
     low, high = _ends(points)
     stuck = min(answer.stuck / length, 1.0) if length > 0 else 0.0  # of weights that miss the length by 1e-4
-    beyond, kept = 0.0, 0
+    beyond, kept, first, last = 0.0, 0, 0, pull.shape[0] - 1
     if not answer.like_pressure:
         if all_stick(forces.weight, carried.sliding):
-            beyond = work_of_those_let_go(points, forces.weight, carried.stretch, before, way, law)
+            first, last = those_that_bear(forces.weight)
+            beyond = work_of_those_let_go(points, forces.weight, carried, before, slip, damper.ratio, law)
         else:
             beyond = work_of_those_that_left(points, before, rim, slip, moved, dphi, law, answer.stuck)
     for i in range(pull.shape[0]):
-        if not answer.like_pressure:
+        if not answer.like_pressure and first <= i <= last:
             beyond += (carried.pull[i] + pull[i]) * (carried.way[i] - carried.mean[i]) / 2
         kept += 1 if forces.keeps[i] != 0 else 0
     res = Resultants(

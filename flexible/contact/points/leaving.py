@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import pi
-from typing import Any
+from typing import Any, NamedTuple
 
 from rigid.kernel.compile import loop
 
@@ -47,70 +47,161 @@ def work_of_those_that_left(
 
 @loop
 def all_stick(weight: Any, sliding: Any) -> bool:
-    """Whether none of the points that bear on the floor slides."""
-    slide = 0
+    """Whether points bear on the floor, and none of them slides."""
+    bear, slide = 0, 0
     for i in range(weight.shape[0]):
+        bear += 1 if weight[i] > 0 else 0
         slide += 1 if weight[i] > 0 and abs(sliding[i]) == 1 else 0
-    return slide == 0
+    return bear > 0 and slide == 0
 
 
 @loop
-def _stretch_before(bristles: Bristles, end: int, onward: int) -> float:
-    """Stretch at an edge of a patch when the step began: of its last two bristles, by what they bear of the floor."""
-    bears, stretched, i = 0.0, 0.0, end
-    for _ in range(2):
-        if 0 <= i < bristles.number.shape[0] and bristles.stretch[i] != 0:
+def those_that_bear(weight: Any) -> tuple[int, int]:
+    """First and last of them."""
+    first, last = 0, weight.shape[0] - 1
+    while first < last and weight[first] <= 0:
+        first += 1
+    while first < last and weight[last] <= 0:
+        last -= 1
+    return first, last
+
+
+class Edge(NamedTuple):
+    """An edge of a patch that sticks."""
+
+    stretch: float  # of the bristles there
+    slope: float  # of that, over the points' distance, outward
+    place: float  # in points, outward
+
+
+@loop
+def _edge(inner: float, outer: float, outermost: int, bear: float, found: int) -> Edge:
+    """Of the outermost bristle and the next, which bear so many spacings up to it; stretches go on along a line."""
+    if found < 2:
+        return Edge(outer, 0.0, outermost + 1.0)
+    beyond = min(bear, 2.0) - 1.5
+    return Edge(outer + beyond * (outer - inner), outer - inner, outermost + beyond)
+
+
+@loop
+def _edge_before(bristles: Bristles, side: int, law: Parameters) -> Edge:
+    """The edge when the step began, on the ``side`` of greater (1) or smaller (-1) angles."""
+    last = bristles.number.shape[0] - 1
+    bears, outer, inner, outermost, found = 0.0, 0.0, 0.0, 0, 0
+    i = last if side > 0 else 0
+    while found < 2 and 0 <= i <= last:
+        if bristles.stretch[i] != 0:
             bears -= bristles.pull[i] / bristles.stretch[i]
-            stretched -= bristles.pull[i]
-        i += onward
-    return stretched / bears if bears > 0 else 0.0
+            if found == 0:
+                outer, outermost = bristles.stretch[i], side * bristles.number[i]
+            else:
+                inner = bristles.stretch[i]
+            found += 1
+        i -= side
+    return _edge(inner, outer, outermost, bears / law.eps_t / law.spacing, found)
 
 
 @loop
-def _stretch_now(weight: Any, stretch: Any, end: int, onward: int, otherwise: float) -> float:
-    """The same at its end, of those that bear."""
-    bears, stretched, i, left = 0.0, 0.0, end, 2
-    while left > 0 and 0 <= i < weight.shape[0]:
+def _edge_now(points: Any, weight: Any, stretch: Any, side: int, spacing: float) -> Edge:
+    """The same at its end."""
+    last = weight.shape[0] - 1
+    bears, outer, inner, outermost, found = 0.0, 0.0, 0.0, 0, 0
+    i = last if side > 0 else 0
+    while found < 2 and 0 <= i <= last:
         if weight[i] > 0:
             bears += weight[i]
-            stretched += weight[i] * stretch[i]
-            left -= 1
-        i += onward
-    return stretched / bears if bears > 0 else otherwise
+            if found == 0:
+                outer, outermost = stretch[i], side * points.number[i]
+            else:
+                inner = stretch[i]
+            found += 1
+        i -= side
+    return _edge(inner, outer, outermost, bears / spacing, found)
 
 
 @loop
-def work_of_those_let_go(points: Any, weight: Any, stretch: Any, before: Before, way: float, law: Parameters) -> float:
+def _borne(d: float) -> float:
+    """What a bristle ``d`` points within an edge bears until that has gone one point past it, in points.
+
+    The last two bear all of their cell up to the edge along a line, so one beyond the edge bears (1 + d)^2/2 still, and
+    one within it 1/2 + d - d^2/2, of which this is the integral.
+    """
+    if d >= 1:
+        return d
+    return 1 / 6 + d / 2 + d * d / 2 - d**3 / 6 if d >= 0 else max(1 + d, 0.0) ** 3 / 6
+
+
+@loop
+def _lags(d: float) -> float:
+    """How many points farther than to the edge one goes, weighed by what it bears."""
+    if d >= 1 or d <= -1:
+        return 0.0
+    return _borne(d) / (0.5 + d - d * d / 2 if d >= 0 else (1 + d) ** 2 / 2) - d
+
+
+@loop
+def _of_those_on_the_edge(
+    points: Any, weight: Any, carried: Any, side: int, began: Edge, ends: Edge, law: Parameters
+) -> float:
+    """Work of those that an edge has reached, and not left: they bore more until it came than trapezoids have."""
+    work, (lowest, highest) = 0.0, those_that_bear(weight)
+    i, recedes = highest if side > 0 else lowest, began.place - ends.place
+    while recedes > 0 and lowest <= i <= highest and ends.place - side * points.number[i] < 1:
+        if carried.pull[i] != 0:
+            place = side * points.number[i]
+            bore = law.spacing * (_borne(began.place - place) - _borne(ends.place - place)) / recedes
+            now, mean = carried.stretch[i], carried.stretch[i] - carried.way[i] / 2
+            more = (law.eps_t * weight[i] * now - carried.pull[i]) / 2 - law.eps_t * bore * mean
+            work += more * (carried.way[i] - carried.mean[i])
+        i -= side
+    return work
+
+
+@loop
+def work_of_those_let_go(
+    points: Any, weight: Any, carried: Any, before: Before, slip: Slip, ratio: float, law: Parameters
+) -> float:
     """The same where all of a patch sticks: a point that leaves lets go of what the bristles at the edge are stretched
     by as it does, between that when the step began and now.
 
     No other way of its own is asked for: beyond the edge the rim is held no more, and moves along the floor by many
-    times what bristles are stretched by. In a step that turns by more than the patch is long points come and go.
+    times what bristles are stretched by. In a step that turns by more than the patch is long points come and go. The
+    patch's mean way is the parabola in time that those which enter go along.
     """
     bristles = before.bristles
     number, last = bristles.number, bristles.number.shape[0] - 1
-    work = 0.0
+    work, bend = 0.0, slip.way - ratio * (slip.way - slip.way_0)
     if last < 0:
         return work
-    low, high = points.number[0], points.number[-1]
+    lowest, highest = those_that_bear(weight)
+    low, high = points.number[lowest], points.number[highest]
     for side in (1, -1):
         end, first = (last, 0) if side > 0 else (0, last)
         edge = high if side > 0 else low
         gone = side * (number[end] - edge)
         if gone <= 0:
             continue
-        began = _stretch_before(bristles, end, -side)
-        ends = _stretch_now(weight, stretch, weight.shape[0] - 1 if side > 0 else 0, -side, began)
+        began, ends = _edge_before(bristles, side, law), _edge_now(points, weight, carried.stretch, side, law.spacing)
+        work += _of_those_on_the_edge(points, weight, carried, side, began, ends, law)
+        grows = ends.stretch - began.stretch
+        recedes = began.place - ends.place
         for i in range(number.shape[0]):
             past = side * (number[i] - edge)
             if past <= 0 or bristles.stretch[i] == 0:
                 continue
-            share = (gone - past + 0.5) / gone
+            within = began.place - side * number[i]
+            lags = _lags(within)
+            share = min(max((within + lags) / recedes, 0.0), 1.0) if recedes > 0 else 0.5
             spring = -bristles.pull[i] / bristles.stretch[i]
-            left = began + share * (ends - began)
-            work -= spring * (left + bristles.stretch[i]) / 2 * (left - bristles.stretch[i] - share * way)
+            left = began.stretch + share * grows + lags * began.slope
+            work -= (
+                spring
+                * (left + bristles.stretch[i])
+                / 2
+                * (left - bristles.stretch[i] - share * (slip.way + (1 - share) * bend))
+            )
         passed = side * (number[first] - edge) - 1  # points between: they came and went
         for k in range(max(passed, 0)):
-            left = began + (gone - k - 0.5) / gone * (ends - began)
-            work -= law.eps_t * law.spacing * left / 2 * (left - (gone - passed) / gone * way)
+            left = began.stretch + (gone - k - 0.5) / gone * grows
+            work -= law.eps_t * law.spacing * left / 2 * (left - (gone - passed) / gone * slip.way)
     return work
