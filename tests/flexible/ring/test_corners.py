@@ -82,17 +82,3 @@ def test_as_a_form_of_strains_they_are_what_they_are_of_displacements():
     y = of.position_field
     turned = np.cos(0.5) * (y + u) + np.sin(0.5) * of.turned(y + u) - y
     assert exact.strain_energy(turned) == pytest.approx(exact.strain_energy(u), rel=1e-6)
-
-
-def test_their_root_by_strain_is_that_of_the_pseudo_inverse():
-    """Of any strains that rigid motions have none of: least squares by singular values, to a thousand roundings."""
-    of = ring(240, 2)
-    for which, (dofs, block) in enumerate(zip(of.corners.dofs, of.corners.blocks, strict=True)):
-        motions = [of.translation(0)[dofs], of.translation(1)[dofs], of.turned(of.position_field)[dofs]]
-        rigid, _ = np.linalg.qr(np.array(motions).T)
-        strains = np.random.default_rng(5).standard_normal((3 * len(dofs), len(dofs)))
-        strains -= strains @ rigid @ rigid.T
-        root = of.corners.by_strain(which, strains)
-        inverse = np.linalg.pinv(strains, rcond=1e-10)
-        form = -inverse.T @ block @ inverse
-        np.testing.assert_allclose(root.T @ root, form, atol=1e-12 * np.abs(form).max())
