@@ -218,7 +218,8 @@ def test_a_stick_that_breaks_for_good_is_foreseen_and_told(study):
     """Its slip stops where rolling takes more than mu N. The hoop that slides on there has J_F/J_N = 0.269942 (by scipy
     in the tests of its limit), the paper's 0.268452; no later event waits for it."""
     scene = Scene(Hoop(0.28, 1.02), Coefficients(0.41, 0.302), Release(phi0_deg=83.4), Run(until="pulse"))
-    foreseen, separate = _prediction(scene, Ladder.around(scene), "flexible")
+    foreseen, separate, lost = _prediction(scene, Ladder.around(scene), "flexible")
+    assert not lost
     hangs = hanging(scene, followed(scene))
     told = prediction_sentence(replace(study, scene=scene, prediction=foreseen, separate=separate, hanging=hangs))
     assert separate == 0.0
