@@ -160,12 +160,14 @@ def test_the_joint_does_not_know_where_the_rod_was_cut(r):
 def test_the_ends_do_not_know_where_the_ring_was_pulled(r, monkeypatch):
     """Six other loads span the same forces and moments on the two sections.
 
-    A rim pulled far from the weld moves by 1e4 to 1e6 times what its end does, and that is what is left of rounding.
+    A rim pulled far from the weld moves by 1e4 to 1e6 times what its end does, and that is what is left of rounding,
+    another one for each set of a processor's instructions; in the fourth order, of least squares with a condition of
+    20, more of it.
     """
     wall, found = 1 - 1 / r, []
     for pulled in [(2.1, pi, -2.1), (2.2, 2.9, -2.4)]:
         monkeypatch.setattr("flexible.chain.rod.section.LOADED", pulled)
         ring = Ring(ring_mesh(1 / r, 1.0, 240, 2, WELD), 0.3)
         found.append(ends(rod_compliance(ring, 3 * wall), WELD, WELD + wall))
-    for one, other in zip(*found, strict=True):
-        assert np.abs(one - other).max() <= 1e-4 * np.abs(one).max()
+    for one, other, within in zip(*found, (1e-4, 1e-4, 1e-4, 1e-3), strict=True):
+        assert np.abs(one - other).max() <= within * np.abs(one).max()

@@ -96,6 +96,7 @@ def test_an_event_is_where_the_rigid_motion_has_it(phi0_deg):
         assert min(abs(event.phi - phi) for phi in begins) < 1e-12
 
 
+@pytest.mark.slow
 def test_what_is_far_faster_than_the_patch_costs_its_rows_alone():
     """The prediction of a stick that is kept needs no layer: it is there, and by the creep of that damper."""
     study = limit_study("paper-3.3-massless", damping=1000, foundations=(1e13, 1e14))
