@@ -206,14 +206,15 @@ def test_a_chattering_ring_lies_on_the_floor_wherever_it_is_down():
 
     A node that is pushed up beside one that is not leaves a dip between them. One just outside of the window of nodes
     at hand went unseen 3e-7 R into the floor, a hundred times as deep as the patch, and pushed with 1e5 times the
-    weight once it was seen: at t = 6.79907 no step however short could be solved. At 6.80138 a spot that bristles held
-    to the floor snaps off, and the patch has no neighbouring state in which it sticks.
+    weight once it was seen: at t = 6.79907 no step however short could be solved. Where a spot that bristles held to
+    the floor snaps off, the patch has no neighbouring state in which it sticks; when that happens hangs on rounding, at
+    6.75475 or 6.80138 on two processors, and the run ends before.
     """
-    scene = ROLL.replace(hoop={"k": 0.03}, ring={"bending_stiffness": 1.0}, run=Run(t_end=6.803))
-    motion = flexible.simulate(scene, history=True)  # some 25 000 steps, of 50 000 at most
+    scene = ROLL.replace(hoop={"k": 0.03}, ring={"bending_stiffness": 1.0}, run=Run(t_end=6.745))
+    motion = flexible.simulate(scene, history=True)  # some 20 000 steps, of 50 000 at most
     assert motion.completed, motion.ended
     hoop, down = motion.kept[0].hoop, 0
-    for state in [state for kept in motion.kept for state in kept.states if state.t > 6.79]:
+    for state in [state for kept in motion.kept for state in kept.states if state.t > 6.59]:
         first, count = state.window
         u = hoop.displacement(state, (first - 2, count + 4))
         gaps = [
