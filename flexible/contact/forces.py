@@ -187,7 +187,10 @@ def _touch(
     if not answer.like_pressure:
         if all_stick(forces.weight, carried.sliding):
             first, last = those_that_bear(forces.weight)
-            beyond = work_of_those_let_go(points, forces.weight, carried, before, slip, damper.ratio, law)
+            spring = law.eps_t * law.spacing
+            beyond = work_of_those_let_go(
+                points, (first, last), pull, carried, before.bristles, slip, damper.ratio, spring
+            )
         else:
             beyond = work_of_those_that_left(points, before, rim, slip, moved, dphi, law, answer.stuck)
     for i in range(pull.shape[0]):

@@ -23,10 +23,7 @@ from .scales import epsilon, theta_of
 START, STOP, REVERSAL, BREAK = "slip starts", "slip stops", "slip reverses", "slip stops, stick breaks"
 """The last is a stop of the rigid hoop behind which a compliant one slides on: its layer ends so."""
 
-_LONGEST = (
-    20.0  # times as long as the paper's pulse: a hoop that slides on in it has then come to its end, or never does
-)
-
+_LONGEST = 20.0  # paper's pulses: a hoop that slides on in one has come to its end within so many, or never does
 _ROUND_OFF = 1e-12  # of the times at which a phase and a pulse begin or end together
 
 

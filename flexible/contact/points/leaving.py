@@ -75,48 +75,25 @@ class Edge(NamedTuple):
 
 
 @loop
-def _edge(inner: float, outer: float, outermost: int, bear: float, found: int) -> Edge:
-    """Of the outermost bristle and the next, which bear so many spacings up to it; stretches go on along a line."""
-    if found < 2:
-        return Edge(outer, 0.0, outermost + 1.0)
-    beyond = min(bear, 2.0) - 1.5
-    return Edge(outer + beyond * (outer - inner), outer - inner, outermost + beyond)
+def _edge_of(number: Any, stretch: Any, pull: Any, side: int, spring: float) -> Edge:
+    """The edge on the ``side`` of greater (1) or smaller (-1) angles; a point that bears its cell has that ``spring``.
 
-
-@loop
-def _edge_before(bristles: Bristles, side: int, law: Parameters) -> Edge:
-    """The edge when the step began, on the ``side`` of greater (1) or smaller (-1) angles."""
-    last = bristles.number.shape[0] - 1
-    bears, outer, inner, outermost, found = 0.0, 0.0, 0.0, 0, 0
+    What the last two bear says how far the edge is, and up to there bristles are stretched along the line through them.
+    """
+    last = number.shape[0] - 1
+    bear, outer, slope, outermost, found = 0.0, 0.0, 0.0, 0, 0
     i = last if side > 0 else 0
     while found < 2 and 0 <= i <= last:
-        if bristles.stretch[i] != 0:
-            bears -= bristles.pull[i] / bristles.stretch[i]
+        if stretch[i] != 0 and pull[i] != 0:
+            bear -= pull[i] / stretch[i] / spring
             if found == 0:
-                outer, outermost = bristles.stretch[i], side * bristles.number[i]
+                outer, outermost = stretch[i], side * number[i]
             else:
-                inner = bristles.stretch[i]
+                slope = outer - stretch[i]
             found += 1
         i -= side
-    return _edge(inner, outer, outermost, bears / law.eps_t / law.spacing, found)
-
-
-@loop
-def _edge_now(points: Any, weight: Any, stretch: Any, side: int, spacing: float) -> Edge:
-    """The same at its end."""
-    last = weight.shape[0] - 1
-    bears, outer, inner, outermost, found = 0.0, 0.0, 0.0, 0, 0
-    i = last if side > 0 else 0
-    while found < 2 and 0 <= i <= last:
-        if weight[i] > 0:
-            bears += weight[i]
-            if found == 0:
-                outer, outermost = stretch[i], side * points.number[i]
-            else:
-                inner = stretch[i]
-            found += 1
-        i -= side
-    return _edge(inner, outer, outermost, bears / spacing, found)
+    beyond = min(bear, 2.0) - 1.5 if found == 2 else 1.0
+    return Edge(outer + beyond * slope, slope, outermost + beyond)
 
 
 @loop
@@ -141,67 +118,66 @@ def _lags(d: float) -> float:
 
 @loop
 def _of_those_on_the_edge(
-    points: Any, weight: Any, carried: Any, side: int, began: Edge, ends: Edge, law: Parameters
+    points: Any, bears: tuple[int, int], pull: Any, carried: Any, side: int, edges: tuple[Edge, Edge], spring: float
 ) -> float:
     """Work of those that an edge has reached, and not left: they bore more until it came than trapezoids have."""
-    work, (lowest, highest) = 0.0, those_that_bear(weight)
-    i, recedes = highest if side > 0 else lowest, began.place - ends.place
-    while recedes > 0 and lowest <= i <= highest and ends.place - side * points.number[i] < 1:
+    began, ends = edges
+    work, recedes = 0.0, began.place - ends.place
+    i = bears[1] if side > 0 else bears[0]
+    while recedes > 0 and bears[0] <= i <= bears[1] and ends.place - side * points.number[i] < 1:
         if carried.pull[i] != 0:
             place = side * points.number[i]
-            bore = law.spacing * (_borne(began.place - place) - _borne(ends.place - place)) / recedes
-            now, mean = carried.stretch[i], carried.stretch[i] - carried.way[i] / 2
-            more = (law.eps_t * weight[i] * now - carried.pull[i]) / 2 - law.eps_t * bore * mean
-            work += more * (carried.way[i] - carried.mean[i])
+            bore = spring * (_borne(began.place - place) - _borne(ends.place - place)) / recedes
+            mean = carried.stretch[i] - carried.way[i] / 2
+            work -= ((pull[i] + carried.pull[i]) / 2 + bore * mean) * (carried.way[i] - carried.mean[i])
         i -= side
     return work
 
 
 @loop
 def work_of_those_let_go(
-    points: Any, weight: Any, carried: Any, before: Before, slip: Slip, ratio: float, law: Parameters
+    points: Any,
+    bears: tuple[int, int],
+    pull: Any,
+    carried: Any,
+    bristles: Bristles,
+    slip: Slip,
+    ratio: float,
+    spring: float,
 ) -> float:
     """The same where all of a patch sticks: a point that leaves lets go of what the bristles at the edge are stretched
-    by as it does, between that when the step began and now.
+    by as it does, between that when the step began and now. ``bears`` are the first and the last that bear.
 
     No other way of its own is asked for: beyond the edge the rim is held no more, and moves along the floor by many
     times what bristles are stretched by. In a step that turns by more than the patch is long points come and go. The
     patch's mean way is the parabola in time that those which enter go along.
     """
-    bristles = before.bristles
     number, last = bristles.number, bristles.number.shape[0] - 1
     work, bend = 0.0, slip.way - ratio * (slip.way - slip.way_0)
     if last < 0:
         return work
-    lowest, highest = those_that_bear(weight)
-    low, high = points.number[lowest], points.number[highest]
     for side in (1, -1):
         end, first = (last, 0) if side > 0 else (0, last)
-        edge = high if side > 0 else low
+        edge = points.number[bears[1] if side > 0 else bears[0]]
         gone = side * (number[end] - edge)
         if gone <= 0:
             continue
-        began, ends = _edge_before(bristles, side, law), _edge_now(points, weight, carried.stretch, side, law.spacing)
-        work += _of_those_on_the_edge(points, weight, carried, side, began, ends, law)
-        grows = ends.stretch - began.stretch
-        recedes = began.place - ends.place
+        began = _edge_of(number, bristles.stretch, bristles.pull, side, spring)
+        ends = _edge_of(points.number, carried.stretch, pull, side, spring)
+        work += _of_those_on_the_edge(points, bears, pull, carried, side, (began, ends), spring)
+        grows, recedes = ends.stretch - began.stretch, began.place - ends.place
         for i in range(number.shape[0]):
-            past = side * (number[i] - edge)
-            if past <= 0 or bristles.stretch[i] == 0:
+            stretch = bristles.stretch[i]
+            if side * (number[i] - edge) <= 0 or stretch == 0:
                 continue
             within = began.place - side * number[i]
             lags = _lags(within)
             share = min(max((within + lags) / recedes, 0.0), 1.0) if recedes > 0 else 0.5
-            spring = -bristles.pull[i] / bristles.stretch[i]
             left = began.stretch + share * grows + lags * began.slope
-            work -= (
-                spring
-                * (left + bristles.stretch[i])
-                / 2
-                * (left - bristles.stretch[i] - share * (slip.way + (1 - share) * bend))
-            )
+            pulled = bristles.pull[i] * (1 + left / stretch) / 2
+            work += pulled * (left - stretch - share * (slip.way + (1 - share) * bend))
         passed = side * (number[first] - edge) - 1  # points between: they came and went
         for k in range(max(passed, 0)):
             left = began.stretch + (gone - k - 0.5) / gone * grows
-            work -= law.eps_t * law.spacing * left / 2 * (left - (gone - passed) / gone * slip.way)
+            work -= spring * left / 2 * (left - (gone - passed) / gone * slip.way)
     return work
