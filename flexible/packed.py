@@ -1,4 +1,4 @@
-"""States of the ring as arrays and back, for a file.
+"""What a file keeps of a motion, as arrays and plain data, and states of its ring as arrays and back.
 
 What has one size in all states of a hoop is stacked; what has not (the rim near the floor, the points in contact) is
 laid end to end, with its lengths.
@@ -6,16 +6,22 @@ laid end to end, with its lengths.
 
 from __future__ import annotations
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rigid.output.file import Stored
+
 from .contact.points.data import Bristles, Rates, Resultants
 from .models.state import State
+from .motion import FlexibleMotion
 
 Arrays = dict[str, NDArray[Any]]
+
+COURSE = ("step", "pace", "attempts", "turns", "way", "stalls")  # what of where a march stands a file keeps as it is
 
 _NUMBERS = ("t", "x_C", "slip_velocity", "elastic_rate", "elastic_bend")
 _WHOLE = ("mode", "window")
@@ -65,3 +71,31 @@ def unpack(arrays: Mapping[str, NDArray[Any]]) -> tuple[State, ...]:
             )
         )
     return tuple(states)
+
+
+def stored(motion: FlexibleMotion, pieces: Sequence[tuple[dict[str, Any], Arrays]]) -> Stored:
+    """What a file keeps of a motion: its pieces, each as plain data and arrays, where each march stands, and the states
+    of the ring if the motion has them."""
+    arrays: Arrays = {}
+    for number, (_, found) in enumerate(pieces):
+        arrays |= {f"{number}.{name}": column for name, column in found.items()}
+    marches = []
+    for number, (marched, turned) in enumerate(motion.marches):
+        course = marched.course
+        arrays |= {f"march{number}.{name}": a for name, a in pack([marched.state, course.now.state]).items()}
+        if motion.kept:
+            arrays |= {f"kept{number}.{name}": a for name, a in pack(motion.kept[number].states).items()}
+        marches.append({
+            "attempts": marched.attempts, "turned": turned,
+            "course": {name: getattr(course.now, name) for name in COURSE}, "length": course.length,
+            "books": course.now.books._asdict(),
+        })  # fmt: skip
+    lists = {name: [dataclasses.asdict(item) for item in getattr(motion, name)] for name in ("phases", "turns")}
+    pulses = [dataclasses.asdict(dataclasses.replace(pulse, sample=None)) for pulse in motion.pulses]
+    told = {
+        **lists, "pulses": pulses, "pieces": [piece for piece, _ in pieces], "ledger": dataclasses.asdict(motion.ledger),
+        "ended": motion.ended, "period": motion.period, "completed": motion.completed, "steps": motion.steps,
+        "history": motion.history is not None,
+        "marches": marches, "kept": bool(motion.kept),
+    }  # fmt: skip
+    return Stored("flexible", told, arrays)

@@ -1,4 +1,4 @@
-"""The pieces of a motion, rigid and flexible: its state at any time, and what a file keeps of it."""
+"""The pieces of a motion, rigid and flexible: its state at any time."""
 
 from __future__ import annotations
 
@@ -15,12 +15,10 @@ from rigid.output.file import Stored
 from rigid.output.units import in_units
 
 from .motion import FlexibleMotion
-from .packed import pack
+from .packed import stored
 from .segment import Segment
 
 Array = NDArray[np.float64]
-
-COURSE = ("step", "pace", "attempts", "turns", "way", "stalls")  # what of where a march stands a file keeps as it is
 
 
 @dataclass(frozen=True)
@@ -52,6 +50,15 @@ class Piece:
         assert self.motion is not None
         within = [self.origin + phase.t_end for phase in self.motion.phases if phase.t_end < self.t_end - self.origin]
         return np.array([self.t_start, *within, self.t_end])
+
+    def stored(self) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+        """What a file keeps of it, as plain data and as arrays: the records of a flexible one, or a rigid motion."""
+        told: dict[str, Any] = {name: getattr(self, name) for name in ("t_start", "t_end", "origin", "x_C")}
+        if self.segment is not None:
+            return told | {"rise": self.segment.rise, "columns": list(self.segment.columns)}, self.segment.columns
+        assert self.motion is not None
+        rigid = self.motion.sample.stored(self.motion)  # type: ignore[attr-defined]
+        return told | {"rigid": rigid.told, "scene": scene_to_dict(self.motion.scene)}, rigid.arrays
 
 
 def on_clock(t: Array, known: Array, seen: Array, about: Array, side: Side) -> Array:
@@ -98,41 +105,8 @@ class Sampler:
         return np.sort(np.concatenate([met, *known])) * self.scene.time_unit
 
     def stored(self, motion: FlexibleMotion) -> Stored:
-        """What a file keeps of the motion: the records of its flexible segments and the rigid motions between them,
-        where each march stands, and the states of the ring if the motion has them."""
-        arrays: dict[str, NDArray[Any]] = {}
-        pieces = []
-        for number, piece in enumerate(self.pieces):
-            told: dict[str, Any] = {name: getattr(piece, name) for name in ("t_start", "t_end", "origin", "x_C")}
-            if piece.segment is not None:
-                found, told["rise"] = piece.segment.columns, piece.segment.rise
-                told["columns"] = list(found)
-            else:
-                assert piece.motion is not None
-                rigid = piece.motion.sample.stored(piece.motion)  # type: ignore[attr-defined]
-                found, told["rigid"], told["scene"] = rigid.arrays, rigid.told, scene_to_dict(piece.motion.scene)
-            arrays |= {f"{number}.{name}": column for name, column in found.items()}
-            pieces.append(told)
-        marches = []
-        for number, (marched, turned) in enumerate(motion.marches):
-            course = marched.course
-            arrays |= {f"march{number}.{name}": a for name, a in pack([marched.state, course.now.state]).items()}
-            if motion.kept:
-                arrays |= {f"kept{number}.{name}": a for name, a in pack(motion.kept[number].states).items()}
-            marches.append({
-                "attempts": marched.attempts, "turned": turned,
-                "course": {name: getattr(course.now, name) for name in COURSE}, "length": course.length,
-                "books": course.now.books._asdict(),
-            })  # fmt: skip
-        lists = {name: [dataclasses.asdict(item) for item in getattr(motion, name)] for name in ("phases", "turns")}
-        pulses = [dataclasses.asdict(replace(pulse, sample=None)) for pulse in motion.pulses]
-        told = {
-            **lists, "pulses": pulses, "pieces": pieces, "ledger": dataclasses.asdict(motion.ledger),
-            "ended": motion.ended, "period": motion.period, "completed": motion.completed, "steps": motion.steps,
-            "history": motion.history is not None,
-            "marches": marches, "kept": bool(motion.kept),
-        }  # fmt: skip
-        return Stored("flexible", told, arrays)
+        """See :func:`flexible.packed.stored`."""
+        return stored(motion, [piece.stored() for piece in self.pieces])
 
     def __call__(self, t: Array, side: Side) -> States:
         if not self.pieces:

@@ -148,7 +148,7 @@ class StiffnessStudy(summary.Summarised):
         return abs(float(term.at(contact_stiffness ** (-1 / 3))) - term.limit)
 
     def loose(self, rung: Rung) -> tuple[str, ...]:
-        """Measures of a rung whose numerical error is more than its share of the distance to the rigid value."""
+        """Measures of a rung whose numerical error is more than its share of the distance, found or predicted."""
         if rung.outcome.resolved or rung.outcome.failure:
             return ()
         distances = {

@@ -3,9 +3,9 @@
 Method. (1) The rigid hoop gives the pulse, and the measures that the limit should have. (2) :mod:`studies.limit`
 predicts the approach from the rigid motion and the contact law alone. (3) The flexible hoop goes through the same pulse
 on every rung of a ladder of stiffness, each at a tolerance that keeps its numerical error below a tenth of its distance
-from those measures, shown by a second run at a quarter of the tolerance. (4) The rate of the distance is fitted, and
-the cases are extrapolated to infinite stiffness without knowing the rigid value, by the law's own exponents where
-theory has them; then the two are compared.
+from those measures, or of the predicted one where that is more, shown by a second run at a quarter of the tolerance.
+(4) The rate of the distance is fitted, and the cases are extrapolated to infinite stiffness without knowing the rigid
+value, by the law's own exponents where theory has them; then the two are compared.
 
 The solvers are known here only by what every motion has: its pulses and their measures.
 """

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from ...sweep import Row
     from ...sweep import Table as SweepTable
 
+STAR = "* The numerical error is more than a tenth of the distance to the rigid hoop, found or predicted."
 _REASONS = 10
 """Failed cases whose reasons are printed; the table has all."""
 
@@ -132,7 +133,7 @@ def study_tables(study: StiffnessStudy) -> list[Any]:
     ]
     limits = Sheet("Limit for infinite stiffness", limit_columns[:1], limit_columns[1:])
     loose = any(not r.outcome.resolved for r in study.rungs if not r.outcome.failure)
-    star = ["* The numerical error is more than a tenth of the distance to the rigid hoop."] if loose else []
+    star = [STAR] if loose else []
     foreseen = [prediction_sentence(study)] if study.prediction is not None else []
     return [
         ladder,
