@@ -236,6 +236,7 @@ def entry_run(par, state, room, events):
             code = soar(par, state, events)
             if code == PHASE_OVER:
                 state[MODE] = IMPACT
+                state[STALLS] = 0.0 if state[T] != before else state[STALLS]
                 continue
         elif mode == IMPACT:
             code = hit(par, state, events)

@@ -48,6 +48,7 @@ NEAR_TOP = (
 TINY = 1e-12  # K of a disk that whips past the top at 1/k, where the energy has no digit of its rotation
 A_TENTH = 0.1
 UPRIGHT = 1e-13  # sin phi
+LAST_DIGITS = 1e-15  # of terms, in a difference of them
 GRAZE = 1e-11  # of the velocity of G: beyond 0 the slip goes by no more where it touches that, by round-off
 
 # what a step is cut at
@@ -175,12 +176,13 @@ def step(par, state, mu_hat, p_known, work):
     b, v, om = work[S_B], work[S_SLIP], work[S_OMEGA]
     if v[0] == 0.0:
         # a slip that starts with mu_s = mu starts with no acceleration either, up to the round-off of its
-        # terms
-        gyr, es = par[GYR], par[ECC] * abs(work[S_SIN][0])
+        # terms; b and D, differences themselves, have that of theirs, which is all where N is next to nothing
+        gyr, es, mu, w = par[GYR], par[ECC] * abs(work[S_SIN][0]), par[MU], om[0] * om[0]
         arm = par[ONE_MINUS_E] + par[ECC] * work[S_H][0]
-        terms = (gyr + es + par[MU] * arm) * abs(b[0]) + es * om[0] * om[0] * work[S_D][0]
-        stands = par[MU] == 0.0 and is_upright(work[S_SIN][0], om[0])  # a sign that is known is kept
-        if stands or (par[MU] > 0.0 and abs(v[1]) <= 1e-13 * terms):
+        terms = (gyr + es + mu * arm) * abs(b[0]) + es * w * work[S_D][0]
+        within = (mu * gyr + arm * (es + mu * arm)) * (1 + par[ECC] * w) + es * w * (gyr + es * (es + mu * arm))
+        stands = mu == 0.0 and is_upright(work[S_SIN][0], om[0])  # a sign that is known is kept
+        if stands or (mu > 0.0 and abs(v[1]) <= 1e-13 * terms + LAST_DIGITS * within):
             v[1] = 0.0
     if abs(b[0]) <= 1e-14 * (1 + par[ECC] * om[0] * om[0]):
         b[0] = 0.0
@@ -218,7 +220,8 @@ def end_of_slip(par, state, work, length, sign):
         elif back < length:
             length, event = back, GRAZES
     x = first_crossing(work[S_B], ORDER, length, 1.0)
-    if x >= 0:
+    # where b = 0 it goes on by e s omega^3 D: on a way that comes down from the top b is below 0 by round-off alone
+    if x >= 0 and value(work[S_SIN], ORDER, x) * value(work[S_OMEGA], ORDER, x) < 0:
         length, event = x, LIFTS
     return length, event
 
