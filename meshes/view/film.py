@@ -7,13 +7,14 @@ import io
 import itertools
 import json
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rigid.output.whole import write_whole
+from rigid.output.whole import try_out, write_whole
 
 from ..draw import style
 from ..draw.display import ViewError
@@ -120,15 +121,24 @@ FORMATS = {
 
 
 def require_folder(path: Path) -> None:
-    """Refuse a file for which there is no folder, before anything is drawn."""
+    """Refuse a file for which there is no folder, or one that takes no such file, before anything is drawn."""
     if not path.parent.is_dir():
         raise ViewError(f"{path} cannot be written: there is no folder {path.parent}.")
+    with _told(path):
+        try_out(path)
 
 
 def _whole(path: Path, save: Callable[[Path], object]) -> None:
     """Save a file whole or not at all, with trouble in a sentence."""
-    try:
+    with _told(path):
         write_whole(path, save)
+
+
+@contextmanager
+def _told(path: Path) -> Iterator[None]:
+    """Trouble with a file in a sentence."""
+    try:
+        yield
     except OSError as error:
         said = error.strerror or " ".join(str(error).split()[:60])  # ffmpeg's own words may fill a screen
         raise ViewError(f"{path} cannot be written: {said}.") from None

@@ -21,6 +21,27 @@ def host() -> str:
     return platform.node() or "here"
 
 
+def try_out(path: Path) -> None:
+    """Find out before the work whether a file can be written there; nothing is left of it, and nothing touched.
+
+    Raises
+    ------
+    OSError
+        As :func:`write_whole` would have it, naming ``path``: its folder takes no file, its name cannot be one's.
+    """
+    import tempfile
+
+    try:
+        if path.is_dir():
+            raise OSError(errno.EISDIR, os.strerror(errno.EISDIR))
+        with suppress(FileNotFoundError):
+            path.lstat()  # a name too long is no file that is not there
+        with tempfile.TemporaryFile(dir=path.parent):
+            pass
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
+
+
 def write_whole(path: Path, write: Callable[[Path], object], synced: bool = False) -> None:
     """Let ``write`` fill a file beside ``path``, then rename it: a reader sees all of it or none.
 

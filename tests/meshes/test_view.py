@@ -445,6 +445,18 @@ def test_a_file_without_a_folder_is_refused_before_anything_is_drawn(tmp_path):
             draw(None, tmp_path / "nowhere" / name)  # of nothing at all: it is not looked at
 
 
+@needs_renderer
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="no folder there that takes no file of anybody's")
+def test_a_file_that_cannot_be_written_is_refused_before_anything_is_drawn(tmp_path):
+    """Into a folder that takes none, of a name too long, in the place of a folder; nothing is left where it can be."""
+    for draw, suffix in ((picture, ".png"), (animate, ".gif"), (animate, ".html")):
+        (tmp_path / f"folder{suffix}").mkdir(exist_ok=True)
+        for path in (Path("/proc") / f"a{suffix}", tmp_path / ("a" * 300 + suffix), tmp_path / f"folder{suffix}"):
+            with pytest.raises(ViewError, match=r"a*\S* cannot be written: .*\.$"):
+                draw(None, path)
+    assert {path.name for path in tmp_path.iterdir()} == {"folder.png", "folder.gif", "folder.html"}
+
+
 def test_an_enlarged_view_keeps_the_contact_in_the_middle(series):
     chosen = setting(series, zoom=8)
     assert chosen.factor <= setting(series).factor / 5  # 8, rounded to a tidy factor

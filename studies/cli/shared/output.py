@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from rigid import Motion, Run, Scene
 from rigid.output.units import Unit
+from rigid.output.whole import try_out
 
 from ...running import history
 from ...running.files import StudyError, to_json, trouble, write_text
@@ -138,8 +139,9 @@ def write_mesh(scene: Scene, path: Path) -> str:
 
     if not path.parent.is_dir():
         raise StudyError(f"{path} cannot be written: there is no folder {path.parent}.")
-    ring = ring_for(scene.to_dimensionless()).mesh
     try:
+        try_out(path)
+        ring = ring_for(scene.to_dimensionless()).mesh
         save_mesh(ring, path, scene.hoop.R)
     except MeshError as error:
         raise StudyError(str(error)) from None

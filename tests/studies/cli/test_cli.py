@@ -271,6 +271,20 @@ def test_a_mesh_into_no_folder_is_told_which(hoop, tmp_path):
     assert f"there is no folder {tmp_path / 'nodir'}." in err
 
 
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="no folder there that takes no file of anybody's")
+def test_a_folder_that_takes_no_file_is_told_before_the_work(hoop, monkeypatch):
+    def work(*_, **__):
+        raise AssertionError("it was run")
+
+    monkeypatch.setattr("studies.running.solvers.solver", work)
+    monkeypatch.setattr("flexible.models.select.ring_for", work)
+    for command in (("view", "paper-3.1", "--png", "/proc/a.png"), ("mesh", "paper-3.3-light", "/proc/a.msh")):
+        status, out, err = hoop(*command)
+        assert (status, out) == (2, "")
+        assert is_one_sentence(err)
+        assert command[-1] in err
+
+
 @pytest.mark.parametrize("name", ["", ".", "/"])
 def test_a_mesh_by_the_name_of_a_folder_is_one_sentence(hoop, name):
     status, out, err = hoop("mesh", "paper-3.3-light", name)
