@@ -17,7 +17,7 @@ import numpy as np
 import flexible
 from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
 
-from ..inner.body import body_of, rolling_forces
+from ..inner.march.body import body_of, rolling_forces
 from .knobs import Setting, pulse_at
 from .race import Claim, Result, Row
 from .truth.reference import errors, massless_brush, massless_pulse

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf, sqrt
 
-from .march import BRUSH, REGULARISED, ScaledContact
+from .march.equations import BRUSH, REGULARISED, ScaledContact
 
 
 @dataclass(frozen=True, slots=True)

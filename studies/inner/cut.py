@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from .body import Body
 from .events import START, Event
 from .layers import layer, outer_forces
-from .march import PATCH, REGULARISED, ScaledContact
+from .march.body import Body
+from .march.equations import PATCH, REGULARISED, ScaledContact
 
 
 def impulses_until(body: Body, contact: ScaledContact, event: Event, tau: float) -> Any:

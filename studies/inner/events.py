@@ -16,8 +16,8 @@ from rigid import Kind, Motion, Phase, Pulse, Release, Run, Scene, simulate
 from rigid.output.units import without_units
 
 from ..running.files import StudyError
-from .body import Body, arms, body_of
-from .march import BRUSH, PATCH, REGULARISED, ScaledContact
+from .march.body import Body, arms, body_of
+from .march.equations import BRUSH, PATCH, REGULARISED, ScaledContact
 from .scales import epsilon, theta_of
 
 START, STOP, REVERSAL, BREAK = "slip starts", "slip stops", "slip reverses", "slip stops, stick breaks"

@@ -15,15 +15,13 @@ from rigid.kernel.interrupts import between_calls
 from rigid.kernel.store import is_cold
 
 from ..running.files import StudyError
-from .body import Body, accelerations, contact_mobility, rolling_forces, sliding_force
-from .bristles import SIZE, Bristles, bristles, set_stretch
 from .creep import creep, half_width, sticking_part
 from .events import START, Event
-from .march import (
+from .march.body import Body, accelerations, contact_mobility, rolling_forces, sliding_force
+from .march.bristles import SIZE, Bristles, bristles, set_stretch
+from .march.equations import (
     BRUSH,
-    COLUMNS,
     HEIGHT,
-    NARROW,
     OMEGA,
     PATCH,
     PSI,
@@ -36,8 +34,8 @@ from .march import (
     STICK,
     ScaledContact,
     System,
-    march,
 )  # fmt: skip
+from .march.run import COLUMNS, march
 
 Array = NDArray[np.float64]
 
@@ -75,7 +73,7 @@ class Layer:
     switches: tuple[tuple[float, int], ...]
     """(tau, mode) of every change of what the patch does."""
     end: Array
-    """State at the end, see :mod:`studies.inner.march`."""
+    """State at the end, see :mod:`studies.inner.march.equations`."""
     period: float
     """Of the patch's approach, linearised where the layer tends."""
 
@@ -161,9 +159,6 @@ def layer(
         if contact.law == REGULARISED and event.behind is not None and slow > 0:
             duration += min(slow / abs(_quickening(body, event, True)), _AHEAD * duration)
     too_many = f"The layer at phi = {event.phi:.4g} takes more than {MOST:g} steps: {TOO_FAST}."
-    # the rate of the damper as the march has it, which takes no patch to be narrower
-    if contact.theta * NARROW * half * (1 + contact.kappa) / 2 * duration / fineness > MOST:
-        raise TooFastError(too_many)
     state = np.zeros(STATE)
     state[PSI], state[OMEGA], state[HEIGHT] = event.psi, event.omega, -(half**2) / 2
     kept = bristles(2 * half / _POINTS)
@@ -233,7 +228,7 @@ def _lacking(body: Body, contact: ScaledContact, event: Event, slip: float, behi
 
 
 def _marched(system: System, state: Array, mode: int, kept: Bristles, ends: Array) -> Any:
-    """:func:`studies.inner.march.march`; by the interpreter, to the same numbers, as long as compiling takes longer."""
+    """:func:`.march.run.march`; by the interpreter, to the same numbers, as long as compiling takes longer."""
     if system.contact.law == BRUSH or (left := _patience.left()) <= 0:
         return _compiled(system, state, mode, kept, ends)
     by_python: Any = march

@@ -18,12 +18,12 @@ from flexible.contact.laws.listing import LAWS
 from rigid import Scene
 from rigid.kernel.interrupts import between_calls
 
-from ..inner.body import accelerations, rolling_forces, sliding_force
-from ..inner.bristles import SIZE, bristles, set_stretch
 from ..inner.creep import creep, half_width
 from ..inner.events import Passage, passage
 from ..inner.layers import TOO_FAST, TooFastError
-from ..inner.march import (
+from ..inner.march.body import accelerations, rolling_forces, sliding_force
+from ..inner.march.bristles import SIZE, bristles, set_stretch
+from ..inner.march.equations import (
     BRUSH,
     FRICTION_IMPULSE,
     FRICTION_WORK,
@@ -39,8 +39,8 @@ from ..inner.march import (
     STATE,
     STICK,
     System,
-    march,
 )  # fmt: skip
+from ..inner.march.run import march
 from ..inner.scales import epsilon
 from ..running.files import StudyError
 
@@ -112,11 +112,6 @@ def march_through(way: Passage, eps: float, fineness: float = 0.1) -> tuple[np.n
     """What the state of the march gains over a pulse (R = g = M = 1, scaled), and how often it breaks or sticks."""
     state, mode, kept = _start(way, eps)
     switches, before = 0, np.zeros(STATE)
-    # in a pulse N is above Mg: the damper's rate there, as the march has it, is at least this
-    rate = way.contact.theta * 2 * half_width(1.0) * (1 + way.contact.kappa) / 4
-    lasts = (way.pulse.t_end - way.pulse.t_start) / way.scene.time_unit / eps
-    if rate * lasts / fineness > _MOST:
-        raise TooFastError(_TOO_MANY)
     for psi in way.edges:
         if psi != way.start:
             ends = np.array([np.inf, psi, fineness, _SPARSE, _MOST])

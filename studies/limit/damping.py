@@ -21,7 +21,7 @@ from rigid import Scene, simulate
 
 from ..inner.events import STOP
 from ..inner.layers import period_of
-from ..inner.march import PATCH
+from ..inner.march.equations import PATCH
 from ..inner.scales import epsilon, theta_of
 from ..inner.stops.hanging import followed, hanging
 from ..plots.sheet import number

@@ -25,10 +25,10 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.special import ai_zeros
 
-from ..inner.body import Body, arms, rolling_forces, rolling_inertia
 from ..inner.creep import half_width, strongest_part
 from ..inner.events import Event
-from ..inner.march import ScaledContact
+from ..inner.march.body import Body, arms, rolling_forces, rolling_inertia
+from ..inner.march.equations import ScaledContact
 from .outer import Shift, passed
 
 

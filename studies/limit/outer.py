@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from ..inner.body import Body, arms, rolling_forces, rolling_inertia, sliding_force
 from ..inner.creep import Creep, creep
 from ..inner.events import Stretch
-from ..inner.march import ScaledContact
+from ..inner.march.body import Body, arms, rolling_forces, rolling_inertia, sliding_force
+from ..inner.march.equations import ScaledContact
 
 NO_CREEP = Creep(0.0, 0.0)
 _ACCURACY: Any = {"method": "DOP853", "rtol": 1e-11, "atol": 1e-13}

@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 
 from rigid import Scene
 
-from ..inner.body import arms, rolling_forces, rolling_inertia
 from ..inner.creep import creep
 from ..inner.cut import impulses_far_behind, impulses_until
 from ..inner.events import START, STOP, Event, Passage, Stretch
 from ..inner.layers import slip_behind
-from ..inner.march import BRUSH, REGULARISED
+from ..inner.march.body import arms, rolling_forces, rolling_inertia
+from ..inner.march.equations import BRUSH, REGULARISED
 from ..inner.scales import epsilon
 from ..inner.stops.hanging import followed
 from ..running.files import StudyError

@@ -15,7 +15,7 @@ import numpy as np
 from flexible.contact.laws.listing import LAWS
 from rigid import Scene, simulate
 
-from ...inner.march import PATCH, REGULARISED
+from ...inner.march.equations import PATCH, REGULARISED
 from ...limit.prediction import predict
 from ...plots.sheet import Column, Sheet, number
 from ...running.files import StudyError

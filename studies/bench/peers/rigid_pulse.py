@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from rigid import Scene
 
-from ...inner.body import rolling_forces, sliding_force
 from ...inner.events import passage
+from ...inner.march.body import rolling_forces, sliding_force
 
 Array = NDArray[np.float64]
 

@@ -11,11 +11,11 @@ from math import inf
 import numpy as np
 
 from ...running.files import StudyError
-from ..body import Body
 from ..creep import half_width
 from ..events import Event
 from ..layers import layer, outer_forces, period_of
-from ..march import PATCH, ScaledContact
+from ..march.body import Body
+from ..march.equations import PATCH, ScaledContact
 
 _THETAS = np.geomspace(8.0, 1e-3, 40)  # of the patch's period over 2 pi: far over critical to next to none
 _STRONGER = np.geomspace(1024.0, 8.0, 8)

@@ -13,10 +13,10 @@ import numpy as np
 from rigid import Scene
 
 from ...running.files import StudyError
-from ..body import Body
 from ..events import BREAK, STOP, Event, Passage, passage
 from ..layers import layer, outer_forces
-from ..march import PATCH, REGULARISED, STICK, ScaledContact
+from ..march.body import Body
+from ..march.equations import PATCH, REGULARISED, STICK, ScaledContact
 from ..scales import damping_of
 from ..separate import PERIODS
 from .critical import critical_theta, first_swings

@@ -11,12 +11,12 @@ import pytest
 from rigid import Contact, Friction, Hoop, Release, Run, Scene, simulate
 from rigid.kernel.compile import Patience
 from studies import StudyError
-from studies.inner.body import Body, accelerations, arms, body_of, contact_mobility, sliding_force
-from studies.inner.bristles import bristles, brush_pull, set_stretch
 from studies.inner.creep import creep, half_width, sticking_part
 from studies.inner.events import REVERSAL, START, STOP, Event, passage
 from studies.inner.layers import Layer, layer, outer_forces, period_of, slip_behind
-from studies.inner.march import (
+from studies.inner.march.body import Body, accelerations, arms, body_of, contact_mobility, sliding_force
+from studies.inner.march.bristles import bristles, brush_pull, set_stretch
+from studies.inner.march.equations import (
     BRUSH,
     FRICTION_IMPULSE,
     HEIGHT,
@@ -33,8 +33,8 @@ from studies.inner.march import (
     STICK,
     ScaledContact,
     System,
-    march,
 )  # fmt: skip
+from studies.inner.march.run import march
 from studies.inner.scales import damping_of, epsilon, theta_of
 from studies.inner.separate import separate_from
 from studies.inner.stops.critical import critical_theta

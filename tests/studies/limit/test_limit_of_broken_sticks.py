@@ -10,8 +10,8 @@ from scipy.integrate import solve_ivp
 
 from rigid import Contact, Friction, Hoop, Release, Run, Scene, simulate
 from studies import limit_study
-from studies.inner.body import rolling_forces
 from studies.inner.events import BREAK, REVERSAL, START, STOP, passage
+from studies.inner.march.body import rolling_forces
 from studies.inner.separate import separate_from
 from studies.inner.stops.hanging import followed, hanging
 from studies.limit.compliant import at_foundation, go_through

@@ -10,9 +10,9 @@ import pytest
 from scipy.optimize import brentq
 
 from rigid import Run, Scene, as_scene, simulate
-from studies.inner.body import arms
 from studies.inner.events import START, Stretch, passage
-from studies.inner.march import FRICTION_IMPULSE, NORMAL_IMPULSE
+from studies.inner.march.body import arms
+from studies.inner.march.equations import FRICTION_IMPULSE, NORMAL_IMPULSE
 from studies.limit.compliant import at_foundation, go_through, march_through
 from studies.limit.prediction import CREEP, powers, predict
 

@@ -12,9 +12,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from rigid import Contact, Friction, Hoop, Release, Scene
-from studies.inner.body import accelerations, rolling_forces, sliding_force
 from studies.inner.creep import creep, half_width
 from studies.inner.events import START, Stretch, passage
+from studies.inner.march.body import accelerations, rolling_forces, sliding_force
 from studies.limit.onset import brush_delay, brush_lag, regularised_gain
 from studies.limit.outer import slide_along
 

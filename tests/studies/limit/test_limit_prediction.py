@@ -14,11 +14,11 @@ from scipy.optimize import brentq
 from smoothed import with_a_point
 
 from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, simulate
-from studies.inner.body import arms, rolling_forces, rolling_inertia
 from studies.inner.creep import creep
 from studies.inner.events import START, STOP, passage
 from studies.inner.layers import period_of
-from studies.inner.march import FRICTION_IMPULSE, NORMAL_IMPULSE, REGULARISED
+from studies.inner.march.body import arms, rolling_forces, rolling_inertia
+from studies.inner.march.equations import FRICTION_IMPULSE, NORMAL_IMPULSE, REGULARISED
 from studies.inner.scales import epsilon, theta_of
 from studies.inner.separate import separate_from
 from studies.limit.compliant import at_foundation, go_through, march_through, seen_by_rigid_ring

@@ -6,8 +6,8 @@ forces about the mass centre,
 
     K alpha = N a - F B,   ddot h = N - 1 + a alpha + e c w,   dot v = F - B alpha + a w,   w = phidot^2.
 
-The functions are plain Python on scalars; :mod:`studies.inner.march` compiles ``arms``, and has the accelerations
-written out among the other rates of its state.
+The functions are plain Python on scalars; :mod:`studies.inner.march.equations` compiles ``arms``, and has the
+accelerations written out among the other rates of its state.
 """
 
 from __future__ import annotations

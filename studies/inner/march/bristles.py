@@ -166,6 +166,18 @@ def brush_pull(
 
 
 @part
+def sliding_share(kept: Any, half: float, rolled: float) -> float:
+    """Share of the pressure that is on points which slid in the last step taken, to the right less to the left."""
+    share, whole = 0.0, 0.0
+    for j in range(kept.ends[0], kept.ends[1] + 1):
+        s = j * kept.spacing + rolled
+        pressure = max(half * half - s * s, 0.0)
+        share += kept.sliding[j % SIZE] * pressure
+        whole += pressure
+    return share / whole if whole > 0 else 0.0
+
+
+@part
 def way_of_sliding(kept: Any) -> int:
     """1 or -1 where a brush slid throughout in the last step taken, to the right or to the left; 0 where it stuck.
 
