@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from copy import deepcopy
 from dataclasses import dataclass
-from math import pi, sqrt
+from math import log, pi, sqrt
 from typing import Any
 
 import numpy as np
@@ -43,17 +43,18 @@ FINENESS = 0.1  # of the fastest time to a step: forces to 1e-4, times of switch
 #: some 3 s of interpreted steps where the march is not compiled yet
 _patience = Patience(is_ready=lambda: not is_cold(march.__module__), load=0, compiling=60_000)
 MOST = 1_000_000  # steps of a layer: some 1 s
-TOO_FAST = "its damper, or the smoothing of its friction, is far faster than what is followed"
+TOO_LONG = "it lasts far longer than the fastest in it takes"
 _POINTS = 300  # of a brush to its patch
 _CARRIED = 1 - 1e-8  # of mu N, by a smoothed law whose slip starts: all of it is carried by no finite V
 _FULL = 2.0  # times the creep at which a brush rolls with all of mu_s N: of so fast a slip no point sticks
 _FAR = 10.0  # times V_s: smoothed friction lacks half the square of its inverse of mu N there, which is known to 1e-4
 _AHEAD = 100.0  # of a layer's duration, for which its slip is looked at before it or behind at most
+_CARRYING = 0.2  # of N: a patch whose springs lack no more of it creeps as one that has come to rest, but for some 10 %
 _RELEASED = 0.95  # of the part that sticks at the most a brush carries, where its running away begins
 
 
 class TooFastError(StudyError):
-    """Something is so fast that explicit steps do not come to the end of what is followed."""
+    """Something in it is so fast that steps do not come to the end of what is followed."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -62,6 +63,8 @@ class Layer:
 
     event: Event
     law: int
+    theta: float
+    """Relaxation time of the damper."""
     tau: Array
     normal_force: Array
     friction_force: Array
@@ -95,11 +98,20 @@ class Layer:
         return float(self.tau[slides[-1] + 1])
 
     def settled(self, normal: float, share: float = 0.02) -> float | None:
-        """tau from which on N is within a ``share`` of the force it tends to; None if it is not by the end."""
+        """tau from which on N is within a ``share`` of the force it tends to, and its springs carry most of that.
+
+        None if N is not there by the end. A strong damper takes N there at once, and leaves it to the springs as slowly
+        as exp(-tau/theta), since N = N_el + theta N_el': beyond the history's end, too.
+        """
         off = np.flatnonzero(np.abs(self.normal_force - normal) > share * normal)
-        if not off.size:
-            return 0.0
-        return float(self.tau[off[-1] + 1]) if off[-1] + 1 < self.tau.size else None
+        if off.size and off[-1] + 1 == self.tau.size:
+            return None
+        settled = float(self.tau[off[-1] + 1]) if off.size else 0.0
+        lacking = np.abs(2 / 3 * np.maximum(-2 * self.height, 0.0) ** 1.5 / normal - 1) / _CARRYING
+        late = np.flatnonzero(lacking > 1)
+        if late.size and late[-1] + 1 == self.tau.size:
+            return float(self.tau[-1]) + self.theta * log(lacking[-1])
+        return max(settled, float(self.tau[late[-1] + 1])) if late.size else settled
 
     @property
     def faithful(self) -> bool:
@@ -158,7 +170,7 @@ def layer(
         duration = 10 * period + 10 * half / abs(event.omega)
         if contact.law == REGULARISED and event.behind is not None and slow > 0:
             duration += min(slow / abs(_quickening(body, event, True)), _AHEAD * duration)
-    too_many = f"The layer at phi = {event.phi:.4g} takes more than {MOST:g} steps: {TOO_FAST}."
+    too_many = f"The layer at phi = {event.phi:.4g} takes more than {MOST:g} steps: {TOO_LONG}."
     state = np.zeros(STATE)
     state[PSI], state[OMEGA], state[HEIGHT] = event.psi, event.omega, -(half**2) / 2
     kept = bristles(2 * half / _POINTS)
@@ -189,6 +201,7 @@ def layer(
     return Layer(
         event=event,
         law=contact.law,
+        theta=contact.theta,
         **{name: columns[name] for name in ("tau", "normal_force", "friction_force", "slip", "height")},
         mode=columns["mode"].astype(int),
         switches=tuple((float(t) - ahead, int(m)) for t, m in switches),

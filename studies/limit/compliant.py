@@ -1,7 +1,7 @@
 """A rigid ring on a compliant floor through a whole pulse: the scaled equations at a finite eps.
 
 Nothing is predicted here; it is what predictions, and the flexible solver at great stiffness, can be held to, at any
-stiffness for the price of some hundred thousand explicit steps.
+stiffness for the price of some hundred thousand steps.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from rigid.kernel.interrupts import between_calls
 
 from ..inner.creep import creep, half_width
 from ..inner.events import Passage, passage
-from ..inner.layers import TOO_FAST, TooFastError
+from ..inner.layers import TOO_LONG, TooFastError
 from ..inner.march.body import accelerations, rolling_forces, sliding_force
 from ..inner.march.bristles import SIZE, bristles, set_stretch
 from ..inner.march.equations import (
@@ -47,7 +47,7 @@ from ..running.files import StudyError
 _POINTS = 64  # of a brush to its patch where the pulse begins; at its peak there are several times as many
 _SPARSE = 1e9  # steps to a record: none but those at events
 _MOST = 3e7  # steps, some 25 s
-_TOO_MANY = f"This pulse takes a rigid ring more than {_MOST:g} steps: {TOO_FAST}."
+_TOO_MANY = f"This pulse takes a rigid ring more than {_MOST:g} steps: {TOO_LONG}."
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +87,7 @@ def go_through(scene: Scene, fineness: float = 0.1) -> Passed:
 def _slipped_before(way: Passage, whole: Passage, eps: float) -> Passage:
     """``way``, as smoothed friction brings the hoop to its start from that of the ``whole``, where it rolls or slips.
 
-    On the way the floor might as well be rigid, and explicit steps would be many.
+    On the way the floor might as well be rigid, and steps would be many.
     """
     first, body = whole.stretches[0], way.body
     onward, v_s = copysign(1.0, first.omega), way.contact.slip_scale * eps

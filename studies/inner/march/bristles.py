@@ -187,5 +187,5 @@ def way_of_sliding(kept: Any) -> int:
     for j in range(kept.ends[0], kept.ends[1] + 1):
         if kept.sliding[j % SIZE] == 0:
             return 0
-        total += kept.sliding[j % SIZE]
+        total += 1 if kept.sliding[j % SIZE] > 0 else -1
     return 1 if total > 0 else -1

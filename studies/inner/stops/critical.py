@@ -18,14 +18,14 @@ from ..march.body import Body
 from ..march.equations import PATCH, ScaledContact
 
 _THETAS = np.geomspace(8.0, 1e-3, 40)  # of the patch's period over 2 pi: far over critical to next to none
-_STRONGER = np.geomspace(1024.0, 8.0, 8)
+_STRONGER = np.geomspace(2.0**23, 8.0, 11)  # where N falls by far, behind a slip that ends near a jam
 _ACCURACY = 1e-5
 
 
 def critical_theta(body: Body, contact: ScaledContact, event: Event) -> float | None:
     """Largest relaxation time, on the tau clock, below which the patch does not follow the rigid hoop's phases alone.
 
-    0 where it does so without a damper, infinite where none that can be followed is enough, None for a law that has no
+    0 where it does so without a damper, infinite where none is enough, None for a law that has no
     phases.
     """
     if contact.law != PATCH:

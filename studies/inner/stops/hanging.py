@@ -33,8 +33,8 @@ class Hanging:
     ratio: float
     """|F|/N of rolling behind it."""
     damping: float | None
-    """Damping ratio above which no transient breaks the patch there; infinite where none that can be followed is
-    enough, None of a brush, where it is not known."""
+    """Damping ratio above which no transient breaks the patch there; infinite where none is enough, None
+    of a brush, where it is not known."""
     broken: bool
     """Whether the patch of the scene breaks there, and slides on, where it is ever stiffer."""
     other: float
@@ -127,7 +127,7 @@ def may_slide_on(body: Body, contact: ScaledContact, event: Event) -> bool:
 def slides_on(body: Body, contact: ScaledContact, event: Event) -> bool:
     """Whether the layer of such a stop leaves the patch sliding the way that rolling's F would push it.
 
-    Of a damper above the critical one none is looked at: it keeps the stick, and may be too fast to be followed.
+    Of a damper above the critical one none is looked at: it keeps the stick.
     """
     least = critical_theta(body, contact, event)
     if least is not None and least < contact.theta:

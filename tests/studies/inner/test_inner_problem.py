@@ -10,7 +10,6 @@ import pytest
 
 from rigid import Contact, Friction, Hoop, Release, Run, Scene, simulate
 from rigid.kernel.compile import Patience
-from studies import StudyError
 from studies.inner.creep import creep, half_width, sticking_part
 from studies.inner.events import REVERSAL, START, STOP, Event, passage
 from studies.inner.layers import Layer, layer, outer_forces, period_of, slip_behind
@@ -360,7 +359,8 @@ def test_when_a_layer_is_over_is_read_off_its_history():
     swing = np.exp(-tau) * np.cos(9 * tau)
     mode = np.where((tau >= 1) & (tau < 2) | (tau >= 3) & (tau < 4), SLIDE_RIGHT, STICK)
     event = Event(STOP, 0.0, 0.1, 1.0, 0.3, None)
-    found = Layer(event, PATCH, tau, 5 * (1 + swing), 0 * tau, 0 * tau, 0 * tau, mode, (), np.zeros(STATE), 1.0)
+    height = -((1.5 * 5) ** (2 / 3)) / 2 + 0 * tau  # whose springs carry it
+    found = Layer(event, PATCH, 0.0, tau, 5 * (1 + swing), 0 * tau, 0 * tau, height, mode, (), np.zeros(STATE), 1.0)
     last = tau[np.flatnonzero(np.abs(swing) > 0.02)[-1]]
     assert np.log(50) - 2 * pi / 9 < last < np.log(50), "the envelope, and a swing"
     assert found.settled(5.0) == pytest.approx(last, abs=2e-3)
@@ -389,8 +389,8 @@ def test_layers_are_separate_where_the_longest_takes_the_time_to_the_next_event(
     layers = []
     for event in way.events:
         normal = outer_forces(way.body, event, True)[0] * (1 + np.exp(-tau))
-        rest = [0 * tau] * 4
-        layers.append(Layer(event, PATCH, tau, normal, *rest, (), np.zeros(STATE), 1.0))
+        rest, height = 0 * tau, -((1.5 * normal) ** (2 / 3)) / 2
+        layers.append(Layer(event, PATCH, 0.0, tau, normal, rest, rest, height, rest, (), np.zeros(STATE), 1.0))
     events = [event.t for event in way.events]
     if len(events) < 2:
         assert separate_from(way, layers) == 0.0
@@ -483,11 +483,8 @@ def test_bristles_and_damper_together_carry_the_friction():
     assert found.drag + pulled == pytest.approx(friction, rel=1e-13)
 
 
-def test_a_slip_that_ends_near_a_jam_wants_a_damper_that_the_strongest_are_too_fast_for():
-    """N falls from thousands to 14: what is ever stronger is followed only up to some strength, and needed far below.
-
-    A study of this hoop was refused, for the strongest damper of all that are tried.
-    """
+def test_a_slip_that_ends_near_a_jam_wants_a_strong_damper():
+    """N falls from thousands to 14; what is as strong as the strongest that is tried keeps the stick as well."""
     scene = scene_of(0.0695, 0.0).replace(
         hoop={"r": 1.2452}, friction={"mu_s": 0.7542, "mu": 0.5936}, release={"phi0_deg": 12.157}
     )
@@ -496,7 +493,5 @@ def test_a_slip_that_ends_near_a_jam_wants_a_damper_that_the_strongest_are_too_f
     before, behind = (outer_forces(way.body, event, side)[0] for side in (False, True))
     assert before > 100 * behind
     theta = critical_theta(way.body, way.contact, event)
-    assert layer(way.body, way.contact._replace(theta=1.01 * theta), event).faithful
-    assert not layer(way.body, way.contact._replace(theta=0.99 * theta), event).faithful
-    with pytest.raises(StudyError, match="far faster than what is followed"):
-        layer(way.body, way.contact._replace(theta=1000 * theta), event)
+    for over, kept in ((0.99, False), (1.01, True), (1e3, True), (1e7, True)):
+        assert layer(way.body, way.contact._replace(theta=over * theta), event).faithful is kept

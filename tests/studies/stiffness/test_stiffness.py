@@ -15,6 +15,7 @@ from flexible.contact.laws.brush import effective_mu_s
 from rigid import Friction as Coefficients
 from rigid import Hoop, Release, Run, Scene, SceneError, load_scene, simulate
 from studies import Ladder, StudyError, stiffness_study
+from studies.inner.events import REVERSAL
 from studies.inner.stops.hanging import followed, hanging
 from studies.running.case import SHARE
 from studies.stiffness.study import _prediction
@@ -228,6 +229,28 @@ def test_a_stick_that_breaks_for_good_is_foreseen_and_told(study):
     assert "Behind the slip that stops at 197.3° rolling takes |F|/N = 0.3957, more than mu = 0.302" in told
     assert "the limit is that of the rigid hoop that slides on there" in told
     assert "does not come to rest" not in told
+
+
+def test_why_a_prediction_is_lost_is_told(study, monkeypatch):
+    """A slip that turns round needs its layer, which may take too many steps; one that stops needs none."""
+    turns = load_scene("paper-3.3-massless").replace(
+        hoop={"k": 0.1125, "r": 1.0853, "mass_ratio": 0.01},
+        friction={"mu_s": 0.3435, "mu": 0.2837},
+        release={"phi0_deg": 10.83, "omega0": 0.633},
+        contact={"damping": 0.2},
+    )
+    (phi,) = [event.phi for event in followed(turns).events if event.kind == REVERSAL]
+    monkeypatch.setattr("studies.inner.layers.MOST", 10)
+    for scene, why in (
+        (turns, f"The layer at phi = {phi:.4g} takes more than 10 steps: it lasts far longer than the fastest in it"),
+        (turns.replace(hoop={"k": 0.25}), ""),
+    ):
+        assert (REVERSAL in [event.kind for event in followed(scene).events]) is bool(why)
+        foreseen, separate, lost = _prediction(scene, Ladder.around(scene), "flexible")
+        assert (foreseen is None) is bool(why)
+        assert lost.startswith(why)
+        told = prediction_sentence(replace(study, scene=scene, prediction=foreseen, separate=separate, lost=lost))
+        assert told.startswith("Nothing is predicted: " + why) is bool(why)
 
 
 @pytest.mark.parametrize("how", ["failing", "unfinished"])
