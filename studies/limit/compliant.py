@@ -6,7 +6,7 @@ stiffness for the price of some hundred thousand steps.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import copysign, inf, nan, sqrt
 from typing import Any
@@ -42,11 +42,16 @@ from ..inner.march.equations import (
 )  # fmt: skip
 from ..inner.march.run import march
 from ..inner.scales import epsilon
+from ..running.case import Case
 from ..running.files import StudyError
+from ..running.runs import run_cases
+from ..running.workers import Pool
 
 _POINTS = 64  # of a brush to its patch where the pulse begins; at its peak there are several times as many
 _SPARSE = 1e9  # steps to a record: none but those at events
 _MOST = 3e7  # steps, some 25 s
+_SEEN = 1e-7  # of a measure: what a rigid ring's own steps leave of it
+_ALIKE = 2.0  # times what is predicted, or its inverse: beyond that other terms are as large as those predicted
 _TOO_MANY = f"This pulse takes a rigid ring more than {_MOST:g} steps: {TOO_LONG}."
 
 
@@ -181,6 +186,19 @@ class Sight:
     """Why there are none."""
 
 
+def times_off(sight: Sight, distances: dict[str, tuple[float, float]]) -> dict[str, float]:
+    """Observed over predicted distance from the limit, of the measures where that is no number from 1/2 to 2.
+
+    What is below the errors of a run is not told; nor is what nothing is predicted of.
+    """
+    off = {}
+    for name, (found, foreseen) in distances.items():
+        error = max(sight.errors.get(name, 0.0), _SEEN * abs(sight.values[name]))
+        if foreseen and abs(found - foreseen) > error and not 1 / _ALIKE <= found / foreseen <= _ALIKE:
+            off[name] = found / foreseen
+    return off
+
+
 def seen_by_rigid_ring(scene: Scene, foundation: float) -> Sight:
     """A scene's pulse at a foundation, of a rigid ring; or why it cannot be followed there."""
     try:
@@ -205,3 +223,26 @@ def seen_by_rigid_rings(scene: Scene, foundations: Sequence[float]) -> list[Sigh
         seen[foundation] = seen_by_rigid_ring(scene, foundation)
         failed = seen[foundation]
     return [seen[foundation] for foundation in foundations]
+
+
+def seen_by_flexible(
+    scene: Scene,
+    limits: Mapping[str, float],
+    foundations: Sequence[float],
+    pool: Pool,
+    out: Any,
+    progress: Callable[[float], None] | None,
+) -> list[Sight]:
+    """What the flexible solver sees of the ``limits`` and of what goes with them, its errors held against them."""
+    if not foundations:
+        return []
+    against = tuple((name, limits[name], 0.0) for name in ("impulse_ratio", "friction_loss"))
+    cases = [Case("flexible", at_foundation(scene, foundation), against) for foundation in foundations]
+    sights = []
+    for foundation, outcome in zip(foundations, run_cases(cases, pool, out, progress), strict=True):
+        if outcome.failure:
+            sights.append(Sight("flexible", foundation, {}, {}, outcome.failure))
+            continue
+        values = {name: outcome.pulses[0][name] for name in limits}
+        sights.append(Sight("flexible", foundation, values, {n: outcome.numerical_error[0][n] for n in limits}))
+    return sights

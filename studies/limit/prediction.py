@@ -238,7 +238,7 @@ def _through(way: Passage, event: Event, shift: Shift, creeps: bool) -> Shift:
 def units_told(scene: Scene) -> dict[str, str]:
     """What the numbers of a limit study are measured in, by name: measures in units of the scene, events never."""
     pure = ("foundation", "separate", "stiff", "exponent", "phi", "peak_ratio", "critical_damping", "damping", "decay",
-            "force_ratio", "other_impulse_ratio", "holds")  # fmt: skip
+            "force_ratio", "other_impulse_ratio", "holds", "over_predicted")  # fmt: skip
     of_measures = ("value", "numerical_error", "limit", "distance", "predicted", "coefficient")
     weight, tau = "(m + m_h) g", "eps sqrt(R/g)"
     return {

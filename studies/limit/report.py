@@ -8,7 +8,7 @@ from pathlib import Path
 from ..plots.page import write_page
 from ..plots.sheet import Sheet
 from .study import LimitStudy
-from .summary import damping_sentences, failures, limit_sheets, other_sentences, verdict
+from .summary import damping_sentences, failures, limit_sheets, other_sentences, unlike_sentences, verdict
 
 CAPTIONS = {
     "approach": """\
@@ -54,7 +54,7 @@ def limit_report(
         "others": other_sentences(study),
         "damping": " ".join(damping_sentences(study)),
         "sheets": [sheet.to_dict() for sheet in (*limit_sheets(study), *more) if isinstance(sheet, Sheet)],
-        "failed": failures(study),
+        "failed": [*unlike_sentences(study), *failures(study)],
         "numbers": numbers,
         "images": {name: (CAPTIONS.get(name, name), file) for name, file in images.items()},
     }

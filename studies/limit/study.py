@@ -24,11 +24,9 @@ from ..inner.separate import separate_from, stiff_from
 from ..inner.stops.critical import critical_theta
 from ..inner.stops.hanging import Hanging, followed, hanging
 from ..plots.sheet import power_of
-from ..running.case import Case
 from ..running.measures import MEASURES, known
-from ..running.runs import run_cases
 from ..running.workers import Here, Pool
-from .compliant import Sight, at_foundation, seen_by_rigid_rings
+from .compliant import Sight, at_foundation, seen_by_flexible, seen_by_rigid_rings, times_off
 from .damping import Other, others
 from .prediction import Prediction, predict, units_told
 
@@ -37,6 +35,7 @@ if TYPE_CHECKING:
 
 OBSERVED = ("impulse_ratio", "friction_impulse", "normal_impulse", "friction_loss")
 """Measures that are predicted and observed."""
+SOLVERS = ("rigid ring", "flexible")
 COLUMNS = ("solver", "foundation", "measure", "value", "numerical_error", "limit", "distance", "predicted", "failure")
 """Of a study's table."""
 FOUNDATIONS = (1e10, 1e11, 1e12)
@@ -111,6 +110,16 @@ class LimitStudy(summary.Summarised):
             for stop in self.hanging
         )
 
+    def unlike(self, solver: str) -> tuple[float, dict[str, float]]:
+        """The stiffest foundation of a solver, and by how many times what is predicted each measure is off there.
+
+        Of those whose distance has not the predicted sign, or less than half or more than twice its size.
+        """
+        seen = [s for s in self.sights if s.solver == solver and s.values]
+        if not seen or not self.prediction.complete or self.otherwise(last := max(seen, key=lambda s: s.foundation)):
+            return 0.0, {}
+        return last.foundation, times_off(last, {name: self.distance(name, last) for name in last.values})
+
     def _title(self) -> str:
         return f"Limit study: {len(self.events)} events, {len(self.sights)} runs beside them"
 
@@ -134,7 +143,7 @@ class LimitStudy(summary.Summarised):
             term = known(self.prediction.terms, name)
             away = np.array([float(term.at(self.small(s))) - term.limit for s in along])
             seen = {}
-            for solver in ("rigid ring", "flexible"):
+            for solver in SOLVERS:
                 mine = [sight for sight in self.sights if sight.solver == solver and name in sight.values]
                 pairs = np.array([(sight.foundation, self.distance(name, sight)[0]) for sight in mine]).reshape(-1, 2)
                 seen[solver] = pairs[:, 0], pairs[:, 1]
@@ -200,6 +209,12 @@ class LimitStudy(summary.Summarised):
             "stiff": self.stiff,
             "others": [{"name": other.name, "impulse_ratio": list(other.impulse_ratio)} for other in self.others],
             "observed": observed,
+            "unlike": [
+                {"solver": solver, "foundation": at, "measure": name, "over_predicted": times}
+                for solver in SOLVERS
+                for at, off in [self.unlike(solver)]
+                for name, times in off.items()
+            ],
         }
 
 
@@ -254,7 +269,8 @@ def limit_study(
             )
         )  # fmt: skip
     sights = seen_by_rigid_rings(scene, foundations)
-    sights += _flexible(scene, prediction, flexible, pool or Here(), out, progress)
+    limits = {name: prediction.terms[name].limit for name in OBSERVED}
+    sights += seen_by_flexible(scene, limits, flexible, pool or Here(), out, progress)
     separate = separate_from(way, [event.layer for event in found])
     stiff, hangs = stiff_from(way, scene), hanging(scene, way)
     return LimitStudy(
@@ -268,25 +284,3 @@ def _layer_of(way: Passage, event: Event) -> tuple[Layer | None, str]:
         return layer(way.body, way.contact, event), ""
     except TooFastError as error:
         return None, str(error)
-
-
-def _flexible(
-    scene: Scene,
-    prediction: Prediction,
-    foundations: Sequence[float],
-    pool: Pool,
-    out: Any,
-    progress: Callable[[float], None] | None,
-) -> list[Sight]:
-    if not foundations:
-        return []
-    against = tuple((name, prediction.terms[name].limit, 0.0) for name in ("impulse_ratio", "friction_loss"))
-    cases = [Case("flexible", at_foundation(scene, foundation), against) for foundation in foundations]
-    sights = []
-    for foundation, outcome in zip(foundations, run_cases(cases, pool, out, progress), strict=True):
-        if outcome.failure:
-            sights.append(Sight("flexible", foundation, {}, {}, outcome.failure))
-            continue
-        values = {name: outcome.pulses[0][name] for name in OBSERVED}
-        sights.append(Sight("flexible", foundation, values, {n: outcome.numerical_error[0][n] for n in OBSERVED}))
-    return sights

@@ -12,7 +12,7 @@ from ..inner.stops.hanging import Hanging
 from ..plots.sheet import Column, Sheet, number, power_of
 from ..running.measures import MEASURES
 from .damping import Spot
-from .study import FOUNDATIONS, OBSERVED, LimitStudy
+from .study import FOUNDATIONS, OBSERVED, SOLVERS, LimitStudy
 
 _LEAST = 1e6
 """The softest foundation within the range of the model: what holds from there on holds."""
@@ -118,8 +118,22 @@ def limit_sheets(study: LimitStudy) -> list[Any]:
         *([event_sheet(study)] if study.events else []),
         term_sheet(study),
         sight_sheet(study),
+        *unlike_sentences(study),
         *failures(study),
     ]
+
+
+def unlike_sentences(study: LimitStudy) -> list[str]:
+    """Where what is seen is not as predicted even at the stiffest foundation, a sentence for each solver."""
+    said = []
+    for solver in SOLVERS:
+        foundation, off = study.unlike(solver)
+        told = " and ".join(f"in {MEASURES[name].symbol} by {number(times, 3)} times" for name, times in off.items())
+        layers = foundation < study.separate
+        why = "its layers are not separate" if layers else "terms behind the first are not small"
+        at = f"At a foundation of {number(foundation, 3)}, the stiffest here, the {solver} is off {told} what is"
+        said += [f"{at} predicted: {why} there yet."] if off else []
+    return said
 
 
 def failures(study: LimitStudy) -> list[str]:

@@ -8,14 +8,21 @@ import numpy as np
 import pytest
 
 from rigid import Run, load_scene, simulate
-from studies import LimitStudy
+from studies import LimitStudy, limit_study
 from studies.inner.events import passage
 from studies.inner.layers import layer, outer_forces
 from studies.limit.compliant import Sight
 from studies.limit.damping import Spot
 from studies.limit.prediction import predict
 from studies.limit.study import OBSERVED, EventFound
-from studies.limit.summary import damping_sentences, event_sheet, map_sheet, sight_sheet
+from studies.limit.summary import (
+    damping_sentences,
+    event_sheet,
+    limit_sheets,
+    map_sheet,
+    sight_sheet,
+    unlike_sentences,
+)
 
 AWAY = 1.05
 """Observed over predicted distance of a solver made up here."""
@@ -96,6 +103,58 @@ def test_the_sheet_of_what_was_seen_divides_both_distances_by_one_power(study):
         coefficient = study.prediction.terms[name].coefficient
         assert float(told["predicted"][i]) == pytest.approx(coefficient, rel=1e-3)  # four digits
         assert float(told["distance over power"][i]) == pytest.approx(AWAY * coefficient, rel=1e-3)
+
+
+def seen_off(study, times):
+    """The study with a rigid ring at 1e12 whose J_N is off by so many times what is predicted, all else by once."""
+    values = {}
+    for name in OBSERVED:
+        term = study.prediction.terms[name]
+        share = times if name == "normal_impulse" else 1.0
+        values[name] = term.limit + share * (float(term.at(1e-4)) - term.limit)
+    return dataclasses.replace(study, sights=(*study.sights, Sight("rigid ring", 1e12, values, {})))
+
+
+@pytest.mark.parametrize(
+    ("times", "told"),
+    [(1.9, None), (0.6, None), (2.5, "2.5"), (0.3, "0.3"), (-1.0, "-1")],
+)
+def test_it_is_said_where_the_stiffest_pulse_is_not_as_predicted(study, times, told):
+    """Not the sign, or less than half or more than twice the size; and whether layers or further terms are why."""
+    off = seen_off(study, times)
+    said = unlike_sentences(off)
+    assert [row["measure"] for row in off.to_dict()["unlike"]] == ["normal_impulse"] * len(said)
+    assert said == [each for each in limit_sheets(off) if each in said], "it stands among the sheets"
+    if told is None:
+        assert said == []
+        return
+    start = (
+        f"At a foundation of 1e+12, the stiffest here, the rigid ring is off in J_N by {told} times what is predicted"
+    )
+    assert said == [f"{start}: terms behind the first are not small there yet."]
+    soft = unlike_sentences(dataclasses.replace(off, separate=1e13))
+    assert soft == [f"{start}: its layers are not separate there yet."]
+    assert off.to_dict()["unlike"][0]["over_predicted"] == pytest.approx(times, rel=1e-6)
+    assert set(off.to_dict()["unlike"][0]) & {"foundation", "over_predicted"} <= set(off.units)
+
+
+def test_a_softer_pulse_or_one_within_its_error_is_not_said_to_be_unlike(study):
+    """What is off at 1e9 is not at 1e11; and a run that knows its error is not held to what is less."""
+    off = seen_off(study, 2.5)
+    soft = dataclasses.replace(off.sights[-1], foundation=1e9)
+    assert unlike_sentences(dataclasses.replace(off, sights=(*study.sights, soft))) == []
+    term = study.prediction.terms["normal_impulse"]
+    rough = dataclasses.replace(off.sights[-1], errors={"normal_impulse": 2 * abs(float(term.at(1e-4)) - term.limit)})
+    assert unlike_sentences(dataclasses.replace(off, sights=(*study.sights, rough))) == []
+
+
+def test_far_from_its_limit_a_strongly_damped_patch_is_said_to_be():
+    """Springs behind a damper of 100 take eps theta: of a rigid ring at 1e10 the predicted creep is not there yet."""
+    found = limit_study("paper-3.3-massless", damping=100.0, foundations=(1e10,))
+    (said,) = unlike_sentences(found)
+    assert "in J_F/J_N by -" in said
+    assert said.endswith("its layers are not separate there yet.")
+    assert unlike_sentences(limit_study("paper-3.3-massless", damping=1.0, foundations=(1e12,))) == []
 
 
 def test_the_sheet_of_events_has_the_forces_of_the_rigid_hoop(study):
