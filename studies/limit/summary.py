@@ -126,13 +126,13 @@ def limit_sheets(study: LimitStudy) -> list[Any]:
 def unlike_sentences(study: LimitStudy) -> list[str]:
     """Where what is seen is not as predicted even at the stiffest foundation, a sentence for each solver."""
     said = []
-    for solver in SOLVERS:
+    for solver, name in zip(SOLVERS, ("rigid ring", "flexible solver"), strict=True):
         foundation, off = study.unlike(solver)
-        told = " and ".join(f"in {MEASURES[name].symbol} by {number(times, 3)} times" for name, times in off.items())
+        told = ", ".join(f"in {MEASURES[each].symbol} by {number(times, 3)}" for each, times in off.items())
         layers = foundation < study.separate
         why = "its layers are not separate" if layers else "terms behind the first are not small"
-        at = f"At a foundation of {number(foundation, 3)}, the stiffest here, the {solver} is off {told} what is"
-        said += [f"{at} predicted: {why} there yet."] if off else []
+        at = f"At a foundation of {number(foundation, 3)}, the stiffest here, the {name} is off {told}"
+        said += [f"{at} times what is predicted: {why} there yet."] if off else []
     return said
 
 
