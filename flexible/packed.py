@@ -93,9 +93,9 @@ def stored(motion: FlexibleMotion, pieces: Sequence[tuple[dict[str, Any], Arrays
     lists = {name: [dataclasses.asdict(item) for item in getattr(motion, name)] for name in ("phases", "turns")}
     pulses = [dataclasses.asdict(dataclasses.replace(pulse, sample=None)) for pulse in motion.pulses]
     told = {
-        **lists, "pulses": pulses, "pieces": [piece for piece, _ in pieces], "ledger": dataclasses.asdict(motion.ledger),
-        "ended": motion.ended, "period": motion.period, "completed": motion.completed, "steps": motion.steps,
-        "history": motion.history is not None,
+        **lists, "pulses": pulses, "pieces": [piece for piece, _ in pieces],
+        "ledger": dataclasses.asdict(motion.ledger), "ended": motion.ended, "period": motion.period,
+        "completed": motion.completed, "steps": motion.steps, "history": motion.history is not None,
         "marches": marches, "kept": bool(motion.kept),
     }  # fmt: skip
     return Stored("flexible", told, arrays)
