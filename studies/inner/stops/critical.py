@@ -25,8 +25,7 @@ _ACCURACY = 1e-5
 def critical_theta(body: Body, contact: ScaledContact, event: Event) -> float | None:
     """Largest relaxation time, on the tau clock, below which the patch does not follow the rigid hoop's phases alone.
 
-    0 where it does so without a damper, infinite where none is enough, None for a law that has no
-    phases.
+    0 where it does so without a damper, infinite where none is enough, None for a law that has no phases.
     """
     if contact.law != PATCH:
         return None

@@ -33,8 +33,8 @@ class Hanging:
     ratio: float
     """|F|/N of rolling behind it."""
     damping: float | None
-    """Damping ratio above which no transient breaks the patch there; infinite where none is enough, None
-    of a brush, where it is not known."""
+    """Damping ratio above which no transient breaks the patch there; infinite where none is enough, None of a brush,
+    where it is not known."""
     broken: bool
     """Whether the patch of the scene breaks there, and slides on, where it is ever stiffer."""
     other: float
