@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rigid import Motion, Phase, Pulse, Scene, Side, States
+from rigid.output import summary
 from rigid.output.same import Same
 from rigid.output.units import (
     AngularAcceleration,
@@ -84,6 +85,16 @@ class FlexiblePulse(Pulse):
     damping_loss: Energy[float]
     numerical_loss: Energy[float]
     phases: tuple[Phase, ...]
+
+    def _lines(self) -> list[summary.Line]:
+        energy = summary.unit_in(self, "friction_loss")
+        return [
+            *Pulse._lines(self),
+            ("other losses", f"damper {self.damping_loss:.3g}, integrator {self.numerical_loss:.3g}{energy}"),
+            ("peaks", f"ring strain {self.ring_energy_peak:.6g}, contact {self.contact_energy_peak:.6g}{energy}"),
+            ("off the floor", f"{self.time_off_floor:.6g}{summary.unit_in(self, 'time_off_floor')}"),
+            ("phases", summary.some([str(phase.kind) for phase in self.phases])),
+        ]
 
     def to_dict(self) -> dict[str, Any]:
         """All measures by name, the ratio among them, and the phases inside."""

@@ -93,6 +93,12 @@ class Pulse(Same):
     cut: bool = False
     sample: Callable[[Array, Side], States] | None = field(default=None, repr=False, compare=False)
 
+    def __str__(self) -> str:
+        return summary.text(summary.title_of_pulse(self), self._lines())
+
+    def _lines(self) -> list[summary.Line]:
+        return summary.lines_of_pulse(self)
+
     @property
     def impulse_ratio(self) -> float:
         """J_F/J_N; mu or -mu would be the ratio of Whittaker and of Kane and Levinson. NaN without a normal impulse."""
@@ -111,22 +117,14 @@ class Pulse(Same):
         ValueError
             A pulse that belongs to no motion, or a quantity that there is not.
         """
-        from .output.axes import columns_of, draw
+        from .output.axes import of_pulse
 
-        if self.sample is None:
-            raise ValueError("This pulse belongs to no motion that could be sampled.")
-        sample = self.sample
-        span = (self.t_start, self.t_end)
-        middle = sampling.bottom(lambda t: sample(t, "right").phi, *span)
-        steps = sampling.steps_of(sample)
-        t = sampling.times(lambda t: sampling.forces_of(sample(t, "right")), span, [middle], steps=steps)
-        paper = getattr(getattr(sample, "scene", None), "dimensionless", True)
-        return draw(columns_of(sample(t, "right")), quantities, over, dimensionless=paper, axes=axes)
+        return of_pulse(self, quantities, over, axes)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class States(Same):
-    """A motion sampled at times ``t``; every field has the shape of ``t``.
+    """A motion sampled at times ``t``; every field has the shape of ``t``, and at one time is a number, a float64.
 
     ``omega`` and ``alpha`` are phidot and phiddot, ``x_C`` and ``y_C`` the hoop's centre, ``slip_velocity`` is that
     of the contact point, F is positive to the right. N, F and ``alpha`` jump where phases meet.
@@ -142,6 +140,10 @@ class States(Same):
     normal_force: Force[Array]
     friction_force: Force[Array]
     energy: Energy[Array]
+
+    def __post_init__(self) -> None:
+        for each in dataclasses.fields(self):  # numpy takes some of what has no axes for numbers, and some for arrays
+            object.__setattr__(self, each.name, np.asarray(getattr(self, each.name))[()])
 
 
 @dataclass(frozen=True, repr=False)

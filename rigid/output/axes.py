@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from . import sampling
 from .units import Unit
 
 if TYPE_CHECKING:
@@ -77,6 +78,19 @@ def of_motion(motion: Any, quantities: Sequence[str], over: str, axes: Any) -> N
     spans = [(str(phase.kind), phase.t_start, phase.t_end) for phase in phases] if len(phases) <= MOST_SHADES else []
     columns = columns_of(motion.at(motion.times()))
     return draw(columns, quantities, over, dimensionless=motion.scene.dimensionless, spans=spans, axes=axes)
+
+
+def of_pulse(pulse: Any, quantities: Sequence[str], over: str, axes: Any) -> NDArray[np.object_]:
+    """Curves of a motion through one of its pulses; see :meth:`rigid.Pulse.plot`."""
+    sample = pulse.sample
+    if sample is None:
+        raise ValueError("This pulse belongs to no motion that could be sampled.")
+    span = (pulse.t_start, pulse.t_end)
+    middle = sampling.bottom(lambda t: sample(t, "right").phi, *span)
+    steps = sampling.steps_of(sample)
+    t = sampling.times(lambda t: sampling.forces_of(sample(t, "right")), span, [middle], steps=steps)
+    paper = getattr(getattr(sample, "scene", None), "dimensionless", True)
+    return draw(columns_of(sample(t, "right")), quantities, over, dimensionless=paper, axes=axes)
 
 
 def draw(

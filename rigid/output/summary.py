@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from html import escape
+from typing import Any
+
+from .units import units_of
 
 Line = tuple[str, str]
 """What is told, and what there is to tell."""
@@ -34,6 +37,31 @@ def html(title: str, lines: Iterable[Line], header: Sequence[str] = (), rows: It
     head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
     table = f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>" if body else ""
     return f"<div><b>{escape(title)}</b><table>{told}</table>{table}</div>"
+
+
+def title_of_pulse(pulse: Any) -> str:
+    """When and where it is."""
+    when = f"from t = {pulse.t_start:.6g} to {pulse.t_end:.6g}, phi = {pulse.phi_start:.6g} to {pulse.phi_end:.6g}"
+    return f"{type(pulse).__name__} {when}{' (cut)' if pulse.cut else ''}"
+
+
+def lines_of_pulse(pulse: Any) -> list[Line]:
+    """What every pulse has to tell; a cut one has no restitution."""
+    rebounds = ("newton", "Newton"), ("poisson", "Poisson"), ("energetic", "energetic")
+    told = ", ".join(f"{name} {getattr(pulse, f'{key}_restitution'):.6g}" for key, name in rebounds)
+    impulses = f"J_N = {pulse.normal_impulse:.6g}, J_F = {pulse.friction_impulse:.6g}{unit_in(pulse, 'normal_impulse')}"
+    return [
+        ("impulses", f"{impulses}; J_F/J_N = {pulse.impulse_ratio:.6g}"),
+        ("peak N", f"{pulse.peak_normal_force:.6g}{unit_in(pulse, 'peak_normal_force')}"),
+        ("friction loss", f"{pulse.friction_loss:.6g}{unit_in(pulse, 'friction_loss')}"),
+        *([] if pulse.cut else [("restitution", told)]),
+    ]
+
+
+def unit_in(pulse: Any, name: str) -> str:
+    """What to print behind a measure of a pulse: its unit, or nothing of a pulse that belongs to no motion."""
+    scene = getattr(pulse.sample, "scene", None)
+    return "" if scene is None else f" {units_of(type(pulse))[name].label(scene)}"  # type: ignore[arg-type]
 
 
 class Summarised:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import json
 
 import matplotlib as mpl
 import numpy as np
@@ -86,6 +87,28 @@ def test_a_few_lines_say_what_it_is(motion):
     assert "lost to" in motion._repr_html_()
     assert len(repr(motion.history)) < 40
     assert "sample" not in str(motion.to_dict())
+
+
+def test_states_at_one_time_are_numbers(motion):
+    """In the rigid stretches and in the flexible one, as of the rigid hoop; arrays have the shape of their times."""
+    pulse = motion.pulses[0]
+    for t in (pulse.t_start / 2, (pulse.t_start + pulse.t_end) / 2):
+        now = dataclasses.asdict(motion.at(t))
+        assert {type(value) for value in now.values()} == {np.float64}
+        assert json.loads(json.dumps(now)) == now
+        for name, value in dataclasses.asdict(motion.at([[t, t]])).items():
+            assert value.shape == (1, 2)
+            assert (value == now[name]).all()
+
+
+def test_a_pulse_in_a_few_lines(motion):
+    pulse = motion.pulses[0]
+    lines = str(pulse).splitlines()
+    assert len(lines) <= 10
+    assert max(map(len, lines)) <= 100
+    assert f"J_F/J_N = {pulse.impulse_ratio:.6g}" in str(pulse)
+    assert ", ".join(str(phase.kind) for phase in pulse.phases) in str(pulse)
+    assert f"contact {pulse.contact_energy_peak:.6g} mgR" in str(pulse)
 
 
 def test_a_motion_comes_back_from_its_file(tmp_path, motion):

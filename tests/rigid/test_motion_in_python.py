@@ -326,6 +326,40 @@ def test_states_are_the_same_where_all_their_numbers_are(motion):
     assert motion.at(1.0) == motion.at(1.0)
 
 
+@pytest.mark.parametrize("scene", ["paper-3.1", HEAVY])
+def test_states_have_the_shape_of_their_times(scene):
+    """A number at one time, which JSON takes, of every field alike: some were arrays without axes."""
+    found = simulate(scene)
+    middle = found.t_end / 2
+    for t in (middle, np.float64(middle), np.array(middle)):
+        now = dataclasses.asdict(found.at(t))
+        assert {type(value) for value in now.values()} == {np.float64}
+        assert json.loads(json.dumps(now)) == now
+    for shape in ((1,), (0,), (2, 3)):
+        for name, value in dataclasses.asdict(found.at(np.full(shape, middle))).items():
+            assert type(value) is np.ndarray
+            assert value.shape == shape
+            assert (value == now[name]).all()
+
+
+def test_a_pulse_in_a_few_lines(motion):
+    """Its numbers with the units of its scene, if it belongs to a motion, and with none if not."""
+    pulse, heavy = motion.pulses[0], simulate(HEAVY).pulses[0]
+    for each in (pulse, heavy):
+        lines = str(each).splitlines()
+        assert len(lines) <= 6
+        assert max(map(len, lines)) <= 100
+        assert f"J_F/J_N = {each.impulse_ratio:.6g}" in str(each)
+    assert f"J_F = {pulse.friction_impulse:.6g} m sqrt(gR);" in str(pulse)
+    assert f"J_F = {heavy.friction_impulse:.6g} N s;" in str(heavy)
+    assert f"J_F = {heavy.friction_impulse:.6g};" in str(dataclasses.replace(heavy, sample=None))
+    assert "restitution" in str(pulse)
+    assert "(cut)" not in str(pulse)
+    cut = str(dataclasses.replace(pulse, cut=True, newton_restitution=np.nan))
+    assert "(cut)" in cut
+    assert "nan" not in cut
+
+
 def test_what_is_asked_in_the_wrong_words(motion):
     with pytest.raises(ValueError, match="is not a quantity of a motion"):
         motion.plot(["normal_force", "energy"])
