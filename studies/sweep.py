@@ -44,7 +44,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Table:
-    """The rows of a sweep, in the order of the product."""
+    """The ``rows`` of a sweep, in the order of the product: each has its ``values``, ``solver`` and ``outcome``."""
 
     rows: tuple[Row, ...]
 

@@ -29,7 +29,10 @@ MAX_CASES = 100_000
 
 @dataclass(frozen=True)
 class Sweep:
-    """What a sweep runs: the product of its lists, whose scenes are made when they are asked for, and once."""
+    """What a sweep runs: the product of its lists, whose scenes are made when they are asked for, and once.
+
+    ``keys`` vary, each over its ``choices``, and all else is of the ``tables`` of a scene; ``solvers`` run each.
+    """
 
     keys: tuple[str, ...]
     """The keys that vary, "hoop.k" for instance."""

@@ -36,7 +36,11 @@ picture, of its range. Beside the middle it may be some half more, and a few sha
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class Atlas(summary.Summarised):
-    """A map of (side + 1)^2 hoops; rows run up, columns across."""
+    """A map of (side + 1)^2 hoops over ``x`` and ``y`` of a ``plane``; rows run up, columns across.
+
+    What was ``found`` of each is in ``sequence`` and what else is an array, ``regions`` tells the shares of all, and
+    ``seconds`` the time it took.
+    """
 
     plane: Plane
     """Scene and axes."""

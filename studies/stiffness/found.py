@@ -39,7 +39,7 @@ _PURE = (*_OF_SCENE, *_RATES, *_OF_STOPS)
 
 @dataclass(frozen=True, slots=True)
 class Rung:
-    """The flexible hoop at one stiffness."""
+    """The flexible hoop at one ``stiffness``: its ``bending_stiffness``, ``contact_stiffness``, and the ``outcome``."""
 
     bending_stiffness: float
     """E I/(m g R^2)."""
@@ -81,7 +81,8 @@ class Rung:
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class StiffnessStudy(summary.Summarised):
-    """What the study found."""
+    """What the study found: of a ``scene`` the ``rungs`` of a ``ladder``, which ``solver`` ran, and their ``limits``;
+    ``rigid`` is the paper's hoop beside them, ``reference`` that of ``reference_mu_s``, which they should tend to."""
 
     scene: Scene
     """The scene, at its own stiffness."""
@@ -92,8 +93,7 @@ class StiffnessStudy(summary.Summarised):
     rigid: Outcome
     """The rigid hoop of the scene: the paper's law."""
     reference: Outcome
-    """The rigid hoop that the contact law is expected to tend to; another than ``rigid`` for some laws where
-    mu_s > mu."""
+    """The rigid hoop that the contact law should tend to; another than ``rigid`` for some laws where mu_s > mu."""
     reference_mu_s: float
     """That hoop's static coefficient."""
     rungs: tuple[Rung, ...]
@@ -120,7 +120,7 @@ class StiffnessStudy(summary.Summarised):
 
     @property
     def failures(self) -> list[Rung]:
-        """The rungs that have no result."""
+        """The rungs without a result."""
         return [rung for rung in self.rungs if rung.outcome.failure]
 
     @property
@@ -130,8 +130,7 @@ class StiffnessStudy(summary.Summarised):
 
     @property
     def otherwise(self) -> list[Rung]:
-        """Those on which the ring gives way by more than the patch, and the contact does something else than that of
-        the rigid hoop."""
+        """Those whose ring gives way by more than the patch, and whose contact does otherwise than the rigid hoop's."""
         own = self.reference.phases[0]
         return [r for r in self.rungs_through if r.contact_stiffness < self.stiff and r.outcome.phases[0] != own]
 

@@ -27,7 +27,12 @@ it by one."""
 
 @dataclass(frozen=True, slots=True)
 class Limit:
-    """The limit of a measure as stiffness grows, and whether the rigid value is it."""
+    """The limit of a measure as stiffness grows, and whether the rigid value is it.
+
+    It is ``value`` within ``uncertainty``, by ``exponents`` that are ``known`` or fitted, to be held against ``rigid``;
+    ``rate``, within ``rate_interval``, is that at which the cases ``rate_cases`` come nearer to it. The stiffest
+    case is ``distance`` from it, all of them lie ``span`` apart; ``fitted`` is the limit by a rate that is fitted.
+    """
 
     value: float
     """Extrapolated limit L, found without knowing the rigid value; NaN where cases are too few for one."""
