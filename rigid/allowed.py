@@ -160,6 +160,18 @@ def require(
     raise SceneError(f"{key} = {shown(value)} is not possible: {allowed}.")
 
 
+def require_list(
+    key: str, values: Any, low: float, high: float, allowed: str, *, open_low: bool = False
+) -> tuple[float, ...]:
+    """Numbers in a row as Python has them, a single one too; each as of :func:`require`."""
+    one = _item(values)
+    if isinstance(one, (int, float)):
+        values = (one,)
+    if isinstance(values, (str, bytes, Mapping)) or not isinstance(values, (Sequence, np.ndarray)):
+        raise SceneError(f"{key} = {shown(values)} is not possible: it is a number or a list of them.")
+    return tuple(require(key, value, low, high, allowed, open_low=open_low) for value in values)
+
+
 def shown(value: Any) -> str:
     """A value as a sentence can show it: a whole number that no float holds by its power of ten, of others a line."""
     if isinstance(value, int) and abs(value) > sys.float_info.max:

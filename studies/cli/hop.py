@@ -37,7 +37,6 @@ if TYPE_CHECKING:
 @click.option(
     "--bisections",
     type=click.IntRange(0, 30),
-    default=4,
     metavar="N",
     help="Of each threshold, 4 by default; 0 is the map alone.",
 )
@@ -75,7 +74,7 @@ def hop(
     as_json: bool,
     out: Path | None,
     over: tuple[str, ...],
-    bisections: int,
+    bisections: int | None,
     rtol: float | None,
     turns: int | None,
     whole: bool,
@@ -92,7 +91,6 @@ def hop(
     """
     if peers_too:
         return _beside(ctx, results_folder(out), as_json)
-    from ..hop.rolling.roll import RTOL
     from ..hop.study import hop_study
     from ..running.progress import announce, bar, complain
     from ..running.workers import pool
@@ -102,12 +100,12 @@ def hop(
         described = described.replace(contact={"law": law})
     if turns is not None:
         described = described.replace(run=Run(turns=turns))
-    asked = map_of(described, over, rtol=rtol or RTOL, bisections=bisections, level=level, whole=whole)
+    asked = map_of(described, over, rtol=rtol, bisections=bisections, level=level, whole=whole)
     target = results_folder(out)
     say: Callable[[str], None] = (lambda sentence: None) if as_json else announce
     rolls = f"{asked.count} roll{'s' if asked.count > 1 else ''}"
-    closing = bisections and len(asked.stiffness) > 1  # between two stiffnesses
-    say(f"{rolls}{f', and up to {3 * (bisections + 2)} more for each threshold line' if closing else ''}.")
+    closing = asked.bisections and len(asked.stiffness) > 1  # between two stiffnesses
+    say(f"{rolls}{f', and up to {3 * (asked.bisections + 2)} more for each threshold line' if closing else ''}.")
     with bar(rolls) as progress, pool(workers, scheduler) as place:
         if scheduler is None:
             prepare(*compile_side_by_side(levels_of(_ends_of(asked)), place.beside))  # once for all workers
@@ -206,7 +204,7 @@ def _value(text: str, whole: bool) -> float:
 
 
 def map_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> HopMap:
-    """The study that a command line asks for.
+    """The study that a command line asks for; what it leaves out, or is None, is the map's own.
 
     Raises
     ------
@@ -214,17 +212,15 @@ def map_of(scene: Scene, over: tuple[str, ...], **settings: Any) -> HopMap:
         A key that no scene has, a value it cannot take, more than one key besides the bending stiffness, or hoops of
         which the flexible solver takes none.
     """
-    import numpy as np
-
-    from ..hop.rolling.asked import DEFAULT, STIFFNESS, HopMap
+    from ..hop.rolling.asked import STIFFNESS, HopMap
 
     ranges = [parse_over(text) for text in over]
     keys = [key for key, _ in ranges]
     if len(set(keys)) < len(keys) or len(set(keys) - {STIFFNESS}) > 1:
         raise SceneError(f"--over takes {STIFFNESS} and one key more, each once: it was given {', '.join(keys)}.")
-    stiffness = dict(ranges).get(STIFFNESS, tuple(np.geomspace(*DEFAULT).tolist()))
-    other = next(((key, values) for key, values in ranges if key != STIFFNESS), (None, (None,)))
-    asked = HopMap(scene, stiffness, other[0], other[1], **settings)
+    for key, values in ranges:
+        settings |= {"stiffness": values} if key == STIFFNESS else {"second": key, "values": values}
+    asked = HopMap(scene, **{name: value for name, value in settings.items() if value is not None})
     refused = [error for line in asked.scenes if (error := _refusal(line)) is not None]
     if len(refused) == len(asked.scenes):
         raise refused[0]

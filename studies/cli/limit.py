@@ -64,11 +64,11 @@ def limit(
     from ..running.workers import pool
 
     described = load_scene(scene)
-    if law is not None:
-        described = described.replace(contact={"law": law})
+    contact = {"law": law, "damping": damping}
+    described = described.replace(contact={key: value for key, value in contact.items() if value is not None})
     target = results_folder(out)
     with bar("inner problems") as progress, pool(workers, scheduler) as place:
-        found = limit_study(described, damping=damping, flexible=foundations, pool=place, out=target, progress=progress)
+        found = limit_study(described, flexible=foundations, pool=place, out=target, progress=progress)
         spots = damping_map(found.scene) if mapped else []
     told = found.to_dict() | ({"map": [spot.to_dict() for spot in spots]} if mapped else {})
     more = [map_sheet(spots)] if mapped else []

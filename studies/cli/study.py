@@ -11,12 +11,15 @@ from rigid import load_scene
 from rigid.elastic import LAWS
 
 from ..running.files import StudyError, to_json, write_text
+from ..stiffness.ladder import ABOVE, ALONG, BELOW, Ladder
 from .shared.options import Commands, Finite, as_json, out_folder, scene_argument, scheduler, workers
 from .shared.results import begin_results, results_folder
 
 if TYPE_CHECKING:
     from ..running.workers import Pool
     from ..stiffness.found import StiffnessStudy
+
+LADDER = Ladder()  # whose defaults are those of the command
 
 POSITIVE = Finite(0, min_open=True)
 
@@ -40,13 +43,19 @@ def study() -> None:
 @out_folder("Write table, figures, report.html and the ring's fields here; finished cases are kept and found again.")
 @click.option(
     "--along",
-    type=click.Choice(["both", "contact", "bending"]),
-    default="both",
+    type=click.Choice(ALONG),
+    default=LADDER.along,
     help="What is raised: contact foundation, ring bending, or both in the scene's ratio (default).",
 )
-@click.option("--low", type=POSITIVE, metavar="S", help=f"Softest rung, {RAISED}; by default 1e-2 of the scene's.")
-@click.option("--high", type=POSITIVE, metavar="S", help="Stiffest rung; by default 1e4 of the scene's.")
-@click.option("--count", type=click.IntRange(2, 1000), default=9, metavar="N", help="Number of rungs, 9 by default.")
+@click.option("--low", type=POSITIVE, metavar="S", help=f"Softest rung, {RAISED}; by default {BELOW:g} of the scene's.")
+@click.option("--high", type=POSITIVE, metavar="S", help=f"Stiffest rung; by default {ABOVE:g} of the scene's.")
+@click.option(
+    "--count",
+    type=click.IntRange(2, 1000),
+    default=LADDER.count,
+    metavar="N",
+    help=f"Number of rungs, {LADDER.count} by default.",
+)
 @click.option("--law", type=click.Choice(LAWS), help="Friction law, in place of the scene's.")
 @click.option(
     "--rate",
@@ -96,13 +105,12 @@ def stiffness(
     from ..running.progress import bar, complain
     from ..running.solvers import ensure_accepts
     from ..running.workers import pool
-    from ..stiffness.ladder import Ladder
     from ..stiffness.study import stiffness_study
 
     described = load_scene(scene)
     contact = {"law": law, "damping": damping}
     described = described.replace(contact={key: value for key, value in contact.items() if value is not None})
-    ladder = Ladder.around(described, along, low, high, count)
+    ladder = Ladder(along, low, high, count).around(described)
     with pool(workers, scheduler) as place:  # whose processes load what they take while this one does
         ensure_accepts(solver_name, described)
         target = results_folder(out)
@@ -112,7 +120,7 @@ def stiffness(
                 ladder,
                 solver=solver_name,
                 all_pulses=all_pulses,
-                exponent=rate,
+                rate=rate,
                 pool=place,
                 out=target,
                 progress=progress,

@@ -10,14 +10,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from rigid import Scene, scene_to_dict
-from rigid.allowed import shown
+from rigid import Scene, SceneLike, as_scene, scene_to_dict
 from rigid.output import summary
 from rigid.output.units import unit_names
 from rigid.scenefile import units_of_keys
 
 from ..running.case import Case, Outcome
-from ..running.files import StudyError
 from ..running.runs import run_cases
 from ..running.workers import Here, Pool
 from .rolling.asked import STIFFNESS, Ask, HopMap
@@ -40,7 +38,10 @@ _THRESHOLD = ("value", "low", "high", "foreseen", "omega_1_t", "times_duration_s
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class HopStudy(summary.Summarised):
-    """What the study found."""
+    """What the study found from a ``scene``: ``lines`` of rolls with their thresholds, each over the bending stiffness.
+
+    There is a line for each value of the key ``second``, or one where that is None; ``cases`` are the rolls of all.
+    """
 
     scene: Scene
     """From which all starts, as it was asked."""
@@ -150,22 +151,30 @@ def _rolls(line: Line) -> list[HopCase]:
 
 
 def hop_study(
-    asked: HopMap,
+    asked: HopMap | SceneLike,
     *,
     pool: Pool | None = None,
     out: str | Path | None = None,
     progress: Callable[[float], None] | None = None,
     say: Callable[[str], None] | None = None,
 ) -> HopStudy:
-    """Roll the map, then close in on the thresholds; see :func:`studies.running.runs.run_cases` for the arguments.
+    """Roll the map, then close in on the thresholds.
+
+    Parameters
+    ----------
+    asked : HopMap or Scene, str, path, dict
+        What is rolled; of a scene, or of what says which (see :func:`rigid.simulate`), the map that has all else by
+        default: ``HopMap(scene)``.
+    pool, out, progress, say
+        See :func:`studies.running.runs.run_cases`.
 
     Raises
     ------
-    StudyError
-        What is asked is no :class:`HopMap`.
+    SceneError, StudyError
+        What is asked is no scene, or as of :class:`HopMap`.
     """
     if not isinstance(asked, HopMap):
-        raise StudyError(f"{shown(asked)} is not what a hop study rolls: it must be a HopMap.")
+        asked = HopMap(as_scene(asked))
     rounds = asked.bisections + 1 if asked.bisections else 0  # behind the map, which is most of the work
     shares = [0.0, *np.linspace(0.8, 1.0, rounds + 1).tolist()] if rounds else [0.0, 1.0]
     stage = 0

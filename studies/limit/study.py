@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rigid import Run, Scene, SceneLike, as_scene, scene_to_dict
+from rigid.allowed import require_list
 from rigid.output import summary
 
 from ..inner.creep import creep
@@ -81,7 +83,11 @@ class EventFound:
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class LimitStudy(summary.Summarised):
-    """What the study found."""
+    """What the study found: of a ``scene`` the ``events``, and the ``prediction`` of its pulse's limit and approach.
+
+    It holds from the foundation ``separate`` on; beside it are ``sights``, runs at a finite stiffness, and ``others``,
+    limits under other compliances.
+    """
 
     scene: Scene
     """As it was studied, with its damping."""
@@ -221,9 +227,8 @@ class LimitStudy(summary.Summarised):
 def limit_study(
     scene: SceneLike,
     *,
-    damping: float | None = None,
-    foundations: Sequence[float] = FOUNDATIONS,
-    flexible: Sequence[float] = (),
+    foundations: float | Sequence[float] = FOUNDATIONS,
+    flexible: float | Sequence[float] = (),
     pool: Pool | None = None,
     out: Any = None,
     progress: Callable[[float], None] | None = None,
@@ -233,25 +238,26 @@ def limit_study(
     Parameters
     ----------
     scene : Scene, str, path or dict
-        Its foundation does not matter.
-    damping : float, optional
-        Damping ratio of the patch; by default the scene's own.
-    foundations : sequence of float
+        Its foundation does not matter, its ``contact.damping`` does.
+    foundations : float or sequence of float
         Where a rigid ring on a compliant floor is observed.
-    flexible : sequence of float
+    flexible : float or sequence of float
         Where the flexible solver is, its bending stiffness raised in the scene's proportion.
     pool, out, progress
         For the flexible solver's runs, see :func:`studies.running.runs.run_cases`.
 
     Raises
     ------
+    SceneError
+        What is no foundation.
     StudyError
         There is no pulse, or there is more in it than rolling and sliding.
     """
-    scene = as_scene(scene)
-    if damping is not None:
-        scene = scene.replace(contact={"damping": damping})
-    scene = scene.replace(run=Run(until="pulse"))
+    scene = as_scene(scene).replace(run=Run(until="pulse"))
+    foundations, flexible = (
+        require_list(name, given, 0, inf, "a foundation is above 0", open_low=True)
+        for name, given in (("foundations", foundations), ("flexible", flexible))
+    )
     for foundation in (*foundations, *flexible):
         at_foundation(scene, foundation)  # what cannot be is refused before the work
     way = followed(scene)

@@ -17,7 +17,7 @@ from rigid.output.units import Unit
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """One measure of a pulse."""
+    """One measure of a pulse: ``of`` gives it, in a ``unit``; ``name`` is its key and ``symbol`` what it is called."""
 
     name: str
     """Key in tables and JSON."""
@@ -167,7 +167,7 @@ def known(of: Mapping[str, T], name: str) -> T:
     ValueError
         Nothing; one sentence with all names of which there is.
     """
-    if name not in of:
+    if not isinstance(name, str) or name not in of:
         raise ValueError(f"{name!r} is not a measure of this study: known are {', '.join(of)}.")
     return of[name]
 

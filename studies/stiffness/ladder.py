@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from typing import TypeVar
 
@@ -15,6 +15,8 @@ from rigid.allowed import require, require_choice, require_whole
 T = TypeVar("T")
 
 ALONG = ("both", "contact", "bending")
+BELOW, ABOVE = 1e-2, 1e4
+"""Softest and stiffest rung over a scene's own stiffness, where a ladder does not say them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +28,9 @@ class Ladder:
     along : {"both", "contact", "bending"}
         Raise the contact foundation, the ring's bending stiffness, or both in the ratio they have in the
         scene.
-    low, high : float
-        Foundation (or, along "bending", bending stiffness) of the softest and the stiffest rung.
+    low, high : float, optional
+        Foundation (or, along "bending", bending stiffness) of the softest and the stiffest rung; by default those of
+        six decades, from two below the scene's own stiffness to four above it.
     count : int
         Number of rungs, at least 2.
 
@@ -37,37 +40,35 @@ class Ladder:
         What no ladder can have.
     """
 
-    along: str
-    low: float
-    high: float
-    count: int
+    along: str = "both"
+    low: float | None = None
+    high: float | None = None
+    count: int = 9
 
     def __post_init__(self) -> None:
         require_choice("along", self.along, ALONG)
         for end in ("low", "high"):
-            stiffness = require(end, getattr(self, end), 0, inf, "a stiffness is above 0", open_low=True)
-            object.__setattr__(self, end, stiffness)
-        if not self.low < self.high:
+            if getattr(self, end) is not None:
+                stiffness = require(end, getattr(self, end), 0, inf, "a stiffness is above 0", open_low=True)
+                object.__setattr__(self, end, stiffness)
+        if self.low is not None and self.high is not None and not self.low < self.high:
             raise SceneError(f"The range {self.low:g} to {self.high:g} is not possible: it runs upward.")
         object.__setattr__(self, "count", require_whole("count", self.count, 2, 1000))
 
-    @classmethod
-    def around(
-        cls,
-        scene: SceneLike,
-        along: str = "both",
-        low: float | None = None,
-        high: float | None = None,
-        count: int = 9,
-    ) -> Ladder:
-        """The ladder of a scene: six decades that reach from two below its own stiffness to four above."""
+    def around(self, scene: SceneLike) -> Ladder:
+        """The same ladder with both ends: those that it does not say are the scene's."""
         scene = as_scene(scene)
-        own = scene.ring.bending_stiffness if along == "bending" else scene.contact.stiffness
-        return cls(along, own * 1e-2 if low is None else low, own * 1e4 if high is None else high, count)
+        own = scene.ring.bending_stiffness if self.along == "bending" else scene.contact.stiffness
+        low, high = (own * BELOW if self.low is None else self.low), (own * ABOVE if self.high is None else self.high)
+        return replace(self, low=low, high=high)
 
     @property
     def stiffness(self) -> np.ndarray:
         """(count,) what is raised, dimensionless."""
+        if self.low is None or self.high is None:
+            raise SceneError(
+                "A ladder without low or high has these from a scene: ladder.around(scene) is one of both."
+            )
         return np.geomspace(self.low, self.high, self.count)
 
     @property
@@ -92,7 +93,7 @@ class Ladder:
         law = LAWS[scene.contact.law]
         ratio = scene.ring.bending_stiffness / scene.contact.stiffness
         rungs = []
-        for s in self.stiffness.tolist():
+        for s in self.around(scene).stiffness.tolist():
             ring = {"both": s * ratio, "contact": scene.ring.bending_stiffness, "bending": s}[self.along]
             foundation = scene.contact.stiffness if self.along == "bending" else s
             tied = law.stiffened(scene.contact, foundation / scene.contact.stiffness)

@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from rigid import Run, Scene, SceneLike, as_scene
+from rigid.allowed import require
 
 from ..running.case import Case
 from ..running.files import StudyError
@@ -43,7 +44,7 @@ def stiffness_study(
     *,
     solver: str = "flexible",
     all_pulses: bool = False,
-    exponent: float | None = None,
+    rate: float | None = None,
     pool: Pool | None = None,
     out: str | Path | None = None,
     progress: Callable[[float], None] | None = None,
@@ -58,13 +59,13 @@ def stiffness_study(
         rings about it with an amplitude that does not fall with stiffness: it lifts off, slips early, and tends to
         another limit than the rigid hoop.
     ladder : Ladder, optional
-        By default nine rungs over six decades of both stiffnesses.
+        By default, ``Ladder()``, nine rungs over six decades of both stiffnesses.
     solver : str
         Who runs the rungs: "flexible" or ``module:function``.
     all_pulses : bool
         Go through all pulses of the scene's run instead of the first alone; the limit is that of the first. Of a run
         that stops on the way the pulses before that count.
-    exponent : float, optional
+    rate : float, optional
         Rate of the extrapolation, in place of the contact law's own, or of the fitted one where it has none: with
         another solver than "flexible", along "bending" or "contact" alone, undamped, or with a pulse that rolling and
         sliding do not cover.
@@ -77,8 +78,10 @@ def stiffness_study(
 
     Raises
     ------
+    SceneError
+        What is no rate.
     StudyError
-        No rate, no ladder, no such solver, a rigid hoop without a pulse to study, or no rung that came through. Of too
+        No ladder, no such solver, a rigid hoop without a pulse to study, or no rung that came through. Of too
         few rungs a limit is NaN: a rate that is fitted takes five, known ones four, and two more than they are.
     """
     from flexible import rigid_limit
@@ -86,12 +89,12 @@ def stiffness_study(
     from ..inner.separate import stiff_from
     from ..inner.stops.hanging import followed
 
-    if exponent is not None and not 0 < exponent < inf:
-        raise StudyError(f"exponent = {exponent!r} is not possible: a rate is finite and above 0.")
+    if rate is not None:
+        rate = require("rate", rate, 0, inf, "a rate is above 0", open_low=True)
     scene = as_scene(scene)
     if not isinstance(ladder, Ladder | None):
         raise StudyError(f"ladder = {ladder!r} is not possible: it is a studies.Ladder.")
-    ladder = ladder or Ladder.around(scene)
+    ladder = (ladder or Ladder()).around(scene)
     ensure_accepts(solver, ladder.rungs(scene)[0])
     pool = pool or Here()
     if not all_pulses:
@@ -135,7 +138,7 @@ def stiffness_study(
         raise StudyError(
             f"No rung of the ladder came through; the stiffest says: {rungs[-1].outcome.failure.rstrip('.')}."
         )
-    rates: tuple[float, ...] | None = None if exponent is None else (exponent,)
+    rates: tuple[float, ...] | None = None if rate is None else (rate,)
     limits = _limits(scene, through, pulse, foreseen, rates, separate)
     stiff = 0.0
     # one that slides on does otherwise at any stiffness

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses
+import inspect
+import re
+
 import matplotlib as mpl
 import numpy as np
 import pytest
@@ -29,10 +33,10 @@ def test_workers_that_are_no_number_of_them_are_refused(workers):
         pass
 
 
-@pytest.mark.parametrize("rate", [float("nan"), float("inf"), -1.0, 0.0])
+@pytest.mark.parametrize("rate", [float("nan"), float("inf"), -1.0, 0.0, "a", [1.0]])
 def test_a_rate_that_is_none_is_refused_before_anything_runs(tmp_path, rate):
-    with pytest.raises(StudyError, match="exponent = "):
-        stiffness_study("paper-3.3-massless", exponent=rate, out=tmp_path)
+    with pytest.raises(SceneError, match=r"^rate = .* is not possible"):
+        stiffness_study("paper-3.3-massless", rate=rate, out=tmp_path)
     assert not list(tmp_path.iterdir())
 
 
@@ -145,8 +149,8 @@ def test_what_is_asked_in_the_wrong_words(study):
         study.plot("nope")
     with pytest.raises(TypeError, match=r"unit = 's' is not possible: it is one of studies.Unit: .*TIME"):
         studies.measure("$q$", "s")
-    with pytest.raises(StudyError, match="it must be a HopMap"):
-        studies.hop_study("paper-3.1")
+    with pytest.raises(SceneError, match=r"^17 is not a scene"):
+        studies.hop_study(17)
     with pytest.raises(SceneError, match="are of no key"):
         studies.HopMap(load_scene("paper-3.3-heavier"), (10.0,), values=(0.1, 0.2))
     for over in (
@@ -160,6 +164,121 @@ def test_what_is_asked_in_the_wrong_words(study):
         studies.atlas_of(side=10**9)
     with pytest.raises(ValueError, match="a force and its times"):
         meshes.frame_times(0, 1, 5, normal_force=[1, 2])
+
+
+@pytest.mark.parametrize(
+    "given", ["1e10", None, {"S": 1e10}, [1e10, "a"], [[1e10]], [1e10, -1.0], float("nan"), True, iter([1e10])]
+)
+@pytest.mark.parametrize("name", ["foundations", "flexible"])
+def test_foundations_that_are_none_are_refused_in_a_sentence(name, given):
+    with pytest.raises(SceneError, match=rf"^{name} = .* is not possible: .*\.$"):
+        limit_study("paper-3.3-massless", **{name: given})
+
+
+def test_a_single_foundation_is_one():
+    found = limit_study("paper-3.3-massless", foundations=np.float64(1e10))
+    assert [sight.foundation for sight in found.sights] == [1e10]
+
+
+@pytest.mark.parametrize(
+    ("settings", "told"),
+    [
+        ({"stiffness": 10.0}, "stiffness = 10.0 is not possible: it lists what is rolled"),
+        ({"stiffness": [[1.0], [1.0, 2.0]]}, "ring.bending_stiffness = .1.0. is not possible"),
+        ({"stiffness": {1.0: 2.0}}, "stiffness = .* it lists what is rolled"),
+        ({"second": "hoop.k", "values": 0.1}, "values = 0.1 is not possible: it lists what is rolled"),
+        ({"second": "hoop.k", "values": [[0.1]]}, "hoop.k = .0.1. is not possible"),
+        ({"second": "hoop.k"}, "hoop.k = None is not possible"),
+    ],
+)
+def test_a_map_lists_what_is_rolled(settings, told):
+    with pytest.raises(SceneError, match=f"^{told}"):
+        studies.HopMap("paper-3.3-heavier", **settings)
+
+
+@pytest.mark.parametrize("exponents", [1 / 3, [], ["a"], [-1.0]])
+def test_exponents_that_are_no_rates(exponents):
+    with pytest.raises(ValueError, match=r"^exponents = .* is not possible: they are a list of rates"):
+        studies.limit_of([1e6, 1e7, 1e8], [1.0, 1.1, 1.2], 1.3, exponents=exponents)
+
+
+@pytest.mark.parametrize(("s", "y"), [(["a"], [1.0]), ([1e6], "b"), ([[1e6], [1e7, 1e8]], [1.0])])
+def test_cases_that_are_no_numbers(s, y):
+    with pytest.raises(ValueError, match=r"s, y and error of .* are not possible: (they are lists|there is one)"):
+        studies.limit_of(s, y, 1.3)
+
+
+def of_the_command(name):
+    """Its options as they are where none is given."""
+    from studies.cli.hoop import hoop
+
+    command = hoop
+    for word in name.split():
+        command = command.get_command(None, word)
+    return command.make_context(name, ["paper-3.3-heavier"]).params
+
+
+def test_a_ladder_without_words_is_that_of_the_command():
+    """The ends that it does not say are the scene's own stiffness, of what it raises, by the same factors."""
+    asked = of_the_command("study stiffness")
+    assert Ladder() == Ladder(asked["along"], asked["low"], asked["high"], asked["count"])
+    scene = load_scene("paper-3.3-massless")
+    for along, own in (("both", scene.contact.stiffness), ("bending", scene.ring.bending_stiffness)):
+        stiffness = Ladder(along).around(scene).stiffness
+        assert len(stiffness) == 9
+        assert stiffness[[0, -1]] / own == pytest.approx([1e-2, 1e4])
+        raised = [rung.ring.bending_stiffness for rung in Ladder(along, count=3).rungs(scene)]
+        assert raised == pytest.approx(scene.ring.bending_stiffness * np.array([1e-2, 10, 1e4]))
+    ends = Ladder(low=1e7).around(scene)
+    assert (ends.low, ends.high) == (1e7, scene.contact.stiffness * 1e4)
+    assert ends.around("paper-3.1") == ends
+    with pytest.raises(SceneError, match=r"ladder\.around\(scene\)"):
+        Ladder(count=2).stiffness  # noqa: B018
+    with pytest.raises(SceneError, match="it runs upward"):
+        Ladder(low=1e300).around(scene)
+    study = stiffness_study(scene, Ladder(count=2), solver="third_solver:softened")
+    assert study.ladder == Ladder(count=2).around(scene)
+
+
+def test_studies_ask_for_the_same_in_the_same_words():
+    """A patch's damping is the scene's in both; what of a command has a name in Python has the same there."""
+    both = [set(inspect.signature(study).parameters) for study in (stiffness_study, limit_study)]
+    assert {"scene", "pool", "out", "progress"} <= both[0] & both[1]
+    assert not any({"damping", "law"} & names for names in both)
+    assert "rate" in both[0]
+    assert "rate" in of_the_command("study stiffness")
+
+
+@pytest.mark.parametrize("name", [name for name in studies.__all__ if isinstance(getattr(studies, name), type)])
+def test_what_one_gets_says_in_its_help_what_it_holds(name):
+    """Strings after fields are for readers of the source and of the site: ``help()`` has the class's own text alone."""
+    given = getattr(studies, name)
+    if dataclasses.is_dataclass(given):
+        needed = [each.name for each in dataclasses.fields(given) if each.default is each.default_factory]
+        assert [each for each in needed if not re.search(rf"``{each}``|^{each} :", inspect.getdoc(given), re.M)] == []
+
+
+class Asked(Exception):
+    """Instead of a roll."""
+
+
+def test_a_hop_study_takes_a_scene(monkeypatch):
+    """The map that it rolls is that of the command: what neither says is said once."""
+    from studies.cli.hop import map_of
+
+    def ask(cases, *_, **__):
+        raise Asked([case.scene for case in cases])
+
+    monkeypatch.setattr("studies.hop.study.run_cases", ask)
+    scene, rolled = load_scene("paper-3.3-heavier"), []
+    left_out = {name: of_the_command("study hop")[name] for name in ("bisections", "rtol", "level")}
+    for asked in ("paper-3.3-heavier", scene, studies.HopMap(scene), map_of(scene, (), **left_out)):
+        with pytest.raises(Asked) as caught:
+            studies.hop_study(asked)
+        rolled.append(caught.value.args[0])
+    assert rolled == [rolled[0]] * 4
+    stiffness = [each.ring.bending_stiffness for each in rolled[0]]
+    assert stiffness == pytest.approx(np.geomspace(0.5, 1e4, 24))
 
 
 def test_an_error_below_zero_is_none():

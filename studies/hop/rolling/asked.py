@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rigid import Scene, SceneError, as_scene, scene_from_dict, scene_to_dict
-from rigid.allowed import require_whole, shown
+from rigid.allowed import plain, require_whole, shown
 from rigid.elastic import UNITS
 
 from .roll import RTOL, from_rest, through_the_pulse
@@ -40,7 +40,11 @@ class Ask(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class HopMap:
-    """What a hop study rolls.
+    """What a hop study rolls: a ``scene`` at each bending stiffness of ``stiffness``, 24 from 0.5 to 1e4 by default.
+
+    For a map ``second`` is a key more, "hoop.k" for instance, and ``values`` its values. ``rtol`` is the tolerance of
+    the rolls, thresholds are found by ``bisections`` ``level`` is that of the ring, and with ``whole`` all go on
+    to their end. ``scenes`` are made of these.
 
     Raises
     ------
@@ -53,7 +57,7 @@ class HopMap:
 
     scene: Scene
     """Or what says so, as :func:`rigid.simulate` takes it."""
-    stiffness: tuple[float, ...]
+    stiffness: tuple[float, ...] = tuple(np.geomspace(*DEFAULT).tolist())
     """In any order, each once however often it is given; so are the values."""
     second: str | None = None
     values: tuple[Any, ...] = (None,)
@@ -74,14 +78,18 @@ class HopMap:
         object.__setattr__(self, "scene", scene)
         object.__setattr__(self, "bisections", require_whole("bisections", self.bisections, 0, 30))
         for name in ("stiffness", "values"):
-            if np.ndim(getattr(self, name)) != 1 or len(getattr(self, name)) == 0:
-                raise SceneError(f"{name} = {shown(getattr(self, name))} is not possible: it lists what is rolled.")
+            given = getattr(self, name)
+            row = np.ndim(given) > 0 if isinstance(given, np.ndarray) else isinstance(given, (list, tuple))
+            if not row or len(given) == 0:
+                raise SceneError(f"{name} = {shown(given)} is not possible: it lists what is rolled.")
         if self.second is None and tuple(self.values) != (None,):
             raise SceneError(f"values = {shown(self.values)} are of no key: second is the key that they vary.")
         if any(isinstance(value, str) for value in self.values):
             raise SceneError(
                 f"{self.second} cannot be varied in a hop study: its values are words, and a map has numbers."
             )
+        if self.second is not None:
+            object.__setattr__(self, "values", tuple(plain(self.second, value) for value in self.values))
         rings = [scene.replace(ring={"bending_stiffness": value}).ring for value in self.stiffness]
         object.__setattr__(self, "stiffness", tuple(sorted({ring.bending_stiffness for ring in rings})))
         object.__setattr__(self, "values", tuple(sorted(set(self.values))))

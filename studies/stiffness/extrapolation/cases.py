@@ -47,7 +47,10 @@ def ascending(
     ValueError
         Not as many of each, a stiffness that is none, or one twice; exponents that are no rates, slowest first.
     """
-    x, v, e = np.asarray(s, float), np.asarray(y, float), None if error is None else np.asarray(error, float)
+    try:
+        x, v, e = np.asarray(s, float), np.asarray(y, float), None if error is None else np.asarray(error, float)
+    except (TypeError, ValueError):  # words, or rows of several lengths
+        raise ValueError("s, y and error of these values are not possible: they are lists of numbers.") from None
     lengths = [each.shape for each in (x, v, e) if each is not None]
     if x.ndim != 1 or len(set(lengths)) > 1:
         told = ", ".join(map(str, lengths))
@@ -57,9 +60,14 @@ def ascending(
     if e is not None and np.any(e < 0):
         raise ValueError(f"error = {e[e < 0][0]:g} is not possible: an error is at least 0.")
     if exponents is not None:
-        rates = np.asarray(exponents, float)
+        try:
+            rates = np.asarray(exponents, float)
+        except (TypeError, ValueError):
+            rates = np.array([])
         if rates.ndim != 1 or not rates.size or not np.all((rates > 0) & (rates < inf)) or np.any(np.diff(rates) < 0):
-            raise ValueError(f"exponents = {exponents!r} is not possible: rates are above 0, slowest first.")
+            raise ValueError(
+                f"exponents = {exponents!r} is not possible: they are a list of rates above 0, slowest first."
+            )
     order = np.argsort(x)
     if np.any(np.diff(x[order]) == 0):
         raise ValueError(

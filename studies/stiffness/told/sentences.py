@@ -116,8 +116,9 @@ def ladder_sentence(study: StiffnessStudy) -> str:
     ]
     along = {"both": "Both stiffnesses are raised in the scene's ratio", "contact": "The floor alone is stiffened",
              "bending": "The ring alone is stiffened"}[ladder.along]  # fmt: skip
+    low, high = ladder.stiffness[[0, -1]].tolist()
     return (
-        f"{along}: {ladder.count} cases, the {ladder.label} from {number(ladder.low, 3)} to {number(ladder.high, 3)}; "
+        f"{along}: {ladder.count} cases, the {ladder.label} from {number(low, 3)} to {number(high, 3)}; "
         f"{''.join(tied)}all else is as the scene below says."
     )
 
@@ -148,7 +149,7 @@ def extrapolation_sentence(study: StiffnessStudy) -> str:
             for i, p in enumerate(known[0].exponents)
         )
         holds = known[0].holds
-        since = f" from the cases above {number(holds, 2)}" if holds > study.ladder.low else ""
+        since = f" from the cases above {number(holds, 2)}" if holds > study.ladder.stiffness[0] else ""
         said.append(
             f"The limit is L in L + {powers} + ..., {s}, its exponents known and L and all c inferred{since} "
             "without knowing the rigid value. Its uncertainty ± holds what the terms not seen and the cases' numerical "
@@ -223,7 +224,7 @@ def prediction_sentence(study: StiffnessStudy) -> str:
         said += f" Cases {which} are not described by it."
     elif not isfinite(study.separate):
         said += " A patch of so little damping does not come to rest between the events, and it holds at none of these."
-    elif study.separate > study.ladder.low:
+    elif study.separate > study.ladder.stiffness[0]:
         said += (
             f" A series in powers of ε, of which this is the beginning, describes cases from a foundation of"
             f" {number(study.separate, 2)} on, where terms behind may still be the larger ones: at softer ones an event"

@@ -66,7 +66,7 @@ def test_ring_and_patch_give_way_alike_where_it_is_said(mass_ratio: float) -> No
     """The patch by 1/(2 eps_n a), as dN/ddelta of a parabolic rim is; behind the stops and reversals of the pulse."""
     scene = load_scene("paper-3.2-k0.25").replace(hoop={"mass_ratio": mass_ratio})
     way = passage(scene)
-    rung = Ladder.around(scene).rungs(scene)[0]
+    rung = Ladder().rungs(scene)[0]
     foundation = stiff_from(way, rung)
     stiff = rung.replace(contact={"stiffness": foundation})
     bending = rung.ring.bending_stiffness * foundation / rung.contact.stiffness

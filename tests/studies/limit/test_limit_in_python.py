@@ -150,11 +150,11 @@ def test_a_softer_pulse_or_one_within_its_error_is_not_said_to_be_unlike(study):
 
 def test_far_from_its_limit_a_strongly_damped_patch_is_said_to_be():
     """Springs behind a damper of 100 take eps theta: of a rigid ring at 1e10 the predicted creep is not there yet."""
-    found = limit_study("paper-3.3-massless", damping=100.0, foundations=(1e10,))
+    found = limit_study(load_scene("paper-3.3-massless").replace(contact={"damping": 100.0}), foundations=(1e10,))
     (said,) = unlike_sentences(found)
     assert "in J_F/J_N by -" in said
     assert said.endswith("its layers are not separate there yet.")
-    assert unlike_sentences(limit_study("paper-3.3-massless", damping=1.0, foundations=(1e12,))) == []
+    assert unlike_sentences(limit_study(load_scene("paper-3.3-massless").replace(contact={"damping": 1.0}), foundations=(1e12,))) == []
 
 
 def test_the_sheet_of_events_has_the_forces_of_the_rigid_hoop(study):

@@ -139,7 +139,7 @@ def test_it_is_told():
     assert others[0] == f"patch, damping above {stop.damping:.4g}: {paper}"
     assert others[1].startswith(f"patch, damping 1: {ratio}, like")
     assert not any(word.startswith("patch, any damping") for word in others)
-    kept = limit_study(RIGHT, damping=3.0, foundations=())
+    kept = limit_study(RIGHT.replace(contact={"damping": 3.0}), foundations=())
     assert "becomes the paper's rigid hoop" in verdict(kept)
     said = " ".join(damping_sentences(kept))
     assert f"below a damping ratio of {stop.damping:.4g} it may" in said

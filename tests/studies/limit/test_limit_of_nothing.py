@@ -89,7 +89,7 @@ def test_a_foundation_that_cannot_be_is_refused_before_the_work(hoop, monkeypatc
 
 def test_without_damping_the_limit_is_that_of_the_least_of_it():
     """A patch that rings breaks its stick for ever: of it no limit is seen, of the least damping the paper's."""
-    study = limit_study("paper-3.3-massless", damping=0.0, foundations=())
+    study = limit_study(load_scene("paper-3.3-massless").replace(contact={"damping": 0.0}), foundations=())
     assert verdict(study).startswith("Made ever stiffer, with the least of damping, the hoop")
     assert "no limit seen" in other_sentences(study)[-1]
     damped = limit_study("paper-3.3-massless", foundations=())

@@ -98,7 +98,7 @@ def test_an_event_is_where_the_rigid_motion_has_it(phi0_deg):
 @pytest.mark.slow
 def test_a_strong_damper_has_its_layers_and_its_runs():
     """A damper that carries all of F, but for A/(theta Omega) of it, some 1e-3, creeps at F/(2 kappa A theta)."""
-    study = limit_study("paper-3.3-massless", damping=1000, foundations=(1e13,))
+    study = limit_study(load_scene("paper-3.3-massless").replace(contact={"damping": 1000}), foundations=(1e13,))
     weaker = predict(study.scene.replace(contact={"damping": 200})).terms["impulse_ratio"].coefficient
     assert study.prediction.terms["impulse_ratio"].coefficient == pytest.approx(weaker / 5, rel=5e-3)
     assert all(found.layer is not None for found in study.events)
@@ -113,7 +113,7 @@ def test_what_takes_too_many_steps_costs_its_rows_alone(monkeypatch):
     """The prediction of a stick that is kept needs no layer: it is there."""
     monkeypatch.setattr("studies.inner.layers.MOST", 10)
     monkeypatch.setattr("studies.limit.compliant._MOST", 10)
-    study = limit_study("paper-3.3-massless", damping=1000, foundations=(1e13, 1e14))
+    study = limit_study(load_scene("paper-3.3-massless").replace(contact={"damping": 1000}), foundations=(1e13, 1e14))
     assert study.prediction.terms["impulse_ratio"].coefficient
     assert [found.layer for found in study.events] == [None] * len(study.events)
     said = failures(study)

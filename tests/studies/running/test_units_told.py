@@ -84,7 +84,7 @@ def same(plain, heavy, units, rel=1e-6) -> None:
 
 
 def test_a_stiffness_study_tells_its_units():
-    plain, heavy = (stiffness_study(scene, Ladder.around(scene, "both", 1e6, 1e7, 2)) for scene in (SCENE, HEAVY))
+    plain, heavy = (stiffness_study(scene, Ladder("both", 1e6, 1e7, 2)) for scene in (SCENE, HEAVY))
     same(plain.records(), heavy.records(), heavy.units)
     assert {"value", "peak_normal_force", "seconds"} <= names_of(heavy.to_dict()) <= set(heavy.units)
     assert plain.units["friction_loss"] == "mgR"

@@ -38,7 +38,7 @@ def study():
 
 def test_a_rate_that_is_asked_for_is_that_of_all_rungs():
     """However stiff they would have to be for the theory's own: its line and its sentence leave none out."""
-    found = stiffness_study("paper-3.3-massless", solver=THIRD, exponent=RATE)
+    found = stiffness_study("paper-3.3-massless", solver=THIRD, rate=RATE)
     assert found.limits["impulse_ratio"].known
     soft = replace(found, separate=10 * found.ladder.high)
     line = soft.distance("impulse_ratio").series
@@ -59,7 +59,7 @@ def test_the_ladder_has_at_least_eight_rungs_over_six_decades(study):
 )
 def test_the_ladder_raises_what_is_asked(along, moves):
     scene = load_scene("paper-3.3-massless")
-    rungs = Ladder.around(scene, along, 1e3, 1e6, 4).rungs(scene)
+    rungs = Ladder(along, 1e3, 1e6, 4).rungs(scene)
     contact = {rung.contact.stiffness for rung in rungs}
     bending = {rung.ring.bending_stiffness for rung in rungs}
     assert (len(contact) > 1, len(bending) > 1) == moves
@@ -219,7 +219,7 @@ def test_a_stick_that_breaks_for_good_is_foreseen_and_told(study):
     """Its slip stops where rolling takes more than mu N. The hoop that slides on there has J_F/J_N = 0.269942 (by scipy
     in the tests of its limit), the paper's 0.268452; no later event waits for it."""
     scene = Scene(Hoop(0.28, 1.02), Coefficients(0.41, 0.302), Release(phi0_deg=83.4), Run(until="pulse"))
-    foreseen, separate, lost = _prediction(scene, Ladder.around(scene), "flexible")
+    foreseen, separate, lost = _prediction(scene, Ladder().around(scene), "flexible")
     assert not lost
     hangs = hanging(scene, followed(scene))
     told = prediction_sentence(replace(study, scene=scene, prediction=foreseen, separate=separate, hanging=hangs))
@@ -246,7 +246,7 @@ def test_why_a_prediction_is_lost_is_told(study, monkeypatch):
         (turns.replace(hoop={"k": 0.25}), ""),
     ):
         assert (REVERSAL in [event.kind for event in followed(scene).events]) is bool(why)
-        foreseen, separate, lost = _prediction(scene, Ladder.around(scene), "flexible")
+        foreseen, separate, lost = _prediction(scene, Ladder().around(scene), "flexible")
         assert (foreseen is None) is bool(why)
         assert lost.startswith(why)
         told = prediction_sentence(replace(study, scene=scene, prediction=foreseen, separate=separate, lost=lost))
@@ -328,7 +328,7 @@ def test_bad_ladders():
     [
         ((1e7, 1e8), 2.0, "count = 2.0"),
         ((1e7, 1e8), 2.5, "count = 2.5"),
-        ((None, 1e7), 3, "low = None"),
+        (([1e7], 1e8), 3, r"low = \[1"),
         ((1e7, "1e8"), 3, "high = "),
     ],
 )
@@ -341,7 +341,7 @@ def test_a_ladder_takes_numbers_of_numpy_and_a_scene_by_its_name():
     ladder = Ladder("both", np.float64(1e7), np.int64(10**8), np.int64(3))
     assert ladder == Ladder("both", 1e7, 1e8, 3)
     assert type(ladder.count) is int
-    assert Ladder.around("paper-3.3-massless") == Ladder.around(load_scene("paper-3.3-massless"))
+    assert Ladder().around("paper-3.3-massless") == Ladder().around(load_scene("paper-3.3-massless"))
 
 
 def test_finished_rungs_are_found_again(tmp_path):
@@ -380,8 +380,8 @@ def test_what_cannot_be_studied_is_a_sentence_before_anything_is_solved(monkeypa
         stiffness_study("paper-3.3-massless", solver="nope")
     with pytest.raises(StudyError, match="ladder = 5 is not possible"):
         stiffness_study("paper-3.3-massless", 5)
-    with pytest.raises(ValueError, match="exponent = 0 is not possible"):  # as all other troubles are
-        stiffness_study("paper-3.3-massless", exponent=0)
+    with pytest.raises(ValueError, match="rate = 0 is not possible"):  # as all other troubles are
+        stiffness_study("paper-3.3-massless", rate=0)
 
 
 def test_a_pulse_that_slides_throughout_comes_like_the_depth_of_the_patch():

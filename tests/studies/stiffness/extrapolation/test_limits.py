@@ -374,7 +374,7 @@ def test_what_is_no_ladder_has_no_limit(s, y, error, told):
 
 @pytest.mark.parametrize("exponents", [(), (0.0,), (-1.0,), (float("nan"),), (float("inf"),), (2 / 3, 1 / 3), 1 / 3])
 def test_what_is_no_rate_extrapolates_nothing(exponents):
-    with pytest.raises(ValueError, match=r"exponents = .* is not possible: rates are above 0, slowest first"):
+    with pytest.raises(ValueError, match=r"exponents = .* is not possible: they are a list of rates above 0, slowest"):
         limit_of(S, 0.1 + 0.01 * S ** (-1 / 3), 0.1, exponents=exponents)
 
 

@@ -430,7 +430,7 @@ def test_a_figure_whose_process_died_is_drawn_all_the_same(hoop, tmp_path, monke
 @pytest.mark.parametrize(("law", "along"), [("patch", "both"), ("regularised", "both"), ("regularised", "bending")])
 def test_what_a_law_ties_to_the_foundation_is_told(law, along):
     scene = load_scene("paper-3.3-massless").replace(contact={"law": law})
-    ladder = Ladder.around(scene, along)
+    ladder = Ladder(along).around(scene)
     said = ladder_sentence(SimpleNamespace(scene=scene, ladder=ladder))
     velocities = [rung.contact.slip_velocity_scale for rung in ladder.rungs(scene)]
     if law == "regularised" and along == "both":
