@@ -154,7 +154,12 @@ def test_far_from_its_limit_a_strongly_damped_patch_is_said_to_be():
     (said,) = unlike_sentences(found)
     assert "in J_F/J_N by -" in said
     assert said.endswith("its layers are not separate there yet.")
-    assert unlike_sentences(limit_study(load_scene("paper-3.3-massless").replace(contact={"damping": 1.0}), foundations=(1e12,))) == []
+    assert (
+        unlike_sentences(
+            limit_study(load_scene("paper-3.3-massless").replace(contact={"damping": 1.0}), foundations=(1e12,))
+        )
+        == []
+    )
 
 
 def test_the_sheet_of_events_has_the_forces_of_the_rigid_hoop(study):
