@@ -20,6 +20,7 @@ from flexible.models.state import State
 from flexible.output.body import lowest, outline, whole
 from rigid import Run, Scene
 
+from ..plots.pulse import of_small_terms
 from ..plots.style import OKABE_ITO, RIGID, STYLE, blank
 from .maps import HEIGHTS, first_digits, in_plain_numbers, map_figure
 from .rolling.energies import Roll
@@ -105,7 +106,7 @@ def _hops(study: Mapped, lines: Sequence[Line], grid: NDArray[np.object_]) -> No
         named.values(), named.keys(), loc="outside lower center", ncols=min(len(named), 2 * len(grid[0]))
     )
     if dots is not None:
-        grid[0, 0].figure.colorbar(dots, ax=grid, label="height over R")
+        grid[0, 0].figure.colorbar(dots, ax=grid, label="height over R", extend="both")
 
 
 def _line(axes: Axes, study: Mapped, line: Line) -> PathCollection | None:
@@ -142,7 +143,8 @@ def _line(axes: Axes, study: Mapped, line: Line) -> PathCollection | None:
 
 
 def energies_figure(found: Chosen) -> Figure:
-    """What is stored, what vibrates, what is lost, through one hop; below the height of the rim and N."""
+    """What is stored, what vibrates, what is lost, through one hop, the small terms once more on a logarithmic axis; below
+    the height of the rim and N."""
     steps, history = found.steps, found.steps.history
     index = np.array(found.shown)
     t = history.t[index] - found.start
@@ -155,14 +157,16 @@ def energies_figure(found: Chosen) -> Figure:
         "friction_loss": ("lost to friction and damper", lost[index] - lost[index[0]]),
     }
     with matplotlib.rc_context(STYLE):
-        figure = blank(8.0, 7.4)
-        stored, gap, force = figure.subplots(3, 1, sharex=True, height_ratios=[3, 2, 2])
-        for axes in (stored, gap, force):
+        figure = blank(8.0, 9.0)
+        stored, small, gap, force = figure.subplots(4, 1, sharex=True, height_ratios=[3, 2, 2, 2])
+        for axes in (stored, small, gap, force):
             axes.axvspan(0, found.hop["duration"] / found.unit, color="0.94", zorder=0)
         for name, (words, values) in curves.items():
             stored.plot(t, values, color=OKABE_ITO[name], label=words)
+            small.plot(t, np.where(values > 0, values, np.nan), color=OKABE_ITO[name])
         stored.set(ylabel="energy$/(mgR)$", ylim=(0, None), title=found.title)
         stored.legend()
+        of_small_terms(small)
         gap.plot(t, [lowest(steps.hoop, steps.states[i]) for i in index], color=OKABE_ITO["gravity"])
         gap.set_ylabel("lowest point of\nthe rim over R")
         force.plot(t, history.normal_force[index], color=RIGID)
@@ -176,7 +180,8 @@ def liftoff_figure(found: Chosen) -> Figure:
         figure = blank(10.0, 5.2)
         left, right = figure.subplots(1, 2, width_ratios=[1, 1])
         draw_hoop(left, found.case.scene, found.steps, found.first)
-        left.set(title=found.title, xlabel="x/R", ylabel="y/R")
+        left.set(title="the ring as it leaves the floor", xlabel="x/R", ylabel="y/R")
+        figure.suptitle(found.title)  # wider than a panel
         instants = {
             "last step on the floor": (found.first - 1, "0.6"),
             "in the middle of the hop": ((found.first + found.last) // 2, OKABE_ITO["kinetic"]),

@@ -13,7 +13,6 @@ from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.colors import BoundaryNorm, ListedColormap, LogNorm
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
@@ -21,7 +20,7 @@ from numpy.typing import NDArray
 
 from ..plots.style import RIGID, STYLE, blank
 from .rolling.scaling import duration
-from .rolling.threshold import SYMBOL, WHERE, HopCase, Line, Mapped
+from .rolling.threshold import SYMBOL, HopCase, Line, Mapped
 
 Array = NDArray[np.float64]
 
@@ -41,6 +40,13 @@ PLACES = {
 """Where a hoop hops, the rarest place first, in words and in a colour."""
 
 NAMES = {"hoop.k": "radius of the disk over that of the hoop, k", "hoop.mass_ratio": "mass of the ring over the disk's"}
+
+THRESHOLDS = {
+    "anywhere": ("threshold anywhere", "o", RIGID),
+    "pulse": ("threshold in the first pulse", "s", "white"),
+    "bottom": ("threshold at φ = π", "^", "white"),
+}
+"""How each threshold is told from the others: its words, its marker and what fills that."""
 
 HALO = [withStroke(linewidth=3.0, foreground="white")]
 
@@ -75,7 +81,8 @@ def map_figure(study: Mapped) -> Figure | None:
         for row, (values, title, how) in enumerate(panels):
             axes = figure.add_subplot(grid[row, 1])
             painted = axes.pcolormesh(*_edges(study), values, rasterized=True, **how)
-            figure.colorbar(painted, ax=axes, ticks=FixedLocator(angle_ticks(values)) if row == 0 else None)
+            bar: dict[str, Any] = {"ticks": FixedLocator(angle_ticks(values))} if row == 0 else {"extend": "both"}
+            figure.colorbar(painted, ax=axes, **bar)
             axes.set_title(title, fontsize=10)
             _scales(study, axes, room=6)
             if row == 1:
@@ -116,11 +123,13 @@ def _lines(study: Mapped, axes: Axes) -> list[Artist]:
                if not c.motion["completed"]]  # fmt: skip
     if stopped:
         keys += axes.plot(*np.array(stopped).T, "x", color="0.25", ms=5, label="stopped before its end")
-    solid: Any = {"color": RIGID, "lw": 1.6, "marker": "o", "ms": 4, "path_effects": HALO}
-    for where in WHERE:
+    for where, (words, marker, fill) in THRESHOLDS.items():
         known = [line.threshold(where).value if where in line.windows else None for line in study.lines]
-        axes.plot([np.nan if value is None else value for value in known], values, **solid)  # a gap where there is none
-    keys.append(Line2D([], [], label="thresholds: anywhere, in the pulse, at φ = π", **solid))
+        if all(value is None for value in known):
+            continue
+        solid: Any = {"color": RIGID, "lw": 1.6, "marker": marker, "mfc": fill, "ms": 5, "path_effects": HALO}
+        at = [np.nan if value is None else value for value in known]  # a gap where there is none
+        keys += axes.plot(at, values, label=words, **solid)
     durations = np.array([duration(line.scene) or np.nan for line in study.lines])
     label = f"{TIMES_DURATION:g}/τ², τ the time of the rigid pulse"
     keys += axes.plot(TIMES_DURATION / durations**2, values, "--", color=RIGID, lw=1.3, label=label, path_effects=HALO)

@@ -83,6 +83,14 @@ def pulse(
         return figure
 
 
+def of_small_terms(axes: Axes) -> None:
+    """The axis of what is drawn of an energy ledger's small terms: eight decades, no more."""
+    axes.set_yscale("log")
+    low, high = axes.get_ylim()
+    axes.set_ylim(max(low, 1e-8 * high), high)
+    axes.set_ylabel("the small terms$/(mgR)$")
+
+
 def _of_differences(axes: Axes, ends: Sequence[np.ndarray] = ()) -> None:
     """The axis of differences: six decades, no more, are what one wants to see; one below the least of the ``ends``."""
     if not any(np.any(np.asarray(line.get_ydata(), dtype=float) > 0) for line in axes.get_lines()):
@@ -235,10 +243,7 @@ def energy(columns: Columns, title: str = "") -> Figure | None:
             if name not in ("kinetic", "gravity"):
                 change = columns[name]
                 small.plot(t, np.where(change > 0, change, np.nan), color=OKABE_ITO[name])
-        small.set_yscale("log")
-        low, high = small.get_ylim()
-        small.set_ylim(max(low, 1e-8 * high), high)
-        small.set_ylabel("the small terms$/(mgR)$")
+        of_small_terms(small)
         small.set_xlabel(r"time since the pulse began $t/\sqrt{R/g}$")
         handles, labels = stack.get_legend_handles_labels()
         figure.legend(handles[::-1], labels[::-1], loc="outside right upper")

@@ -88,3 +88,31 @@ def test_a_map_over_releases_names_none_of_them():
     lines = [line_of(SCENE.replace(release={"phi0_deg": phi0}), phi0) for phi0 in (10.0, 20.0)]
     title = map_figure(HopStudy(SCENE, "release.phi0_deg", tuple(lines))).axes[0].get_title(loc="left")
     assert title.endswith("released at rest")
+
+
+def test_each_threshold_is_told_from_the_others():
+    """Hops in the pulse alone and at the bottom alone: three lines, each with words and a look of its own."""
+    scenes = [SCENE.replace(hoop={"k": k}) for k in (0.1, 0.2)]
+    angles = {10.0: np.pi - SCENE.release.phi0, 20.0: windows(SCENE)["pulse"].high - 1e-3, 40.0: 4.5, 80.0: None}
+    lines = []
+    for scene in scenes:
+        rolls = [line_of(scene, swept=3.0 if swept is None else swept, stiffness=(1.0, stiffness)).mapped[1]
+                 for stiffness, swept in angles.items()]  # fmt: skip
+        rolls[-1].motion["flights"].clear()
+        lines.append(Line(scene.hoop.k, scene, windows(scene), tuple(rolls)))
+    axes = map_figure(HopStudy(SCENE, "hoop.k", tuple(lines))).axes[0]
+    shown = [line for line in axes.lines if line.get_label().startswith("threshold")]
+    assert [line.get_xdata()[0] for line in shown] == pytest.approx([56.6, 28.3, 14.1], rel=0.01), "between two rolls"
+    assert len({(line.get_marker(), line.get_linestyle(), str(line.get_markerfacecolor())) for line in shown}) == 3
+    (legend,) = [each for each in (axes.get_legend(), *axes.figure.legends) if each is not None]
+    told = {text.get_text() for text in legend.get_texts()}
+    assert {line.get_label() for line in shown} <= told
+    assert len(shown) == 3
+
+
+def test_colours_of_heights_say_that_some_are_beyond():
+    """A hop of 0.3 R has the colour of 0.1 R: the bar shows that there is more, and less."""
+    study = HopStudy(SCENE, "hoop.k", tuple(line_of(SCENE.replace(hoop={"k": k}), k, height=0.3) for k in (0.1, 0.2)))
+    for figure in (hop_map(study), map_figure(study)):
+        bars = [axes._colorbar for axes in figure.axes if axes.get_label() == "<colorbar>"]
+        assert [bar.extend for bar in bars if tuple(bar.mappable.get_clim()) == HEIGHTS] == ["both"]
