@@ -141,8 +141,8 @@ def validate(ctx: click.Context, as_json: bool) -> None:
     if as_json:
         click.echo(to_json(table.to_dict(rows)))
     else:
-        from .shared.tables import show
+        from .shared.tables import screen_width, show
 
-        show(table.sheet(rows), *table.notes(rows))
+        show(*table.fitted(rows, screen_width()), *table.notes(rows))
     if table.failed(rows):
         ctx.exit(1)

@@ -143,3 +143,25 @@ def test_sources_are_files_of_the_room():
 
     room = {path.stem for path in Path(table.__file__).parent.glob("*.py")}
     assert room == {*SOURCES, "__init__", "row", "table"}
+
+
+def test_on_a_narrow_screen_all_of_a_row_stands_together(hoop, monkeypatch):
+    """At 80 columns verdict, value and ours follow what is compared, before the next row's."""
+    phases = ("stick, positive slip, stick, negative slip, stick", "stick, positive slip, stick, negative slip, stick")
+    rows = [
+        Row("A. Uthor 2001, sec. 2", f"the {name} impulse of a hoop of k = 0.1 and m_h/m = 0.01, to three digits",
+            value, ours, 1e-3, "printed so")
+        for name, value, ours in (("first", 0.12345, 0.12355), ("second", *phases), ("third", 2.5, 2.6))
+    ]  # fmt: skip
+    monkeypatch.setattr(table, "validate", lambda progress: rows)
+    monkeypatch.setenv("COLUMNS", "80")
+    _, out, _ = hoop("validate")
+    assert max(map(len, out.splitlines())) <= 80
+    told = " ".join(out.split())
+    begins = [told.index(f"the {name} impulse") for name in ("first", "second", "third")]
+    for row, start, end in zip(rows, begins, [*begins[1:], None], strict=True):
+        assert row.verdict in told[max(start - 10, 0) : start]
+        assert all(f"{value}" in told[start:end] for value in (row.value, row.ours))
+        assert told.count(row.what) == (2 if row.verdict == "fail" else 1), "and once more why it fails"
+    monkeypatch.setenv("COLUMNS", "220")
+    assert "difference" in hoop("validate")[1].splitlines()[2], "a table where there is room"
