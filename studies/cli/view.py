@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from rigid import Motion, Scene, load_scene
+from rigid import Motion, Scene, SceneError, load_scene
 
 from ..running.files import StudyError
 from .shared.options import Finite, Names, SceneName, colour_names
@@ -69,7 +69,8 @@ def view(
 ) -> None:
     """Look at a run.
 
-    PATH is the folder of `hoop flexible ... --out DIR --fields`, or a scene, whose rigid motion is shown.
+    PATH is the folder of `hoop flexible ... --out DIR --fields` or of `hoop rigid ... --out DIR`, or a scene, whose
+    rigid motion is shown.
     Without a file to draw into, a window opens: space plays, [ and ] change the factor, c the field.
     """
     films = [file for file in (gif, mp4, html) if file is not None]
@@ -135,22 +136,52 @@ def _fraction(told: Callable[[float], None], done: int, total: int) -> None:
 
 
 def _thing(path: str, asked: Mapping[str, float | None], field: str | None) -> Series | Motion:
-    """The field series at ``path``, or the rigid motion of the scene that it names.
+    """The field series at ``path``, the rigid motion that is kept there, or that of the scene that it names.
 
     The motion is run when what is asked of it can be, as far as the scene knows.
     """
     place = Path(path)
+    kept = place / "motion.npz"
+    if kept.is_file() and not (place / "fields.pvd").exists():
+        return _kept(place, kept, field)
     if place.is_dir() or place.suffix in (".pvd", ".vtu", ".vtk", ".vtp"):
         from meshes import read
 
         return read(place)
     from ..running.solvers import solver
 
-    scene = load_scene(path)
-    if field is not None:
-        raise StudyError(f"--field {field} is not possible: the rigid motion of {path} has no fields.")
+    try:
+        scene = load_scene(path)
+    except SceneError as error:
+        if place.exists():
+            raise
+        raise StudyError(f"There is no folder {path!r}, and {error}") from None
+    _ensure_no_field(path, field)
     _ensure_run(scene, asked)
     return solver("rigid")(scene)
+
+
+def _kept(folder: Path, file: Path, field: str | None) -> Motion:
+    """The rigid motion that `hoop rigid` left in a folder."""
+    from flexible import FlexibleMotion, load_motion
+    from rigid import MotionFileError
+
+    try:
+        motion = load_motion(file)
+    except MotionFileError as error:
+        raise StudyError(str(error)) from None
+    if isinstance(motion, FlexibleMotion):
+        raise StudyError(
+            f"{folder} holds a flexible motion and no fields of it: `hoop flexible ... --out {folder} --fields` "
+            "writes them."
+        )
+    _ensure_no_field(str(folder), field)
+    return motion
+
+
+def _ensure_no_field(path: str, field: str | None) -> None:
+    if field is not None:
+        raise StudyError(f"--field {field} is not possible: the rigid motion of {path} has no fields.")
 
 
 def _ensure_run(scene: Scene, asked: Mapping[str, float | None]) -> None:

@@ -143,8 +143,8 @@ def _line(axes: Axes, study: Mapped, line: Line) -> PathCollection | None:
 
 
 def energies_figure(found: Chosen) -> Figure:
-    """What is stored, what vibrates, what is lost, through one hop, the small terms once more on a logarithmic axis; below
-    the height of the rim and N."""
+    """What is stored, what vibrates, what is lost, through one hop, and the small terms on a logarithmic axis; below the
+    height of the rim and N."""
     steps, history = found.steps, found.steps.history
     index = np.array(found.shown)
     t = history.t[index] - found.start
@@ -167,6 +167,7 @@ def energies_figure(found: Chosen) -> Figure:
         stored.set(ylabel="energy$/(mgR)$", ylim=(0, None), title=found.title)
         stored.legend()
         of_small_terms(small)
+        small.set_ylabel("the same,\nlogarithmic")
         gap.plot(t, [lowest(steps.hoop, steps.states[i]) for i in index], color=OKABE_ITO["gravity"])
         gap.set_ylabel("lowest point of\nthe rim over R")
         force.plot(t, history.normal_force[index], color=RIGID)

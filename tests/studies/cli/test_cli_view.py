@@ -1,6 +1,7 @@
 """Fields and pictures from the command line."""
 
 import json
+import shutil
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from command_line import is_one_sentence, process
 
 from meshes import read
 from meshes.draw.display import renderer_problem
+from rigid import load_scene, simulate
 from studies import StudyError
 from studies.cli import hoop as cli
 from studies.cli.view import _ensure_frames
@@ -207,3 +209,34 @@ def test_folders_and_files_that_are_no_series(hoop, tmp_path):
     status, _, err = hoop("view", foreign, "--png", tmp_path / "a.png")
     assert status == 2
     assert is_one_sentence(err)
+
+
+@pytest.mark.usefixtures("undrawn")
+def test_the_folder_of_a_rigid_run_is_its_motion(hoop, tmp_path, monkeypatch):
+    """What `hoop rigid --out` left is drawn as it is, not run again; it has no fields."""
+    monkeypatch.setattr("meshes.view.picture", lambda thing, *_, **__: seen.append(thing))
+    seen = []
+    folder = tmp_path / "r1"
+    assert hoop("rigid", "paper-3.1", "--json", "--out", folder)[0] == 0
+    monkeypatch.setattr("studies.running.solvers.solver", lambda _: pytest.fail("it was run again"))
+    assert hoop("view", folder, "--png", tmp_path / "a.png") == (0, "", "")
+    (shown,) = seen
+    assert shown.phases == simulate(load_scene("paper-3.1")).phases
+    status, _, err = hoop("view", folder, "--png", tmp_path / "a.png", "--field", "von_mises")
+    assert (status, is_one_sentence(err)) == (2, True)
+    (folder / "motion.npz").write_bytes(b"no motion")
+    status, _, err = hoop("view", folder, "--png", tmp_path / "a.png")
+    assert (status, is_one_sentence(err)) == (2, True)
+
+
+def test_a_flexible_run_without_fields_is_told_how_to_get_them(hoop, run, tmp_path):
+    shutil.copy(run / "motion.npz", tmp_path)
+    status, _, err = hoop("view", tmp_path, "--png", tmp_path / "a.png")
+    assert (status, is_one_sentence(err)) == (2, True)
+    assert "--fields" in err
+
+
+def test_a_folder_that_is_not_there_is_told_as_one(hoop):
+    status, _, err = hoop("view", "nofolder")
+    assert (status, is_one_sentence(err)) == (2, True)
+    assert "folder" in err.replace("nofolder", "")
