@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -125,15 +126,15 @@ def stiffness(
                 out=target,
                 progress=progress,
             )
-        lost = None if target is None else _write_study(found, target, ctx.obj, solver_name == "flexible", place)
-    if as_json:
-        click.echo(to_json(found.to_dict()))
-    else:
-        from .shared.tables import show, study_tables
-
-        show(*study_tables(found))
-        if target is not None:
-            click.echo(f"Figures, tables and report are in {target}; open {target / 'report.html'}.")
+        write = partial(_write_study, found, target, ctx.obj, solver_name == "flexible", place)
+        try:
+            _print_study(found, as_json)  # before the figures, which take a while
+        except (BrokenPipeError, SystemExit):  # nobody reads it: the files are for later
+            write()
+            raise
+        lost = write()
+    if not as_json and target is not None:
+        click.echo(f"Figures, tables and report are in {target}; open {target / 'report.html'}.")
     if lost is not None:
         raise lost
     lacking = len(found.failures) + len(found.stopped)
@@ -142,7 +143,27 @@ def stiffness(
         ctx.exit(1)
 
 
-def _write_study(found: StiffnessStudy, target: Path, line: str, fields: bool, place: Pool) -> StudyError | None:
+def _print_study(found: StiffnessStudy, as_json: bool) -> None:
+    if as_json:
+        click.echo(to_json(found.to_dict()))
+    else:
+        from .shared.tables import show, study_tables
+
+        show(*study_tables(found))
+
+
+def _write_study(found: StiffnessStudy, target: Path | None, line: str, fields: bool, place: Pool) -> StudyError | None:
+    """Into a folder, if there is one; who interrupts it is told how the rest comes."""
+    if target is None:
+        return None
+    try:
+        return _write_all(found, target, line, fields, place)
+    except KeyboardInterrupt as interrupt:
+        interrupt.args = ("figures, fields or report are missing: the same command again makes them and runs no case",)
+        raise
+
+
+def _write_all(found: StiffnessStudy, target: Path, line: str, fields: bool, place: Pool) -> StudyError | None:
     """All that a study leaves, the page last: what it names is there. What kept the fields from being written.
 
     Figures and fields are made side by side, what takes longest first; a figure whose process dies is drawn here.

@@ -160,9 +160,10 @@ def _left(path: Path, made: list[Path]) -> Iterator[None]:
         from ...running.store import finished  # SQLite is nothing that a single motion loads
 
         if cases := finished(path):
-            interrupt.args = (f"{cases} finished {'case is' if cases == 1 else 'cases are'} kept in {path}",)
+            kept = f"{cases} finished {'case is' if cases == 1 else 'cases are'} kept in {path}"
+            interrupt.args = (kept, *interrupt.args)
         elif ctx.meta.get(_BEGUN) and not _is_empty(path):
-            interrupt.args = (f"what was written is in {path}",)
+            interrupt.args = (f"what was written is in {path}", *interrupt.args)
         raise
     finally:
         with suppress(OSError):

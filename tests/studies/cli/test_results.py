@@ -228,3 +228,30 @@ def test_a_folder_that_another_run_of_the_command_marks_meanwhile_is_shared(hoop
     monkeypatch.setattr(results, "_held", then_marked)
     status, _, err = hoop("rigid", "paper-3.1", "--json", "--out", tmp_path)
     assert (status, err) == (0, "")
+
+
+def test_who_interrupts_the_drawing_of_a_study_has_its_table_and_is_told_how_to_go_on(
+    hoop, scene, tmp_path, monkeypatch
+):
+    """Two cases are run and kept; at the figures somebody types Ctrl-C. The same again draws them, and runs none."""
+    real = progress.bar
+
+    def typed(title: str):
+        if title == "figures and fields":
+            raise KeyboardInterrupt
+        return real(title)
+
+    out = tmp_path / "out"
+    line = ("study", "stiffness", scene(), "--count", 2, "--low", 1e6, "--high", 1e7, "--workers", 1, "--out", out)
+    with monkeypatch.context() as patch:
+        patch.setattr(progress, "bar", typed)
+        status, told, err = hoop(*line)
+    assert status == 130
+    assert "First pulse over the ladder of stiffness" in told
+    assert not (out / "report.html").exists()
+    (last,) = [sentence for sentence in err.splitlines() if "Interrupted" in sentence]
+    assert "2 finished cases are kept" in last
+    assert "the same command again" in last
+    monkeypatch.setattr("studies.running.case.run_case", lambda _: pytest.fail("it was run again"))
+    assert hoop(*line)[0] == 0
+    assert (out / "report.html").exists()
