@@ -32,6 +32,10 @@ _MEANT = {
 """What other books call a key."""
 
 
+WORDS = ("run.until", "contact.law", "solve.level", "solve.resolve", "solve.start", "solve.integrator")
+"""Keys whose value is a word; that of all others is a number."""
+
+
 class SceneError(ValueError):
     """A scene that cannot be: one sentence that names the key, the value and what is allowed."""
 
@@ -61,9 +65,8 @@ def plain(key: str, value: Any) -> Any:
         told = "hoop study sweep runs the values of a list"
         raise SceneError(f"{key} = {shown(value)} is not possible: {told}.")
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
-        raise SceneError(
-            f"{key} = {shown(value)} is not possible: it must be a real number, or a word where one is asked for."
-        )
+        kind = "word" if key in WORDS else "real number"
+        raise SceneError(f"{key} = {shown(value)} is not possible: it must be a {kind}.")
     return value
 
 

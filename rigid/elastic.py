@@ -147,6 +147,10 @@ class Contact:
         )
 
 
+#: tolerance below which steps are soon lost in round-off: as for 6e-9 they do not end (flexible/README.md)
+TIGHTEST = 1e-8
+
+
 @answering("solve")
 @dataclass(frozen=True, slots=True)
 class Solve:
@@ -193,7 +197,13 @@ class Solve:
         require_choice("solve.resolve", self.resolve, ("pulses", "all"))
         require_choice("solve.integrator", self.integrator, ("esdirk3", "esdirk4", "tr-bdf2"))
         require_choice("solve.start", self.start, ("equilibrium", "undeformed"))
-        require("solve.rtol", self.rtol, 1e-12, 0.5, "the tolerance lies between 1e-12 and 0.5")
+        require(
+            "solve.rtol",
+            self.rtol,
+            TIGHTEST,
+            0.5,
+            f"the tolerance lies between {TIGHTEST:.0e} and 0.5, for steps to tighter ones are lost in round-off",
+        )
         if self.elements is not None:
             require_whole("solve.elements", self.elements, 24, 4000)
         if self.through is not None:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from rigid import SceneError, SceneLike, as_scene
+from rigid import Scene, SceneError, SceneLike, as_scene
 
 THINNEST = 9e-4  # wall over R: quads are too long for a thinner one, and rounding errors of their stretching too large
+
+WIDEST = 1.0  # half-width over R of the patch under the weight: no point of a hoop is further to either side than R
 
 
 def ensure_possible(scene: SceneLike) -> None:
@@ -13,7 +15,8 @@ def ensure_possible(scene: SceneLike) -> None:
     Raises
     ------
     SceneError
-        A point mass without inertia, which cannot ride on a flexible hoop, or a wall too thin for quads.
+        A point mass without inertia, which cannot ride on a flexible hoop, a wall too thin for quads, or a floor too
+        soft to stand on.
     """
     scene = as_scene(scene)
     if scene.hoop.k == 0 and scene.hoop.mass_ratio == 0:
@@ -21,6 +24,18 @@ def ensure_possible(scene: SceneLike) -> None:
             "hoop.k = 0 is not possible here: the flexible hoop needs a disk with a radius, or a hoop with a mass."
         )
     ensure_thick(scene.to_dimensionless().wall)
+    _ensure_stands(scene)
+
+
+def _ensure_stands(scene: Scene) -> None:
+    """Whether the patch under the weight of disk and hoop is one that a hoop can have."""
+    least = 1.5 * (1 + scene.hoop.mass_ratio) / WIDEST**3
+    if scene.contact.stiffness <= least:
+        half = WIDEST * (least / scene.contact.stiffness) ** (1 / 3)
+        raise SceneError(
+            f"contact.stiffness = {scene.contact.stiffness:g} is not possible here: under the weight of disk and hoop "
+            f"the patch would reach {half:.3g} R to either side, and it is less than {WIDEST:g} R above {least:.4g} alone."
+        )
 
 
 def ensure_thick(wall: float) -> None:

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rigid import Scene, SceneLike, as_scene, scene_to_dict
+from rigid.allowed import shown
+from rigid.elastic import TIGHTEST
 from rigid.output import summary
 from rigid.output.units import unit_names
 from rigid.scenefile import units_of_keys
@@ -222,7 +224,7 @@ def hop_study(
     if not asked.bisections:
         return HopStudy(asked.scene, asked.second, tuple(lines))
     stage += 1
-    finer = asked.rtol / FINER
+    finer = max(asked.rtol / FINER, TIGHTEST)
     more = run([Ask(n, s, finer, w) for n, line in enumerate(lines) for s, w in sorted(_ends(line).items())])
     lines = [_with(line, finer=[case for m, case in more if m == n]) for n, line in enumerate(lines)]
     return HopStudy(asked.scene, asked.second, tuple(lines))

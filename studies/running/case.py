@@ -10,6 +10,7 @@ from math import inf
 from typing import Any
 
 from rigid import Motion, Scene, scene_to_dict
+from rigid.elastic import TIGHTEST
 from rigid.kernel.announce import running_clock
 
 from .files import plain
@@ -33,9 +34,6 @@ FINER = 4.0
 REMAINS = 1.0
 """Error that is left in the finer run of a pair, over the change from the other one. An error like rtol leaves a third;
 but the instant at which a stick breaks is known no better than either run has it, by luck of single steps."""
-
-TIGHTEST = 1e-8
-"""No tolerance below this is tried: round-off of the impulses is not far."""
 
 MOST_STEPS = 20_000
 """No case is tightened beyond this many steps in all of its finer runs, some 10 s of the flexible solver. Steps and
@@ -213,7 +211,7 @@ def _resolved(case: Case) -> dict[str, Any]:
     Where that is out of reach (the solver stops or follows its own noise, twice in a row its error does not fall
     with the tolerance, or it would take too many steps) the best pair of runs is given, and said not to be resolved.
     """
-    rtol = case.scene.solve.rtol
+    rtol = max(case.scene.solve.rtol, FINER * TIGHTEST)  # of which the finer run has a scene's tightest
     best, excess = _pair(case, rtol)
     last, least, stuck = best, excess, 0
     steps = spent = best["motion"].get("steps", 0)  # of the finer run; 0 where the solver does not count any

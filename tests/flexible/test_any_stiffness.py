@@ -75,3 +75,14 @@ def test_any_bending_stiffness_in_decades(law):
     for bending in 10.0 ** np.arange(1, 9):
         scene = SCENE.replace(ring={"bending_stiffness": bending}, contact={"law": law, "stiffness": 1e9})
         sound(flexible.simulate(scene))
+
+
+@pytest.mark.parametrize("mass", [0.0, 2.0])
+def test_a_floor_on_which_no_hoop_stands_is_refused(monkeypatch, mass):
+    """A parabola of half-width R bears 2/3 eps_n R^3: a floor that does not bear the weight so is told before any work."""
+    monkeypatch.setattr("flexible.run.solve.hoop_of", lambda _: pytest.fail("it was built"))
+    scene = SCENE.replace(hoop={"mass_ratio": mass})
+    for stiffness in (1e-12, 0.1, 0.999 * 1.5 * (1 + mass)):
+        with pytest.raises(rigid.SceneError, match=r"contact\.stiffness = .* is not possible here"):
+            flexible.simulate(scene.replace(contact={"stiffness": stiffness}))
+    flexible.ensure_possible(scene.replace(contact={"stiffness": 1.001 * 1.5 * (1 + mass)}))

@@ -8,6 +8,7 @@ import warnings
 from dataclasses import replace
 from math import pi, radians
 from pathlib import Path
+from typing import get_type_hints
 
 import numpy as np
 import pandas
@@ -309,3 +310,20 @@ def test_radians_that_are_not_those_of_the_degrees_beside_them_are_refused():
 def test_a_point_mass_has_no_radius_and_its_hoop_no_mass_and_no_wall(key, value):
     hoop = {"point_mass": True, key: value}
     assert f"hoop.{key} = {value} is not possible: with point_mass" in said(scene_from_dict, {**FILE, "hoop": hoop})
+
+
+def test_a_number_is_not_asked_for_as_a_word():
+    """A yes where a number is asked for is told so, and one in place of a word is too: of every key of a scene."""
+    parts = get_type_hints(Scene)
+    asked = {f"{part}.{field}": kind for part, of in parts.items() for field, kind in get_type_hints(of).items()}
+    for key, kind in asked.items():
+        part, _, field = key.partition(".")
+        sentence = said(scene_from_dict(FILE).replace, **{part: {field: True}})
+        assert sentence.startswith(f"{key} = True is not possible: ")
+        assert ("word" in sentence) == (kind in (str, str | None)), sentence
+
+
+@pytest.mark.parametrize("rtol", [1e-12, 9e-9])
+def test_a_tolerance_below_which_steps_do_not_end_is_refused(rtol):
+    assert "between 1e-08 and 0.5" in said(Solve, rtol=rtol)
+    assert Solve(rtol=1e-8).rtol == 1e-8

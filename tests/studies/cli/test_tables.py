@@ -84,7 +84,7 @@ def test_the_ladder_keeps_every_number(study, scene, screen, width):
 @pytest.mark.parametrize(("R", "m"), [(0.02, 0.005), (2.0, 50.0)])
 def test_in_joules_a_study_says_as_many_digits(R, m):
     """Five of m g R and six of a limit, be that a millijoule or a kilojoule; the sentences have the unit too."""
-    scene = load_scene("paper-3.2-k0.25").replace(contact={"law": "brush"}, solve={"rtol": 1e-9})  # off in joules too
+    scene = load_scene("paper-3.2-k0.25").replace(contact={"law": "brush"}, solve={"rtol": 1e-8})  # off in joules too
     scene = scene.replace(hoop={"R": R, "m": m, "g": 9.81})
     found = stiffness_study(scene, Ladder("contact", 1e7, 1e13, 5), solver="third_solver:softened")
     energy, impulse = m * 9.81 * R, m * sqrt(9.81 * R)
