@@ -34,7 +34,7 @@ def _ensure_stands(scene: Scene) -> None:
         half = WIDEST * (least / scene.contact.stiffness) ** (1 / 3)
         raise SceneError(
             f"contact.stiffness = {scene.contact.stiffness:g} is not possible here: under the weight of disk and hoop "
-            f"the patch would reach {half:.3g} R to either side, and it is less than {WIDEST:g} R above {least:.4g} alone."
+            f"the patch would reach {half:.3g} R to either side, and only above {least:.4g} is that less than R."
         )
 
 

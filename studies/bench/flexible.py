@@ -17,7 +17,7 @@ from .rigid import MU, MU_S, PHI0, TURNS_ASKED, remember
 from .skipped import skipped
 from .truth import reference
 
-SCENE_A, SCENE_B, MASSLESS = "scene A, full roll", "scene B, pulse", "massless pulse"
+SCENE_A, SCENE_B, MASSLESS = "scene A, full roll", "scene B, pulse", reference.MASSLESS
 BEST = "rtol 1e-03"
 RTOLS = 1e-2, 5e-3, 3e-3, 1.3e-3, 1e-3, 3e-4, 1e-4, 1e-5, 1e-6  # at 1.3e-3 the peak of scene B is right to a percent
 SCIPY = "scipy DOP853"

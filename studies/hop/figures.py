@@ -143,8 +143,8 @@ def _line(axes: Axes, study: Mapped, line: Line) -> PathCollection | None:
 
 
 def energies_figure(found: Chosen) -> Figure:
-    """What is stored, what vibrates, what is lost, through one hop, once more on a logarithmic axis; below the height of
-    the rim and N."""
+    """What is stored, what vibrates, what is lost, through one hop, once more on a logarithmic axis; below them the
+    height of the rim and N."""
     steps, history = found.steps, found.steps.history
     index = np.array(found.shown)
     t = history.t[index] - found.start

@@ -87,7 +87,7 @@ def damping_figure(spots: Sequence[Spot]) -> Figure:
             left.axhline(limit, color=RIGID, lw=2.6, alpha=0.3)
         left.set_xscale("symlog", linthresh=0.003)
         left.set(xlabel="damping ratio", ylabel="$J_F/J_N$", xlim=(0, None))
-        left.legend(ncols=2, title="foundation ε_n R²/(mg)")
+        left.legend(ncols=2, title=r"foundation $\varepsilon_n R^2/(mg)$")
         for right in more:
             right.axhline(0, color=RIGID, lw=2.6, alpha=0.3)
             right.set_xscale("symlog", linthresh=0.3)

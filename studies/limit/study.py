@@ -153,8 +153,8 @@ class LimitStudy(summary.Summarised):
                 mine = [sight for sight in self.sights if sight.solver == solver and name in sight.values]
                 pairs = np.array([(sight.foundation, self.distance(name, sight)[0]) for sight in mine]).reshape(-1, 2)
                 seen[solver] = pairs[:, 0], pairs[:, 1]
-            drawn[MEASURES[name].named(self.scene)] = Approach((along, away), seen)
-        return draw(drawn, "foundation ε_n R²/(mg)", axes)
+            drawn[MEASURES[name].formula(self.scene)] = Approach((along, away), seen)
+        return draw(drawn, r"foundation $\varepsilon_n R^2/(mg)$", axes)
 
     def to_dataframe(self) -> pandas.DataFrame:
         """A row for each measure of each run: value, numerical error, distance to the limit, and what was predicted."""

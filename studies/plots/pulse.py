@@ -70,8 +70,10 @@ def pulse(
             for axes, name in zip(panels[:, 2], FORCES, strict=True):
                 axes.plot(_since_lowest(column[1]), np.abs(difference[name]), color=column[2], linewidth=1)
         if apart:
-            for axes in panels[:, 2]:
+            differences = (r"$|\Delta N|/(mg)$", r"$|\Delta F|/(mg)$", r"$|\Delta v|/\sqrt{gR}$")
+            for axes, label in zip(panels[:, 2], differences, strict=True):
                 _of_differences(axes)
+                axes.set_ylabel(label)
             panels[0, 2].set_title("difference from the rigid hoop, same angle, absolute", fontsize=10)
         for axes in panels[2]:
             axes.set_xlabel(r"time since the disk was lowest $t/\sqrt{R/g}$")

@@ -6,6 +6,7 @@ What a solver does not have (a rigid hoop stores no strain energy) is 0.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
@@ -36,6 +37,14 @@ class Measure:
     def named(self, scene: Scene) -> str:
         """The same on one line."""
         return self.heading(scene).replace("\n", " ")
+
+    def formula(self, scene: Scene) -> str:
+        """The same for a figure: symbols as formulas, words as they are."""
+        name = re.sub(r"\b([JN])_([NF])\b", r"$\1_\2$", self.symbol)
+        if not self.unit.formula:
+            return name
+        unit = f"${self.unit.formula}$" if scene.dimensionless else self.unit.si
+        return f"{name} [{unit}]"
 
 
 T = TypeVar("T")

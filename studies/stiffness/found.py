@@ -195,7 +195,7 @@ class StiffnessStudy(summary.Summarised):
             limit.rate_cases,
             None if series is None else (series[0], (series[1] - limit.rigid) / unit),
             predicted,
-            self.ladder.label,
+            self.ladder.formula,
         )
 
     def plot(self, *names: str, axes: Any = None) -> NDArray[np.object_]:

@@ -77,6 +77,15 @@ class Ladder:
         return "bending stiffness EI/(mgR²)" if self.along == "bending" else "contact foundation ε_n R²/(mg)"
 
     @property
+    def formula(self) -> str:
+        """The same for the axis of a figure."""
+        return (
+            r"bending stiffness $EI/(mgR^2)$"
+            if self.along == "bending"
+            else r"contact foundation $\varepsilon_n R^2/(mg)$"
+        )
+
+    @property
     def raised(self) -> str:
         """The same in a word or two."""
         return "bending stiffness" if self.along == "bending" else "foundation"

@@ -79,7 +79,7 @@ def test_any_bending_stiffness_in_decades(law):
 
 @pytest.mark.parametrize("mass", [0.0, 2.0])
 def test_a_floor_on_which_no_hoop_stands_is_refused(monkeypatch, mass):
-    """A parabola of half-width R bears 2/3 eps_n R^3: a floor that does not bear the weight so is told before any work."""
+    """A parabola of half-width R bears 2/3 eps_n R^3: a floor that does not bear the weight is told before all work."""
     monkeypatch.setattr("flexible.run.solve.hoop_of", lambda _: pytest.fail("it was built"))
     scene = SCENE.replace(hoop={"mass_ratio": mass})
     for stiffness in (1e-12, 0.1, 0.999 * 1.5 * (1 + mass)):

@@ -19,7 +19,7 @@ from matplotlib.ticker import LogFormatterSciNotation, NullFormatter
 
 from ...plots.pulse import OKABE_ITO, STYLE, save
 from ..race import Result, Row
-from ..truth.reference import SCENES
+from ..truth.reference import MASSLESS, SCENES
 
 _MARKERS = "osv^DPX*<>h"
 _COLOURS = [colour for name, colour in OKABE_ITO.items() if name != "contact_spring"]
@@ -29,7 +29,16 @@ _SAME = 0.03  # points no further apart than this share of the axis lie above on
 _LINE = 0.05  # of the height of a panel, from one name to the next
 
 
-def work_precision(rows: Sequence[Row], title: str) -> Figure:
+IMPULSES = "error of $J_N$, $J_F$ and the loss, over $J_N$"
+RATIO = "error of $J_F/J_N$"
+ERRORS = {
+    "rigid": "largest error of a turn: of time, angle or energy",
+    "soft": "difference of $J_N$, $J_F$ and the loss, over $J_N$",
+}
+"""Of a benchmark what its errors are of, where it is not ``IMPULSES``; the massless pulse has ``RATIO``."""
+
+
+def work_precision(rows: Sequence[Row], title: str, error: str = IMPULSES) -> Figure:
     """Error against seconds, medians with the spread of the repeats, and each solver's envelope; ours is black."""
     shown = [row for row in rows if row.seconds and isfinite(row.error)]
     scenes = list(dict.fromkeys(row.scene for row in shown))
@@ -52,7 +61,7 @@ def work_precision(rows: Sequence[Row], title: str) -> Figure:
                 )  # fmt: skip
                 best = envelope(x, y.tolist())
                 axes.plot(*zip(*best, strict=True), color=colour, linewidth=1)
-            axes.set(xscale="log", yscale="log", xlabel="error")
+            axes.set(xscale="log", yscale="log", xlabel=RATIO if scene == MASSLESS else error)
             axes.set_title(f"{scene}\n{SCENES[scene]}" if scene in SCENES else scene, fontsize=10)
             _ticks(axes.xaxis)
             axes.tick_params(labelbottom=True)
@@ -224,4 +233,5 @@ def draw(what: str, result: Result, out: Path) -> list[Path]:
     if result.parts:
         return [save(budget(result.rows, result.parts), out / f"bench-{what}.png")]
     against = "difference from all nodes" if what == "soft" else "error"
-    return [save(work_precision(result.rows, f"{what}: run time against {against}"), out / f"bench-{what}.png")]
+    figure = work_precision(result.rows, f"{what}: run time against {against}", ERRORS.get(what, IMPULSES))
+    return [save(figure, out / f"bench-{what}.png")]

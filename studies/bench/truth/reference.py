@@ -19,12 +19,14 @@ BENDING = 1e8 * (1 - 1 / R) ** 3 / 12
 FOUNDATION = 1e7 * R**2
 END_OF_A = 6.72  # in the inner radius
 
+MASSLESS = "massless pulse"
+
 SCENES = {
     "scene B, pulse": (
         "k = 0.1, m_h/m = 0.1, E I/(m g R²) = 65, foundation 10⁷,\nbrush, undeformed from φ = 2.9, through the pulse"
     ),
     "scene A, full roll": "the same hoop from rest at 10°, to φ = 4",
-    "massless pulse": "k = 0.1, m_h/m = 0, E I/(m g R²) = 10⁵,\nfoundation 10¹⁰, from rest at 10°",
+    MASSLESS: "k = 0.1, m_h/m = 0, E I/(m g R²) = 10⁵,\nfoundation 10¹⁰, from rest at 10°",
 }
 """What the scenes of the flexible benchmark are, by the name that its table gives them."""
 

@@ -81,3 +81,12 @@ def test_names_are_moved_apart_no_more_than_they_need(heights):
 
 def test_the_scenes_of_the_flexible_benchmark_are_explained():
     assert {flexible.SCENE_A, flexible.SCENE_B, flexible.MASSLESS} == set(SCENES)
+
+
+def test_every_panel_says_of_what_its_errors_are():
+    """The massless pulse is measured by its impulse ratio alone, the others by impulses and loss over J_N."""
+    drawn = work_precision([*rows("scene B, pulse", [1e-4, 1e-3]), *rows(flexible.MASSLESS, [1e-4, 1e-3])], "flexible")
+    assert [axes.get_xlabel() for axes in drawn.axes] == [
+        "error of $J_N$, $J_F$ and the loss, over $J_N$",
+        "error of $J_F/J_N$",
+    ]

@@ -45,14 +45,14 @@ def test_a_panel_for_each_measure_with_the_line_and_what_was_seen(study):
     from matplotlib import pyplot
 
     panels = study.plot()
-    assert [axes.get_title() for axes in panels] == ["J_F/J_N", "J_F [m sqrt(gR)]", "J_N [m sqrt(gR)]"]
+    assert [axes.get_title() for axes in panels] == ["$J_F$/$J_N$", r"$J_F$ [$m\sqrt{gR}$]", r"$J_N$ [$m\sqrt{gR}$]"]
     for axes, name in zip(panels, OBSERVED, strict=False):
         line, seen = axes.get_lines()  # nothing of the solver that failed
         foreseen = np.interp(np.log(seen.get_xdata()), np.log(line.get_xdata()), np.log(line.get_ydata()))
         # the line is a power law, straight on these axes; 60 points over five decades
         assert np.log(seen.get_ydata()) - foreseen == pytest.approx(np.log(AWAY), abs=1e-2), name
     (one,) = study.plot("friction_loss")
-    assert one.get_title() == "friction loss [mgR]"
+    assert one.get_title() == "friction loss [$mgR$]"
     with pytest.raises(ValueError, match="2 measures need as many axes, not 1"):
         study.plot("impulse_ratio", "normal_impulse", axes=one)
     pyplot.close("all")
@@ -62,7 +62,7 @@ def test_panels_say_their_units(study):
     from matplotlib import pyplot
 
     si = dataclasses.replace(study, scene=study.scene.replace(hoop={"R": 0.5, "m": 0.3, "g": 9.81}))
-    assert [axes.get_title() for axes in si.plot()] == ["J_F/J_N", "J_F [N s]", "J_N [N s]"]
+    assert [axes.get_title() for axes in si.plot()] == ["$J_F$/$J_N$", "$J_F$ [N s]", "$J_N$ [N s]"]
     pyplot.close("all")
 
 
