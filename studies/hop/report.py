@@ -20,8 +20,8 @@ from .summary import (
 CAPTIONS = {
     "map": """\
 Where the hoop hops, over the bending stiffness and the second key; a roll that hops at several places has the colour of
-the rarest. Lines: the bending stiffness below which it leaves the floor anywhere, within its first pulse, and under the
-disk. A cross marks a roll that stopped before its end. On the right where the first hop begins, and the height of the
+the rarest. Lines: the bending stiffness below which it leaves the floor anywhere (dots), within its first pulse (squares), and
+under the disk (triangles). A cross marks a roll that stopped before its end. On the right where the first hop begins, and the height of the
 highest as far as it was rolled; white: none.""",
     "where": """\
 Where each hop begins and how high it goes. Light band: the first pulse, the angles at which the rigid hoop's N exceeds
@@ -29,7 +29,8 @@ the weight; dark: the contact is under the disk. A stroke at the foot marks a ro
 how far one came that stopped before its end.""",
     "energies": """\
 One hop: what ring and floor store, what vibrates (kinetic energy beyond that of a rigid motion), what is lost since the
-picture begins; the lowest point of the rim over the floor, and N. Shaded: off the floor.""",
+picture begins, and the same on a logarithmic axis; the lowest point of the rim over the floor, and N. Shaded: off the
+floor.""",
     "liftoff": """\
 The ring at the first step off the floor, over the circle it would be undeformed, not exaggerated; on the right the rim
 over the floor, heights enlarged.""",
