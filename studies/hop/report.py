@@ -19,10 +19,10 @@ from .summary import (
 
 CAPTIONS = {
     "map": """\
-Where the hoop hops, over the bending stiffness and the second key; a roll that hops at several places has the colour of
-the rarest. Lines: the bending stiffness below which it leaves the floor anywhere (dots), within its first pulse (squares), and
-under the disk (triangles). A cross marks a roll that stopped before its end. On the right where the first hop begins, and the height of the
-highest as far as it was rolled; white: none.""",
+Where the hoop hops, over the bending stiffness and the second key; a roll that hops at several places has the colour
+of the rarest. Lines: the bending stiffness below which it leaves the floor anywhere (dots), within its first pulse
+(squares), and under the disk (triangles). A cross marks a roll that stopped before its end. On the right where the
+first hop begins, and the height of the highest as far as it was rolled; white: none.""",
     "where": """\
 Where each hop begins and how high it goes. Light band: the first pulse, the angles at which the rigid hoop's N exceeds
 the weight; dark: the contact is under the disk. A stroke at the foot marks a roll without a hop, a cross
