@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rigid import Scene, SceneLike, as_scene, scene_to_dict
-from rigid.allowed import shown
 from rigid.elastic import TIGHTEST
 from rigid.output import summary
 from rigid.output.units import unit_names
