@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import log10, pi, radians
 
 from rigid import Contact, Friction, Hoop, Landing, Release, Ring, Run, Scene, Solve
-from rigid.elastic import LAWS
+from rigid.elastic import LAWS, TIGHTEST
 
 THIN = 1.001  # r; a thinner wall is refused (flexible.ring.possible.THINNEST)
 RIGID_NUMBERS, HOSTILE_NUMBERS, FLEXIBLE_NUMBERS, SOFT_NUMBERS = 10, 8, 14, 9
@@ -114,17 +114,18 @@ def soft_scene(x: list[float]) -> Scene:
 def hostile_scene(x: list[float], y: list[float]) -> Scene:
     """What a user can type, range of the model or not, for the elastic ring, to the first pulse or a moment in time.
 
-    Bending 1e1 to 1e8, foundation 1e1 to 1e14, 24 to 960 elements, tolerance 1e-2 to 1e-10, damping 0 to 2.
+    Bending 1e1 to 1e8, foundation 1e1 to 1e14 (no softer than a hoop can stand on), 24 to 960 elements, tolerance 1e-2
+    to 1e-8, damping 0 to 2.
     """
     base = rigid_scene(x)
     share = _beyond(y[4], 0.3)
-    tolerance = _power(y[3] ** 3, 1e-2, 1e-10)  # the sharp ones are dear, so they are fewer
+    tolerance = max(_power(y[3] ** 3, 1e-2, 1e-10), TIGHTEST)  # the sharp ones are dear, so they are fewer
     return base.replace(
         run=Run(until="pulse") if y[5] < 0.7 else Run(t_end=0.5 + 2 * x[9]),
         ring=Ring(bending_stiffness=_power(y[0], 1e1, 1e8)),
         contact=Contact(
             LAWS[min(int(y[6] * len(LAWS)), len(LAWS) - 1)],
-            stiffness=_power(y[1], 1e1, 1e14),
+            stiffness=max(_power(y[1], 1e1, 1e14), 2 * (1 + base.hoop.mass_ratio)),
             damping=0.0 if share is None else 2 * share,
         ),
         solve=Solve(

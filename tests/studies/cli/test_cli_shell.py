@@ -83,6 +83,7 @@ def test_keys_that_are_completed_are_taken():
         hoop={"r": 1.0, "R": 0.4, "m": 0.3, "g": 9.81}, ring={"thickness": 0.02, "weld_half_angle_deg": 2.0}
     )
     others = {"release.phi0_deg": "20,30", "ring.weld_half_angle_deg": "2,3", "hoop.r": "1,1", "friction.mu": "0.1,0.2"}
+    others["contact.stiffness"] = "35,40"  # on which a hoop can stand
     for key in hop_keys():
         asked = map_of(scene, (f"{key}={others.get(key, '0.35,0.4')}",))
         assert key == STIFFNESS or asked.second == key
