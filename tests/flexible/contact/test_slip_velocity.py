@@ -32,7 +32,8 @@ def step(t):
     """The contact at the end of a step of length t from t = 0."""
     middles = (VERTEX + np.append(VERTEX[1:], VERTEX[0] + 2 * pi)) / 2
     nodes = np.column_stack([VERTEX, middles]).ravel()[2 * RIM.first :][:NODES]
-    first, last = (FIRST @ powers(nodes)).T, ((FIRST + RATES * t) @ powers(nodes)).T
+    # laid out as a ring has them: for others the contact would be compiled anew
+    first, last = (np.ascontiguousarray((shape @ powers(nodes)).T) for shape in (FIRST, FIRST + RATES * t))
     law = parameters("patch", 2e-5, EPS, 0.8 * EPS)
     before = Before(pose(0), first, no_bristles(), RIM.first, first, 0.5)
     return contact_forces(pose(t), last, RIM, law, STICK, before, UNDAMPED, False).res

@@ -230,6 +230,7 @@ def test_a_folder_that_another_run_of_the_command_marks_meanwhile_is_shared(hoop
     assert (status, err) == (0, "")
 
 
+@pytest.mark.slow
 def test_who_interrupts_the_drawing_of_a_study_has_its_table_and_is_told_how_to_go_on(
     hoop, scene, tmp_path, monkeypatch
 ):

@@ -397,6 +397,7 @@ def test_a_pulse_that_slides_throughout_comes_like_the_depth_of_the_patch():
     assert abs(study.limits["friction_loss"].error) < 0.5 * study.limits["friction_loss"].distance
 
 
+@pytest.mark.slow
 def test_a_massive_hoop_without_thickness_is_said_to_turn_otherwise_when_it_is_elastic():
     """By (1 - R0^2/R^2)/2 of m_h R^2, of which J_N keeps its part at any stiffness."""
     scene = Scene(Hoop(0.3, 1.0, 0.3), Coefficients(0.9, 0.9), Release(1.0))
