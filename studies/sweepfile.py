@@ -109,8 +109,10 @@ def load_sweep(path: str | PathLike[str], solvers: str | Sequence[str] = (), max
     Raises
     ------
     SceneError
-        Not a file, not TOML, an unknown key, no combination that can be, or too many of them.
+        No path, not a file, not TOML, an unknown key, no combination that can be, or too many of them.
     """
+    if not isinstance(path, (str, PathLike)):
+        raise SceneError(f"{shown(path)} is not a sweep: that is the path of a TOML file.")
     path = Path(path)
     try:
         data = tomllib.loads(path.read_text(encoding="utf-8-sig"))

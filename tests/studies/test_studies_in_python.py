@@ -189,11 +189,17 @@ def test_a_single_foundation_is_one():
         ({"second": "hoop.k", "values": 0.1}, "values = 0.1 is not possible: it lists what is rolled"),
         ({"second": "hoop.k", "values": [[0.1]]}, "hoop.k = .0.1. is not possible"),
         ({"second": "hoop.k"}, "hoop.k = None is not possible"),
+        ({"second": 5, "values": [0.1]}, "second = 5 is not possible: it is the key"),
     ],
 )
 def test_a_map_lists_what_is_rolled(settings, told):
     with pytest.raises(SceneError, match=f"^{told}"):
         studies.HopMap("paper-3.3-heavier", **settings)
+
+
+def test_a_sweep_is_loaded_from_a_path():
+    with pytest.raises(SceneError, match=r"^5 is not a sweep: that is the path of a TOML file\.$"):
+        studies.load_sweep(5)
 
 
 @pytest.mark.parametrize("exponents", [1 / 3, [], ["a"], [-1.0]])

@@ -71,6 +71,8 @@ class HopMap:
     """One for each value of the second key, ready to roll."""
 
     def __post_init__(self) -> None:
+        if not (self.second is None or isinstance(self.second, str)):
+            raise SceneError(f"second = {shown(self.second)} is not possible: it is the key that values vary, or None.")
         for key in (self.second, (self.second or "").partition(".")[0]):
             if key in SAID_ELSEWHERE:
                 raise SceneError(f"{self.second} cannot be varied in a hop study: {SAID_ELSEWHERE[key]}.")
