@@ -13,7 +13,17 @@ from rigid.elastic import LAWS
 
 from ..running.files import StudyError, to_json, write_text
 from ..stiffness.ladder import ABOVE, ALONG, BELOW, Ladder
-from .shared.options import Commands, Finite, as_json, out_folder, scene_argument, scheduler, workers
+from .shared.options import (
+    Commands,
+    Finite,
+    Unread,
+    as_json,
+    out_folder,
+    scene_argument,
+    scheduler,
+    while_read,
+    workers,
+)
 from .shared.results import begin_results, results_folder
 
 if TYPE_CHECKING:
@@ -128,8 +138,9 @@ def stiffness(
             )
         write = partial(_write_study, found, target, ctx.obj, solver_name == "flexible", place)
         try:
-            _print_study(found, as_json)  # before the figures, which take a while
-        except (BrokenPipeError, SystemExit):  # nobody reads it: the files are for later
+            with while_read():
+                _print_study(found, as_json)  # before the figures, which take a while
+        except Unread:  # the files are for later
             write()
             raise
         lost = write()

@@ -126,6 +126,11 @@ def _limit(measure: str, name: str, part: str = "limit") -> Callable[[Any], floa
     return lambda study: float(study[part][measure][name])
 
 
+def _outside(measure: str) -> Callable[[Any], float]:
+    """By how much the rigid value is outside the interval of a limit."""
+    return lambda study: abs(study["limit"][measure]["error"]) - float(study["limit"][measure]["uncertainty"])
+
+
 def _row(of: str, solver: str, setting: str, scene: str = "") -> Callable[[Any], float]:
     """A column of the benchmark's row whose solver, setting and scene begin so."""
 
@@ -167,6 +172,10 @@ def _ladder() -> list[Stated]:
             Stated("limit", rf"{place}[\d.]+ ± {number} \|", STUDY, _limit(name, "uncertainty")),
         ]
     stated += [
+        Stated(
+            "limit", r"95 % interval of J_N, ± ([\d·⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+),", STUDY, _limit("normal_impulse", "uncertainty")
+        ),
+        Stated("limit", r"the rigid value is ([\d·⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+) outside", STUDY, _outside("normal_impulse")),
         Stated("limit", rf"\| rigid \| {number} \|", STUDY, _limit("impulse_ratio", "rigid")),
         Stated("limit", rf"\| rigid \| [\d.]+ \| {number} \|", STUDY, _limit("friction_loss", "rigid")),
     ]

@@ -184,7 +184,7 @@ class Unread(Exception):
 
 
 @contextmanager
-def _while_read() -> Iterator[None]:
+def while_read() -> Iterator[None]:
     """click and rich leave with 1 where nobody reads what they print, as after a failure; this comes before that."""
     try:
         yield
@@ -201,12 +201,12 @@ class Commands(click.Group):
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
         """As usual, but for a help that nobody reads."""
-        with _while_read():
+        with while_read():
             return super().make_context(*args, **extra)
 
     def invoke(self, ctx: click.Context) -> Any:
         """As usual, but for output that nobody reads."""
-        with _while_read():
+        with while_read():
             return super().invoke(ctx)
 
     def list_commands(self, ctx: click.Context) -> list[str]:

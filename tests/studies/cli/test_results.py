@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import json
 import os
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
 import click
 import pytest
-from command_line import SCENE, is_one_sentence
+from command_line import SCENE, is_one_sentence, process
 
 from studies import StudyError
 from studies.cli import hoop as cli
@@ -256,3 +257,15 @@ def test_who_interrupts_the_drawing_of_a_study_has_its_table_and_is_told_how_to_
     monkeypatch.setattr("studies.running.case.run_case", lambda _: pytest.fail("it was run again"))
     assert hoop(*line)[0] == 0
     assert (out / "report.html").exists()
+
+
+def test_a_study_whose_table_nobody_reads_leaves_its_files(scene, tmp_path):
+    """As ``| head -1`` does: the reader is gone before the table is printed, which comes before the figures."""
+    out = tmp_path / "out"
+    line = ("study", "stiffness", scene(), "--count", 2, "--solver", "third_solver:softened", "--out", out)
+    read, write = os.pipe()
+    os.close(read)
+    done = process(*line, capture_output=False, stdout=write, stderr=subprocess.PIPE)
+    os.close(write)
+    assert done.returncode == 141
+    assert (out / "report.html").is_file()
