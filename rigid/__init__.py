@@ -17,7 +17,7 @@ A :class:`Scene` goes in, a :class:`Motion` comes out::
 ``lists``      the records of a run as phases, turns and pulses
 ``phases``     the mechanics of each kind of phase, which one is next, and any instant of them
 ``output``     a motion as curves, as a table, in a few lines, in a file
-``record``     what a phase leaves behind; the measures of a pulse
+``record``     what a phase leaves behind; phases, turns, pulses and states as values; the measures of a pulse
 ``kernel``     what phases are computed with, and why all of this runs both interpreted and compiled
 
 What is imported from here is for everyone, and the other packages take it from here too. What is no user's business
@@ -31,8 +31,9 @@ from typing import TYPE_CHECKING
 from .allowed import SceneError
 from .batch import Batch, simulate_batch
 from .elastic import Contact, Ring, Solve
-from .motion import Kind, Motion, Phase, Pulse, Side, States, Turn
+from .motion import Motion
 from .output.file import MotionFileError
+from .record.values import Kind, Phase, Pulse, Side, States, Turn
 from .scene import Friction, Hoop, Landing, Release, Run, Scene
 from .scenefile import SceneLike, as_scene, load_scene, scene_from_dict, scene_names, scene_to_dict
 from .solve import Aloft, load_motion, simulate

@@ -12,8 +12,8 @@ import numpy as np
 
 from .kernel import layout as at
 from .kernel.angle import angle_of
-from .motion import Array, Kind, Phase, Pulse, Side, States, Turn
 from .output.units import in_units
+from .record.values import Array, Kind, Phase, Pulse, Side, States, Turn
 from .scene import Scene
 
 KINDS = {

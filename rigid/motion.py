@@ -10,149 +10,40 @@ import dataclasses
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from enum import StrEnum
-from math import degrees, nan
 from os import PathLike
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .allowed import times_within
 from .output import sampling, summary, units
-from .output.same import Same
-from .output.units import AngularAcceleration, AngularVelocity, Energy, Force, Impulse, Length, Number, Time, Velocity
+from .record.values import Array, Phase, Pulse, Side, States, Turn
 from .scene import Scene
 from .scenefile import scene_to_dict
 
 if TYPE_CHECKING:
     import pandas
 
-Array = NDArray[np.float64]
-Side = Literal["left", "right"]
-
-
-class Kind(StrEnum):
-    """What the contact does during a phase."""
-
-    ROLL = "roll"
-    SKID = "skid"  # the contact point moves forward, v > 0
-    SPIN = "spin"  # the contact point moves backward, v < 0
-    FLIGHT = "flight"  # off the floor
-    SKIM = "skim"  # on the floor without a force
-    IMPACT = "impact"  # an instant: velocities jump by an impulse
-
-
-@dataclass(frozen=True, slots=True)
-class Phase:
-    """A stretch of time in which the contact does one thing; an impact has no duration."""
-
-    kind: Kind
-    t_start: Time[float]
-    t_end: Time[float]
-    phi_start: Number[float]
-    phi_end: Number[float]
-
-
-@dataclass(frozen=True, slots=True)
-class Turn:
-    """An instant with phidot = 0 after release; of an impact that turns the hoop round, what is behind the blow.
-
-    Of a flexible hoop, whose disk vibrates, one by which its momentum has turned too.
-    """
-
-    t: Time[float]
-    phi: Number[float]
-    slip_velocity: Velocity[float]
-    energy: Energy[float]
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Pulse(Same):
-    """One sweep of the disk past the floor: the phi-interval around phi = pi (mod 2 pi) with rigid N > M g.
-
-    ``friction_loss`` is the integral of |F v|; the peak of N is inf in a pulse that jams. Restitution compares the
-    velocity of the mass centre G before and after: Newton's -ydot+/ydot-, Poisson's impulse of restitution over that of
-    compression (split where ydot_G = 0), and the square root of Stronge's -W_r/W_c.
-
-    ``cut`` marks a pulse in which the run begins or ends: its measures are those of the part that was run, its
-    restitutions NaN. ``sample`` is that of the motion which the pulse is a part of.
-    """
-
-    t_start: Time[float]
-    t_end: Time[float]
-    phi_start: Number[float]
-    phi_end: Number[float]
-    normal_impulse: Impulse[float]
-    friction_impulse: Impulse[float]
-    friction_loss: Energy[float]
-    peak_normal_force: Force[float]
-    newton_restitution: Number[float]
-    poisson_restitution: Number[float]
-    energetic_restitution: Number[float]
-    cut: bool = False
-    sample: Callable[[Array, Side], States] | None = field(default=None, repr=False, compare=False)
-
-    def __str__(self) -> str:
-        return summary.text(summary.title_of_pulse(self), self._lines())
-
-    def _lines(self) -> list[summary.Line]:
-        return summary.lines_of_pulse(self)
-
-    @property
-    def impulse_ratio(self) -> float:
-        """J_F/J_N; mu or -mu would be the ratio of Whittaker and of Kane and Levinson. NaN without a normal impulse."""
-        return self.friction_impulse / self.normal_impulse if self.normal_impulse else nan
-
-    def to_dict(self) -> dict[str, Any]:
-        """All measures by name, the ratio among them."""
-        told = {field.name: getattr(self, field.name) for field in dataclasses.fields(self) if field.name != "sample"}
-        return {**told, "impulse_ratio": self.impulse_ratio}
-
-    def plot(self, *quantities: str, over: str = "t", axes: Any = None) -> NDArray[np.object_]:
-        """N, F and slip velocity, or the quantities named, through the pulse; see :meth:`Motion.plot`.
-
-        Raises
-        ------
-        ValueError
-            A pulse that belongs to no motion, or a quantity that there is not.
-        """
-        from .output.axes import of_pulse
-
-        return of_pulse(self, quantities, over, axes)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class States(Same):
-    """A motion sampled at times ``t``; every field has the shape of ``t``, and at one time is a number, a float64.
-
-    ``omega`` and ``alpha`` are phidot and phiddot, ``x_C`` and ``y_C`` the hoop's centre, ``slip_velocity`` is that
-    of the contact point, F is positive to the right. N, F and ``alpha`` jump where phases meet.
-    """
-
-    t: Time[Array]
-    phi: Number[Array]
-    omega: AngularVelocity[Array]
-    alpha: AngularAcceleration[Array]
-    x_C: Length[Array]
-    y_C: Length[Array]
-    slip_velocity: Velocity[Array]
-    normal_force: Force[Array]
-    friction_force: Force[Array]
-    energy: Energy[Array]
-
-    def __post_init__(self) -> None:
-        for each in dataclasses.fields(self):  # numpy takes some of what has no axes for numbers, and some for arrays
-            object.__setattr__(self, each.name, np.asarray(getattr(self, each.name))[()])
-
 
 @dataclass(frozen=True, repr=False)
 class Motion(summary.Summarised):
     """What a solver returns: phases, turns and pulses as plain values, and any instant between on demand.
 
-    ``ended`` says in words why the motion stops; ``period`` is that of a motion that will roll for ever.
-    ``completed`` is False when the solver gave up before what was asked. The sequences are tuples, or make their items
-    on demand where a motion without loss comes round many times.
+    Attributes
+    ----------
+    scene : Scene
+        What was run, whose units all numbers have; :attr:`units` names them.
+    phases, turns, pulses : sequence of Phase, Turn, Pulse
+        In their order; made on demand where a motion without loss comes round many times.
+    ended : str
+        In words, why the motion stops.
+    sample : callable
+        What :meth:`at` asks.
+    period : float or None
+        Of a motion that will roll for ever.
+    completed : bool
+        False when the solver gave up before what was asked.
     """
 
     scene: Scene
@@ -258,30 +149,14 @@ class Motion(summary.Summarised):
             raise ValueError("This motion cannot be saved." if stored is None else f"{path!r} is no path to save to.")
         write(path, scene_to_dict(self.scene), stored(self))
 
-    def _table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-        header = ("pulse", "t", "J_N", "J_F", "J_F/J_N", "friction loss", "peak N")
-        rows = [
-            (str(number), f"{p.t_start:.6g} to {p.t_end:.6g}", *(f"{value:.6g}" for value in (
-                p.normal_impulse, p.friction_impulse, p.impulse_ratio, p.friction_loss, p.peak_normal_force)))
-            for number, p in enumerate(self.pulses[: summary.SHOWN], 1)
-        ]  # fmt: skip
-        return header, rows
+    def _table(self) -> tuple[Sequence[str], list[tuple[str, ...]]]:
+        return summary.table_of_pulses(self.pulses)
 
     def _title(self) -> str:
         return f"{type(self).__name__} to t = {self.t_end:.6g}: {self.ended}"
 
     def _lines(self) -> list[summary.Line]:
-        """What there is to tell of the motion."""
-        hoop, friction, release = self.scene.hoop, self.scene.friction, self.scene.release
-        shown = summary.SHOWN
-        return [
-            ("scene", f"k = {hoop.k:g}, r = {hoop.r:g}, m_h/m = {hoop.mass_ratio:g}, mu_s = {friction.mu_s:g}, "
-                      f"mu = {friction.mu:g}, from {degrees(release.phi0):g} degrees"),
-            ("phases", summary.some([str(phase.kind) for phase in self.phases[:shown]], len(self.phases))),
-            ("turns", summary.some([f"phi = {turn.phi:.6g}" for turn in self.turns[:shown]], len(self.turns))),
-            ("pulses", summary.some([f"J_F/J_N = {p.impulse_ratio:.6g}{' (cut)' if p.cut else ''}"
-                                     for p in self.pulses[:shown]], len(self.pulses))),
-        ]  # fmt: skip
+        return summary.lines_of_motion(self)
 
     @property
     def units(self) -> dict[str, str]:

@@ -15,10 +15,11 @@ from .kernel import layout as at
 from .kernel.compile import compiled, patience
 from .kernel.spectral import workspace
 from .lists import Listing
-from .motion import Array, Motion, Pulse, Side, States
+from .motion import Motion
 from .output.file import Stored
 from .output.units import in_units, without_units
 from .phases import instant
+from .record.values import Array, Pulse, Side, States
 from .scene import Scene, is_point_mass
 
 UNTIL_CODES = {None: at.NOTHING, "pulse": at.FIRST_PULSE, "rest": at.REST}

@@ -27,7 +27,6 @@ from .output.units import AngularVelocity, Measured, Number, Time, Velocity, sca
 
 N = TypeVar("N", float, NDArray[np.float64])
 
-
 LIGHTEST = 1e-100
 """Least mass of a hoop that has one, over the disk's: of a lighter one's frequencies no float holds the square."""
 
@@ -96,10 +95,8 @@ class Hoop:
         for key in ("R", "m", "g"):
             require(f"hoop.{key}", getattr(self, key), 1e-30, 1e30, f"{key} lies between 1e-30 and 1e30")
         if self.k == 0 and self.mass_ratio == 0 and self.r != 1:
-            raise SceneError(
-                f"hoop.r = {self.r!r} is not possible: "
-                "a point mass (k = 0) on a massless hoop sits on the rim, so r must be 1."
-            )
+            told = "a point mass (k = 0) on a massless hoop sits on the rim, so r must be 1"
+            raise SceneError(f"hoop.r = {self.r!r} is not possible: {told}.")
 
     @property
     def constants(self) -> HoopConstants[float]:
@@ -129,10 +126,8 @@ class Friction:
         require("friction.mu_s", self.mu_s, 0, 1e9, "mu_s is the static coefficient, 0 to 1e9")
         require("friction.mu", self.mu, 0, 1e9, "mu is the kinetic coefficient, 0 to 1e9")
         if self.mu > self.mu_s:
-            raise SceneError(
-                f"friction.mu = {self.mu!r} is not possible: "
-                f"the kinetic coefficient may not exceed mu_s = {self.mu_s!r}."
-            )
+            told = f"the kinetic coefficient may not exceed mu_s = {self.mu_s!r}"
+            raise SceneError(f"friction.mu = {self.mu!r} is not possible: {told}.")
 
 
 def looks_like_degrees(phi0: Any) -> Any:
@@ -193,10 +188,8 @@ class Run:
         if not given:
             object.__setattr__(self, "turns", 2)
         if len(given) > 1:
-            raise SceneError(
-                f"run.{given[1]} = {getattr(self, given[1])!r} is not possible: "
-                f"run.{given[0]} already says how far to run."
-            )
+            told = f"run.{given[0]} already says how far to run"
+            raise SceneError(f"run.{given[1]} = {getattr(self, given[1])!r} is not possible: {told}.")
         if self.turns is not None:
             require_whole("run.turns", self.turns, 1, 1_000_000)
         if self.t_end is not None:
@@ -220,6 +213,17 @@ class Landing:
 @dataclass(frozen=True, slots=True)
 class Scene(Measured):
     """Everything both solvers need to know; see the parts for their parameters.
+
+    What no scene can have is a :class:`SceneError`, here as in each part.
+
+    Parameters
+    ----------
+    hoop, friction, release : Hoop, Friction, Release
+        What rolls, on what, and how it begins.
+    run, landing : Run, Landing
+        How far, by default to the second turn; how the rigid hoop lands after a flight.
+    ring, contact, solve : Ring, Contact, Solve
+        What the flexible solver alone looks at.
 
     Examples
     --------

@@ -14,12 +14,13 @@ from .kernel import layout as at
 from .kernel.compile import compiled, patience
 from .kernel.spectral import compiled_workspace, workspace
 from .lists import Deferred
-from .motion import Array, Motion
+from .motion import Motion
 from .output.file import Stored, read
 from .output.units import Unit, without_units
 from .phases.choice import MOST_STALLS, entry_run, release_from
 from .phases.reasons import reason
 from .record.pulse import cut_pulse
+from .record.values import Array
 from .sampler import Log, Sampler, parameters
 from .scene import Run, Scene, is_point_mass
 from .scenefile import SceneLike, as_scene, scene_from_dict
@@ -30,10 +31,16 @@ MOST_RECORDS = 200_000  # and its phases, turns and pulses together
 
 
 class Aloft(NamedTuple):
-    """Where over the floor a hoop is released, in the units of its scene: in flight, if this is not 0."""
+    """Where over the floor a hoop is released, in the units of its scene: in flight, if this is not 0.
 
-    height: float = 0.0  # of its lowest point
-    rise: float = 0.0  # velocity of that, upward
+    Parameters
+    ----------
+    height, rise : float
+        Of its lowest point, and the velocity of that, upward.
+    """
+
+    height: float = 0.0
+    rise: float = 0.0
 
 
 ON_THE_FLOOR = Aloft()

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..lists import phases_of
-from ..motion import Array, Kind
 from ..output import summary
 from ..phases.reasons import reason
+from ..record.values import Array, Kind
 
 if TYPE_CHECKING:
     import pandas
@@ -24,29 +24,44 @@ PULSE_MEASURES = (
 
 @dataclass(frozen=True, repr=False)
 class Batch(summary.Summarised):
-    """What became of ``n`` scenes, in the paper's units (R, m, g); ``turns`` and ``pulses`` below are the numbers of
-    columns asked for; what a scene does not have is NaN.
+    """What became of ``n`` scenes, in the paper's units (R, m, g); what a scene does not have is NaN.
+
+    Attributes
+    ----------
+    code : (n,) array of int
+        Why each motion ended; :meth:`ended` says it in words.
+    t_end : (n,) array
+        When.
+    phase_count, turn_count, pulse_count : (n,) array of int
+        Of the whole run, however many are kept; phases as they were entered: one that lasts no time counts too.
+    hop_count, jam_count : (n,) array of int
+        Flights that ended on the floor; impacts without a collision.
+    turn_t, turn_phi, turn_slip_velocity, turn_energy : (n, turns) array
+        Turns as in :class:`rigid.Turn`: as many as were asked for, two where the run is to a time or an event.
+    t_start, t_stop, phi_start, phi_stop : (n, pulses) array
+        Pulses, as many as were to be kept: when and at which angles each begins and ends.
+    normal_impulse, friction_impulse, friction_loss, peak_normal_force : (n, pulses) array
+        As in :class:`rigid.Pulse`.
+    newton_restitution, poisson_restitution, energetic_restitution : (n, pulses) array
+        As there.
+    cut : (n, pulses) array
+        1 for a pulse in which the run begins or ends, 0 for a whole one.
+    sequence : (n, pulses) array
+        What the contact does in each pulse, as a number; :meth:`phases` says it in words.
     """
 
     code: NDArray[np.int64]
-    """Why each motion ended, (n,); :meth:`ended` says it in words."""
     t_end: Array
-    """When, (n,)."""
     phase_count: NDArray[np.int64]
-    """Phases as they were entered, (n,): one that lasts no time counts too."""
     turn_count: NDArray[np.int64]
     pulse_count: NDArray[np.int64]
     hop_count: NDArray[np.int64]
-    """Flights that ended on the floor, (n,)."""
     jam_count: NDArray[np.int64]
-    """Impacts without a collision, (n,)."""
     turn_t: Array
-    """Turns: time, angle, slip velocity, energy, each (n, turns)."""
     turn_phi: Array
     turn_slip_velocity: Array
     turn_energy: Array
     t_start: Array
-    """Pulses: as in :class:`rigid.Pulse`, each (n, pulses)."""
     t_stop: Array
     phi_start: Array
     phi_stop: Array
@@ -58,9 +73,7 @@ class Batch(summary.Summarised):
     poisson_restitution: Array
     energetic_restitution: Array
     cut: Array
-    """1 for a pulse in which the run begins or ends, 0 for a whole one."""
     sequence: Array
-    """What the contact does in each pulse, (n, pulses), as a number; :meth:`phases` says it in words."""
 
     def __len__(self) -> int:
         return len(self.code)

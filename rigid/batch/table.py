@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike
 
 from ..allowed import SceneError, shown
 from ..kernel import layout as at
-from ..motion import Array
 from ..output.units import without_units
+from ..record.values import Array
 from ..sampler import UNTIL_CODES
 from ..scene import (  # fmt: skip
     LIGHTEST,

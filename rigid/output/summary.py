@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from html import escape
+from math import degrees
 from typing import Any
 
 from .units import units_of
@@ -56,6 +57,30 @@ def lines_of_pulse(pulse: Any) -> list[Line]:
         ("friction loss", f"{pulse.friction_loss:.6g}{unit_in(pulse, 'friction_loss')}"),
         *([] if pulse.cut else [("restitution", told)]),
     ]
+
+
+def lines_of_motion(motion: Any) -> list[Line]:
+    """What every motion has to tell."""
+    hoop, friction, release = motion.scene.hoop, motion.scene.friction, motion.scene.release
+    return [
+        ("scene", f"k = {hoop.k:g}, r = {hoop.r:g}, m_h/m = {hoop.mass_ratio:g}, mu_s = {friction.mu_s:g}, "
+                  f"mu = {friction.mu:g}, from {degrees(release.phi0):g} degrees"),
+        ("phases", some([str(phase.kind) for phase in motion.phases[:SHOWN]], len(motion.phases))),
+        ("turns", some([f"phi = {turn.phi:.6g}" for turn in motion.turns[:SHOWN]], len(motion.turns))),
+        ("pulses", some([f"J_F/J_N = {p.impulse_ratio:.6g}{' (cut)' if p.cut else ''}"
+                         for p in motion.pulses[:SHOWN]], len(motion.pulses))),
+    ]  # fmt: skip
+
+
+def table_of_pulses(pulses: Sequence[Any]) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Header and rows, of the first of them."""
+    header = ("pulse", "t", "J_N", "J_F", "J_F/J_N", "friction loss", "peak N")
+    rows = [
+        (str(number), f"{p.t_start:.6g} to {p.t_end:.6g}", *(f"{value:.6g}" for value in (
+            p.normal_impulse, p.friction_impulse, p.impulse_ratio, p.friction_loss, p.peak_normal_force)))
+        for number, p in enumerate(pulses[:SHOWN], 1)
+    ]  # fmt: skip
+    return header, rows
 
 
 def unit_in(pulse: Any, name: str) -> str:
