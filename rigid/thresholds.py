@@ -23,7 +23,19 @@ NARROW = {"xatol": 1e-12}
 
 
 def inception_mu_s(hoop: Hoop, phi0: float) -> float:
-    """Smallest mu_s at which a hoop released at rest starts rolling, (9): |F|/N of rolling at the release."""
+    """Smallest mu_s at which a hoop released at rest starts rolling, (9): |F|/N of rolling at the release.
+
+    Parameters
+    ----------
+    hoop : Hoop
+    phi0 : float
+        Angle of the release, in radians.
+
+    Returns
+    -------
+    float
+        ``inf`` where rolling takes N <= 0.
+    """
     par, state = _at_release(hoop, Release(phi0))
     normal, friction = rolling_forces(par, 0.0, state[1], state[2])
     return abs(friction) / normal if normal > 0 else inf
@@ -31,6 +43,12 @@ def inception_mu_s(hoop: Hoop, phi0: float) -> float:
 
 def rolling_mu_s(hoop: Hoop, release: Release) -> float:
     """Smallest mu_s at which a motion released in rolling rolls throughout: the largest |F|/N of its swing.
+
+    Parameters
+    ----------
+    hoop : Hoop
+    release : Release
+        With slip0 = 0.
 
     Returns
     -------
@@ -76,6 +94,14 @@ def rolling_mu_s(hoop: Hoop, release: Release) -> float:
 
 def rolling_k(mu_s: float, release: Release, *, r: float = 1.0, mass_ratio: float = 0.0) -> float:
     """Smallest k that rolls throughout for a given mu_s; of a thrown hoop larger ones may slip again.
+
+    Parameters
+    ----------
+    mu_s : float
+    release : Release
+        With slip0 = 0.
+    r, mass_ratio : float
+        As of :class:`Hoop`.
 
     Raises
     ------

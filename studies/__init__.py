@@ -40,8 +40,9 @@ if TYPE_CHECKING:
     from .running.measures import MEASURES, Measure, Unit, measure, measures
     from .running.workers import pool
     from .stiffness.extrapolation.limits import Limit, limit_of
-    from .stiffness.found import Rung, StiffnessStudy
+    from .stiffness.found import StiffnessStudy
     from .stiffness.ladder import Ladder
+    from .stiffness.rung import Rung
     from .stiffness.study import stiffness_study
     from .sweep import Table, run_sweep
     from .sweepfile import Sweep, load_sweep, sweep_from_dict
@@ -58,7 +59,7 @@ _HOMES = {
     "Ladder": "stiffness.ladder",
     "Limit": "stiffness.extrapolation.limits",
     "Measure": "running.measures",
-    "Rung": "stiffness.found",
+    "Rung": "stiffness.rung",
     "StiffnessStudy": "stiffness.found",
     "StudyError": "running.files",
     "Sweep": "sweepfile",

@@ -31,21 +31,28 @@ MAX_CASES = 100_000
 class Sweep:
     """What a sweep runs: the product of its lists, whose scenes are made when they are asked for, and once.
 
-    ``keys`` vary, each over its ``choices``, and all else is of the ``tables`` of a scene; ``solvers`` run each.
+    Attributes
+    ----------
+    keys : tuple of str
+        The keys that vary, "hoop.k" for instance.
+    choices : tuple of tuples
+        The values of each key.
+    tables : mapping
+        The scene over which they are laid, as its TOML file would say.
+    solvers : tuple of str
+        Who runs each scene.
+    histories : bool
+        Whether the forces through each pulse are kept too.
+    repeated : int
+        How many values stood in a list where they stand already, and were left out.
     """
 
     keys: tuple[str, ...]
-    """The keys that vary, "hoop.k" for instance."""
     choices: tuple[tuple[Any, ...], ...]
-    """The values of each."""
     tables: Mapping[str, Mapping[str, Any]]
-    """The scene over which they are laid, as its TOML file would say."""
     solvers: tuple[str, ...]
-    """Who runs each scene."""
     histories: bool = False
-    """Whether the forces through each pulse are kept too."""
     repeated: int = 0
-    """How many values stood in a list where they stand already, and were left out."""
 
     @property
     def scenes(self) -> int:

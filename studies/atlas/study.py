@@ -36,24 +36,30 @@ picture, of its range. Beside the middle it may be some half more, and a few sha
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class Atlas(summary.Summarised):
-    """A map of (side + 1)^2 hoops over ``x`` and ``y`` of a ``plane``; rows run up, columns across.
+    """A map of (side + 1)^2 hoops over two quantities; rows run up, columns across.
 
-    What was ``found`` of each is in ``sequence`` and what else is an array, ``regions`` tells the shares of all, and
-    ``seconds`` the time it took.
+    Attributes
+    ----------
+    plane : Plane
+        Scene and axes.
+    x : (side + 1,) array
+        Values across.
+    y : (side + 1,) array
+        Values up.
+    found : Map
+        Sequences, values, hops, jams; which were run.
+    regions : tuple of Region
+        What the contact does in the pulse and the share of the map in which it does, largest first.
+    seconds : float
+        Wall time it took.
     """
 
     plane: Plane
-    """Scene and axes."""
     x: Array
-    """Values across, (side + 1,)."""
     y: Array
-    """Values up, (side + 1,)."""
     found: Map
-    """Sequences, values, hops, jams; which were run."""
     regions: tuple[Region, ...]
-    """Largest first."""
     seconds: float = field(compare=False)
-    """Wall time it took."""
 
     @property
     def sequence(self) -> NDArray[np.int64]:

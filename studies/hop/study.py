@@ -39,15 +39,20 @@ _THRESHOLD = ("value", "low", "high", "foreseen", "omega_1_t", "times_duration_s
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class HopStudy(summary.Summarised):
-    """What the study found from a ``scene``: ``lines`` of rolls with their thresholds, each over the bending stiffness.
+    """What the study found: which hoops leave the floor, where, and below which bending stiffness.
 
-    There is a line for each value of the key ``second``, or one where that is None; ``cases`` are the rolls of all.
+    Attributes
+    ----------
+    scene : Scene
+        From which all starts, as it was asked.
+    second : str or None
+        The key besides the bending stiffness, if there is one.
+    lines : tuple of Line
+        Rolls over the bending stiffness with their thresholds: a line for each value of the second key, or one.
     """
 
     scene: Scene
-    """From which all starts, as it was asked."""
     second: str | None
-    """The key besides the bending stiffness."""
     lines: tuple[Line, ...]
 
     @property

@@ -83,29 +83,37 @@ class EventFound:
 
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class LimitStudy(summary.Summarised):
-    """What the study found: of a ``scene`` the ``events``, and the ``prediction`` of its pulse's limit and approach.
+    """What the study found of a scene: the limit of its first pulse, how it is approached, and runs beside that.
 
-    It holds from the foundation ``separate`` on; beside it are ``sights``, runs at a finite stiffness, and ``others``,
-    limits under other compliances.
+    Attributes
+    ----------
+    scene : Scene
+        As it was studied, with its damping.
+    events : tuple of EventFound
+        Of the first pulse and the stretch before it in which the flexible hoop settles.
+    prediction : Prediction
+        Limit and approach.
+    separate : float
+        Foundation from which on the layers are over before the next event comes, so that the prediction holds; infinite
+        where a layer does not settle: without damping.
+    sights : tuple of Sight
+        What was observed at a finite stiffness.
+    others : tuple of Other
+        What the same hoop tends to under other compliances, this one's among them.
+    stiff : float
+        Foundation from which on the ring, in the scene's proportion to it, gives way by less than the patch.
+    hanging : tuple of Hanging
+        Stops that a patch of less damping than there says slides through, or may, at any stiffness.
     """
 
     scene: Scene
-    """As it was studied, with its damping."""
     events: tuple[EventFound, ...]
-    """Of the first pulse and the stretch before it in which the flexible hoop settles."""
     prediction: Prediction
-    """Limit and approach."""
     separate: float
-    """Foundation from which on the layers are over before the next event comes, so that the prediction holds;
-    infinite where a layer does not settle: without damping."""
     sights: tuple[Sight, ...]
-    """What was observed."""
     others: tuple[Other, ...]
-    """What the same hoop tends to under other compliances, this one's among them."""
     stiff: float = 0.0
-    """Foundation from which on the ring, in the scene's proportion to it, gives way by less than the patch."""
     hanging: tuple[Hanging, ...] = ()
-    """Stops that a patch of less damping than there says slides through, or may, at any stiffness."""
 
     def otherwise(self, sight: Sight) -> bool:
         """Whether what was observed is not yet near the limit: a stick on which that hangs is kept, or lost, the other

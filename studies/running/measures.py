@@ -18,16 +18,24 @@ from rigid.output.units import Unit
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """One measure of a pulse: ``of`` gives it, in a ``unit``; ``name`` is its key and ``symbol`` what it is called."""
+    """One measure of a pulse.
+
+    Attributes
+    ----------
+    name : str
+        Key in tables and JSON.
+    symbol : str
+        How figures and tables call it.
+    unit : Unit
+        Its unit; a pure number says so.
+    of : callable
+        The measure itself, of a motion and one of its pulses.
+    """
 
     name: str
-    """Key in tables and JSON."""
     symbol: str
-    """How figures and tables call it."""
     unit: Unit
-    """Its unit; a pure number says so."""
     of: Callable[[Motion, Pulse], float]
-    """The measure itself."""
 
     def heading(self, scene: Scene) -> str:
         """Symbol and, in brackets on a second line, unit."""
@@ -53,7 +61,14 @@ MEASURES: dict[str, Measure] = {}
 
 
 def measure(symbol: str, unit: Unit) -> Callable[[Callable[[Motion, Pulse], float]], Callable[[Motion, Pulse], float]]:
-    """Enter a function of a motion and a pulse among the measures.
+    """Enter a function of a motion and a pulse among the measures, by its own name.
+
+    Parameters
+    ----------
+    symbol : str
+        How figures and tables call it.
+    unit : Unit
+        Of the number that it returns, which is in the units of the scene.
 
     Raises
     ------

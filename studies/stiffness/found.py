@@ -19,6 +19,7 @@ from .coefficient import Coefficient, coefficient
 from .errors import errors_of
 from .extrapolation.limits import CONFIDENCE, Limit, fitted_series
 from .ladder import Ladder
+from .rung import Rung
 
 if TYPE_CHECKING:
     import pandas
@@ -37,86 +38,62 @@ _OF_SCENE = ("bending_stiffness", "contact_stiffness", "low", "high", "count", "
 _PURE = (*_OF_SCENE, *_RATES, *_OF_STOPS)
 
 
-@dataclass(frozen=True, slots=True)
-class Rung:
-    """The flexible hoop at one ``stiffness``: its ``bending_stiffness``, ``contact_stiffness``, and the ``outcome``."""
-
-    bending_stiffness: float
-    """E I/(m g R^2)."""
-    contact_stiffness: float
-    """Foundation, eps_n R^2/(m g)."""
-    stiffness: float
-    """That of the two which the ladder raises."""
-    outcome: Outcome
-    """What the solver found there, or why it failed."""
-
-    def measure(self, name: str, pulse: int = 0) -> float:
-        """A measure of a pulse, NaN where there is none."""
-        pulses = self.outcome.pulses
-        return pulses[pulse][name] if pulse < len(pulses) else nan
-
-    def error(self, name: str, pulse: int = 0) -> float:
-        """Numerical error of that measure, from its change when the tolerance was quartered."""
-        errors = self.outcome.numerical_error
-        return errors[pulse][name] if pulse < len(errors) else nan
-
-    def to_dict(self) -> dict[str, Any]:
-        """The rung as JSON prints it: the first pulse's measures at the top, all pulses below."""
-        found = self.outcome
-        stiffness = {"bending_stiffness": self.bending_stiffness, "contact_stiffness": self.contact_stiffness}
-        if found.failure:
-            return {**stiffness, "failure": found.failure}
-        return {
-            **stiffness,
-            **found.pulses[0],
-            "phases": found.phases[0],
-            "numerical_error": found.numerical_error[0],
-            "resolved": found.resolved,
-            "rtol": found.rtol,
-            "seconds": found.seconds,
-            **({"stopped": found.stopped} if found.stopped else {}),
-            "pulses": [{**pulse, "phases": phases} for pulse, phases in zip(found.pulses, found.phases, strict=True)],
-        }
-
-
 @dataclass(frozen=True, slots=True, repr=False, eq=False)
 class StiffnessStudy(summary.Summarised):
-    """What the study found: of a ``scene`` the ``rungs`` of a ``ladder``, which ``solver`` ran, and their ``limits``;
-    ``rigid`` is the paper's hoop beside them, ``reference`` that of ``reference_mu_s``, which they should tend to."""
+    """What the study found, rung by rung and in the limit.
+
+    Attributes
+    ----------
+    scene : Scene
+        The scene, at its own stiffness.
+    ladder : Ladder
+        What was raised, over which range.
+    solver : str
+        Who ran the rungs.
+    rigid : Outcome
+        The rigid hoop of the scene: the paper's law.
+    reference : Outcome
+        The rigid hoop that the contact law should tend to; another than ``rigid`` for some laws where mu_s > mu.
+    reference_mu_s : float
+        That hoop's static coefficient.
+    rungs : tuple of Rung
+        The flexible hoop, softest first.
+    limits : dict of str to Limit
+        Of "impulse_ratio", "friction_loss" and "normal_impulse" of the first pulse.
+    prediction : Prediction or None
+        The approach to the limit as the rigid motion alone foresees it; None where it is not that of these cases:
+        unless both stiffnesses are raised with the patch damped and run by the flexible solver, where the approach is
+        told by more than the foundation (the regularised law), and where the pulse has more in it than rolling and
+        sliding.
+    separate : float
+        Foundation from which on the prediction, and any series in powers of it, holds: each event is over before the
+        next one comes, and a stick on which the limit hangs is kept or lost as there.
+    late : float
+        The part of ``hanging`` in that; 0 where there is none.
+    stiff : float
+        That from which on the ring gives way by less than the patch where a slip ends or turns round; on softer ones it
+        may break a stick that the prediction's rigid rim keeps, or leave the floor. 0 too where no case does otherwise.
+    hanging : tuple of Hanging
+        Stops of the pulse behind which a patch that breaks slides on at any stiffness, so that the limit may be another
+        than ``reference``, whose stick is kept.
+    lost : str
+        Why there is no prediction where one was begun: something in a layer is too fast for it to be followed.
+    """
 
     scene: Scene
-    """The scene, at its own stiffness."""
     ladder: Ladder
-    """What was raised, over which range."""
     solver: str
-    """Who ran the rungs."""
     rigid: Outcome
-    """The rigid hoop of the scene: the paper's law."""
     reference: Outcome
-    """The rigid hoop that the contact law should tend to; another than ``rigid`` for some laws where mu_s > mu."""
     reference_mu_s: float
-    """That hoop's static coefficient."""
     rungs: tuple[Rung, ...]
-    """The flexible hoop, softest first."""
     limits: dict[str, Limit]
-    """Limit of each measure in ``LIMITS``, first pulse."""
     prediction: Prediction | None = None
-    """The approach to the limit as the rigid motion alone foresees it; None where it is not that of these cases: unless
-    both stiffnesses are raised with the patch damped and run by the flexible solver, where the approach is told by more
-    than the foundation (the regularised law), and where the pulse has more in it than rolling and sliding."""
     separate: float = 0.0
-    """Foundation from which on the prediction, and any series in powers of it, holds: each event is over before the
-    next one comes, and a stick on which the limit hangs is kept or lost as there."""
     late: float = 0.0
-    """The part of ``hanging`` in that; 0 where there is none."""
     stiff: float = 0.0
-    """That from which on the ring gives way by less than the patch where a slip ends or turns round; on softer ones it
-    may break a stick that the prediction's rigid rim keeps, or leave the floor. 0 too where no case does otherwise."""
     hanging: tuple[Hanging, ...] = ()
-    """Stops of the pulse behind which a patch that breaks slides on at any stiffness, so that the limit may be another
-    than ``reference``, whose stick is kept."""
     lost: str = ""
-    """Why there is no prediction where one was begun: something in a layer is too fast for it to be followed."""
 
     @property
     def failures(self) -> list[Rung]:

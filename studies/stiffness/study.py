@@ -27,8 +27,9 @@ from ..running.solvers import ensure_accepts
 from ..running.workers import Here, Pool
 from .errors import errors_of
 from .extrapolation.limits import Limit, limit_of
-from .found import LIMITS, Rung, StiffnessStudy
+from .found import LIMITS, StiffnessStudy
 from .ladder import Ladder
+from .rung import Rung
 
 if TYPE_CHECKING:
     from ..inner.stops.hanging import Hanging

@@ -40,11 +40,26 @@ class Ask(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class HopMap:
-    """What a hop study rolls: a ``scene`` at each bending stiffness of ``stiffness``, 24 from 0.5 to 1e4 by default.
+    """What a hop study rolls; ``scenes`` are made of it, one for each value of the second key, ready to roll.
 
-    For a map ``second`` is a key more, "hoop.k" for instance, and ``values`` its values. ``rtol`` is the tolerance of
-    the rolls, thresholds are found by ``bisections`` ``level`` is that of the ring, and with ``whole`` all go on
-    to their end. ``scenes`` are made of these.
+    Parameters
+    ----------
+    scene : Scene, str, path or dict
+        What is rolled at each bending stiffness, or what says so, as :func:`rigid.simulate` takes it.
+    stiffness : sequence of float
+        E I/(m g R^2), in any order, each once however often it is given; 24 from 0.5 to 1e4 by default.
+    second : str or None
+        A key more for a map, "hoop.k" for instance.
+    values : sequence
+        Its values, likewise.
+    rtol : float
+        Tolerance of the rolls.
+    bisections : int
+        How often the bracket of each threshold is halved; 0 is the map alone.
+    level : str or None
+        Of the ring; the scene's own by default.
+    whole : bool
+        Whether rolls of the map go on to their end where all is decided before.
 
     Raises
     ------
@@ -56,19 +71,14 @@ class HopMap:
     """
 
     scene: Scene
-    """Or what says so, as :func:`rigid.simulate` takes it."""
     stiffness: tuple[float, ...] = tuple(np.geomspace(*DEFAULT).tolist())
-    """In any order, each once however often it is given; so are the values."""
     second: str | None = None
     values: tuple[Any, ...] = (None,)
     rtol: float = RTOL
     bisections: int = 4
     level: str | None = None
-    """Of the ring; the scene's own by default."""
     whole: bool = False
-    """Whether rolls of the map go on to their end where all is decided before."""
     scenes: tuple[Scene, ...] = field(init=False)
-    """One for each value of the second key, ready to roll."""
 
     def __post_init__(self) -> None:
         if not (self.second is None or isinstance(self.second, str)):

@@ -29,39 +29,51 @@ it by one."""
 class Limit:
     """The limit of a measure as stiffness grows, and whether the rigid value is it.
 
-    It is ``value`` within ``uncertainty``, by ``exponents`` that are ``known`` or fitted, to be held against ``rigid``;
-    ``rate``, within ``rate_interval``, is that at which the cases ``rate_cases`` come nearer to it. The stiffest
-    case is ``distance`` from it, all of them lie ``span`` apart; ``fitted`` is the limit by a rate that is fitted.
+    Attributes
+    ----------
+    value : float
+        Extrapolated limit L, found without knowing the rigid value; NaN where cases are too few for one.
+    uncertainty : float
+        Half width of its interval at 95 %. With known exponents: terms not seen, soft cases, numerical
+        error; fitted: scatter, choice of points, numerical error, and the change of the limit with a rate of 1/3.
+    exponents : tuple of float
+        The leading rates, slowest first.
+    known : bool
+        Whether theory gave them; otherwise it is one, and fitted.
+    rigid : float
+        The value of the rigid hoop that this limit is expected to be.
+    rate : float
+        Observed rate at which the distance to the rigid value goes to zero; NaN where none is to be seen: one that has
+        not fallen over the cases, or has another limit beyond doubt.
+    rate_interval : (float, float)
+        Its interval at 95 %.
+    rate_cases : tuple of int
+        Which cases that rate was fitted to, by their place among those given, softest first.
+    distance : float
+        Distance to the rigid value at the stiffest case: what is left without any extrapolation.
+    span : float
+        How far apart the values of all cases are, or their numerical error where that is more.
+    fitted : (float, float)
+        Limit and half width with a rate that is fitted to all cases, whatever theory says.
+    grows : bool
+        Whether the stiffest case is farther from the rigid value than the one before it, by more than their errors.
+    holds : float
+        Stiffness of the cases from which on the known exponents were asked of them.
     """
 
     value: float
-    """Extrapolated limit L, found without knowing the rigid value; NaN where cases are too few for one."""
     uncertainty: float
-    """Half width of its interval at the level CONFIDENCE. With known exponents: terms not seen, soft cases, numerical
-    error; fitted: scatter, choice of points, numerical error, and the change of the limit with ``SLOWEST`` for it."""
     exponents: tuple[float, ...]
-    """The leading rates, slowest first."""
     known: bool
-    """Whether theory gave them; otherwise it is one, and fitted."""
     rigid: float
-    """The value of the rigid hoop that this limit is expected to be."""
     rate: float
-    """Observed rate at which the distance to the rigid value goes to zero; NaN where none is to be seen: one that has
-    not fallen over the cases, or has another limit beyond doubt."""
     rate_interval: tuple[float, float]
-    """Confidence interval of that rate."""
     rate_cases: tuple[int, ...]
-    """Which cases that rate was fitted to, by their place among those given, softest first."""
     distance: float
-    """Distance to the rigid value at the stiffest case: what is left without any extrapolation."""
     span: float
-    """How far apart the values of all cases are, or their numerical error where that is more."""
     fitted: tuple[float, float]
-    """Limit and half width with a rate that is fitted to all cases, whatever theory says."""
     grows: bool = False
-    """Whether the stiffest case is farther from the rigid value than the one before it, by more than their errors."""
     holds: float = 0.0
-    """Stiffness of the cases from which on the known exponents were asked of them."""
 
     @property
     def rigid_excluded(self) -> bool:
@@ -126,10 +138,24 @@ def limit_of(
 ) -> Limit:
     """The limit of a measure over a ladder of stiffness beside the rigid value it should have.
 
-    ``exponents``, slowest first, are the leading rates where theory knows them, ``holds`` the stiffness from which on
-    it does. With fewer than :func:`.series.fewest` cases there, or too few of one kind
-    (:func:`.series.is_confirmed`), a rate is fitted, to all.
-    Cases come in any order of ``s``, which is above 0.
+    Parameters
+    ----------
+    s, y : (n,) array_like
+        Stiffness of each case, above 0 and in any order, and the measure there; NaN where there is none.
+    rigid : float
+        The value that the limit should be; the limit does not know it.
+    error : (n,) array_like, optional
+        Numerical error of each ``y``.
+    exponents : sequence of float, optional
+        Leading rates, slowest first, where theory knows them. With fewer than :func:`.series.fewest` cases from
+        ``holds`` on, or too few of one kind (:func:`.series.is_confirmed`), a rate is fitted, to all cases.
+    holds : float
+        Stiffness from which on it knows them.
+
+    Raises
+    ------
+    ValueError
+        Not as many of each, a stiffness that is none, or one twice; exponents that are no rates, slowest first.
     """
     s, y, error = ascending(s, y, error, exponents)
     (values, alike), stiff = settled(y, rigid), np.asarray(s, float) >= holds

@@ -13,8 +13,9 @@ from ...plots.difference import at_the_same_angle, at_the_same_normal_impulse, i
 from ...plots.pulse import Curve, energy, impulses, pulse
 from ...plots.style import RIGID, STYLE, blank, colours, power_of_ten
 from ...running.history import dimensionless
-from ..found import Rung, StiffnessStudy
+from ..found import StiffnessStudy
 from ..ladder import spread
+from ..rung import Rung
 
 
 def forces(study: StiffnessStudy) -> Figure:

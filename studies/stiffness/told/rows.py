@@ -9,7 +9,8 @@ from ...plots.sheet import number
 from ...running.measures import MEASURES, shortened
 
 if TYPE_CHECKING:
-    from ..found import Rung, StiffnessStudy
+    from ..found import StiffnessStudy
+    from ..rung import Rung
 
 
 REST = ("normal_impulse", "peak_normal_force", "time_off_floor")
