@@ -87,6 +87,7 @@ def test_a_hoop_in_flight_lands_by_itself():
     assert pulse.normal_impulse == pytest.approx(motion.history.normal_impulse[-1], rel=1e-6)  # all of the landing's
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["patch", "brush"])
 def test_what_a_patch_creeps_is_no_slip(law):
     """A hoop that rolls up, turns and rolls down again has the pulse of the rigid one, and none where it turned."""

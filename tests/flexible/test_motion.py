@@ -388,6 +388,7 @@ def test_steps_are_counted_in_whole_numbers(most):
         flexible.simulate("paper-3.3-massless", most_steps=most)
 
 
+@pytest.mark.slow
 def test_a_thick_hoop_gains_by_friction_what_the_rigid_one_does():
     """Rolling on a wall of r = 1.3 in steps longer than its patch: points that come in follow the dent as it is.
 

@@ -42,6 +42,7 @@ def records(scene):
     return motion.sample.log.records, motion.ended
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("steps", [1, 2, 7])
 @pytest.mark.parametrize("name", SCENES)
 def test_a_run_in_pieces_is_the_run_in_one(monkeypatch, name, steps):
@@ -54,6 +55,7 @@ def test_a_run_in_pieces_is_the_run_in_one(monkeypatch, name, steps):
     assert np.array_equal(parts, whole, equal_nan=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_where_a_motion_goes_over_to_compiled_code_is_not_seen(monkeypatch, name):
     """Compiled throughout, interpreted throughout, and over on the way: as many records, the same to round-off."""

@@ -64,6 +64,7 @@ JAMS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", JAMS)
 def test_limit_of_a_stiff_floor(name):
     """The rigid skid slides on to v = 0 with the configuration frozen, as ever stiffer floors do."""

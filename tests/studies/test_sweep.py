@@ -741,6 +741,7 @@ def test_parts_of_files_that_dead_processes_left_are_removed(tmp_path):
     assert {path.name for path in histories.iterdir()} == {alive.name, young.name}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("workers", [1, 2])
 def test_workers_of_other_sources_end_the_sweep(workers):
     case = Case("rigid", load_scene("paper-3.1"), build="0.0+of-another-checkout")

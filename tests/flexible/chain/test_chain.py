@@ -150,6 +150,7 @@ def angular(hoop, state):
     return about - (centre[0] * p[1] - centre[1] * p[0])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("stiffness", "pose"), [
     (10.0, Pose(2.6, 3.0, 0.0, 5.0, 0.5, Kind.ROLL)),
     (10.0, Pose(3.0, 3.0, 0.0, 20.0, 2.0, Kind.ROLL)),

@@ -82,6 +82,7 @@ def test_section_of_a_thick_ring():
     assert compliance.misfit < 1e-4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("r", [1.001, 1.003, 1.01])
 def test_a_thin_ring_has_no_part_that_pushes_back(r):
     """Its quads, 26 walls long at r = 1.001, lack more energy than shear has: 1 to 1.2 times Q^2/(2 G h) is physics.
@@ -306,6 +307,7 @@ def test_derivatives_of_the_rim(thin):
     assert np.abs(change.T @ force.ravel() - exact[2:-2].ravel()).max() < 1e-6 * np.abs(exact).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("side", [1, -1])
 def test_the_rim_has_no_step_at_the_end_of_the_weld(side):
     """A thick ring's first part is stretched, and all behind it goes along: so does the rim before it.

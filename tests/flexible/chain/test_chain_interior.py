@@ -59,6 +59,7 @@ def test_a_soft_ring_against_all_nodes(stiffness, pose):
     assert np.abs(u[rim, :, 0] - a.u).max() < 1e-4 * np.abs(v).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("r", "mass", "pose"), [
     (1.1, 2.0, Pose(0.2, 0.0, 0.0, 3.0, 0.0, Kind.ROLL)),
     (1.2, 0.1, Pose(0.2, 0.0, 0.0, 1.1, 0.0, Kind.ROLL)),
@@ -99,6 +100,7 @@ def test_a_stiff_ring_moves_as_its_mesh():
     assert np.abs(found - expected).max() < 1e-4 * np.abs(expected).max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("r", "stiffness", "mass", "off"), [
     (1.1, 10.0, 0.0, 0.045), (1.2, 35.0, 0.0, 0.03), (1.2, 10.0, 0.0, 0.1), (1.2, 10.0, 0.1, 0.008),
 ])  # fmt: skip

@@ -36,6 +36,7 @@ def both_ways(shape, angle, beyond):
     return tuple(push + pull for push, pull in pressed_at(shape, 0.1, angle, beyond))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("r", "within"), [(1.02, 5e-4), (1.1, 1e-2)])
 @pytest.mark.parametrize("angle", [0.6, 1.2])
 def test_a_push_and_a_pull_differ_as_on_the_mesh(r, within, angle):
@@ -58,6 +59,7 @@ def test_they_differ_as_on_the_mesh_beside_the_weld_too(walls):
     assert np.linalg.norm(chain - exact) < 1e-2 * np.linalg.norm(exact)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("r", "around"), [(1.02, 480), (1.1, 240)])
 @pytest.mark.parametrize("walls", [2.0, 3.0])
 def test_the_third_order_is_the_mesh_s_beside_the_weld(r, around, walls):
@@ -76,6 +78,7 @@ def test_the_third_order_is_the_mesh_s_beside_the_weld(r, around, walls):
     assert np.linalg.norm(chain - exact) < 0.05 * np.linalg.norm(exact)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("r", "walls", "within"), [(1.02, 2.7, 0.05), (1.1, 2.7, 0.05), (1.1, 4.0, 0.05)])
 def test_the_third_order_has_an_energy(r, walls, within):
     """Stresses along thirteen ways of loading, thirty-nine numbers, are those of fifteen fourth derivatives or fewer.
@@ -102,6 +105,7 @@ def test_a_mesh_that_is_too_coarse_gives_the_ends_no_fourth_order():
     assert fine.softening[0] == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("r", "walls"), [(1.02, 2.7), (1.02, 4.0), (1.1, 4.0)])
 def test_what_a_section_answers_to_second_order_has_a_potential(r, walls):
     """Angles under a force along the chord, and that force by the angles: measured by themselves, the same.
@@ -123,6 +127,7 @@ def test_what_a_section_answers_to_second_order_has_a_potential(r, walls):
     assert np.abs(moments - moments.transpose(1, 0, 2)).max() < 0.02 * np.abs(moments).max()
 
 
+@pytest.mark.slow
 def test_the_ends_are_the_same_on_a_finer_mesh():
     """Twice as many elements around and through the wall: stiffness to 1e-4, third order to half a percent.
 

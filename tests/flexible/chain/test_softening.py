@@ -119,6 +119,7 @@ def test_no_bend_loses_all_its_stiffness(seed):
             assert way @ (local + more) @ way > 0.03 * way @ local @ way
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("walls", "within"), [(2.7, 5e-3), (4.0, 5e-3)])
 def test_a_wall_beside_the_weld_bends_far_as_the_mesh_s(walls, within):
     """A force of 200 E I/R^2 near the weld bends the wall to strains of 0.13 and 0.19.

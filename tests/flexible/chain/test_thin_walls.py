@@ -39,6 +39,7 @@ def test_a_pulse_of_a_thin_wall_is_that_of_a_finer_mesh(r, coarse, fine):
     assert peak == pytest.approx(true_peak, rel=0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damping", [0.0, 1.0])
 def test_a_wall_becomes_a_line(damping):
     """With a bending stiffness that stays, what is left of the wall goes like it: each half changes half as much.
@@ -51,6 +52,7 @@ def test_a_wall_becomes_a_line(damping):
         assert abs(b - c) < 0.6 * abs(a - b) + known * c
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("r", [1.003, 1.001])
 def test_a_thin_wall_is_dented_as_a_beam_is(r):
     """A pressure p on all of the rim: 13/32 of the wall times p/E beside a beam's middle, (1 + nu)/4 along the beam.

@@ -76,6 +76,7 @@ def pulse(k, mu_s, rtol):
     return motion.pulses[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("k", "mu_s", "coarse", "fine"), [(0.1, 0.35, 1e-5, 5e-7), (0.1, 0.45, 1e-4, 1e-5)])
 def test_what_breaks_loose_while_the_pressure_rises_has_a_limit(k, mu_s, coarse, fine):
     """Impulses change by a few ``rtol`` as it falls.

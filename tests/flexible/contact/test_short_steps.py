@@ -14,6 +14,7 @@ SCENE = HOOP.replace(
 )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_brush_that_sticks_under_a_damper_is_left_in_long_steps():
     """From a depth foreseen to a thousandth the damper of a step of 1e-7 pulls more than the patch presses.
 

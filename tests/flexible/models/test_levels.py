@@ -128,6 +128,7 @@ def test_equilibrium_of_a_soft_ring():
         equilibrium(ExactHoop(scene_b(1e4).to_dimensionless()), pose)
 
 
+@pytest.mark.slow
 def test_reduced_against_all_nodes_in_a_pulse():
     """A massless and a massive hoop through a whole pulse, within the tolerance of the march (1e-2 of the impulse)."""
     for mass in (0.0, 0.1):

@@ -58,6 +58,7 @@ def _elastica(stiffness, load, radius):
     return _line(unknown, stiffness, load, radius)[0], unknown[3] / radius + WELD + PHI - pi
 
 
+@pytest.mark.slow
 def test_a_soft_hoop_rests_as_the_elastica_does():
     stiffness = 0.4
     scene = scene_from_dict(

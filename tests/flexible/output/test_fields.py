@@ -401,6 +401,7 @@ def test_every_field_that_is_written_has_a_name_and_a_unit():
     assert all(style.unit(field, {}) and style.unit(field, style.SI_UNITS) for field in drawn)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("r", "bending", "within"), [(1.2, 300, 1e-3), (1.1, 20, 0.1)])
 def test_the_displaced_rim_is_as_deep_in_the_floor_as_it_is_pressed(tmp_path, r, bending, within):
     """Undamped, at every point of the contact the pressure over that of the foundation, of a patch narrower than an

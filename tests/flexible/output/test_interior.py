@@ -138,6 +138,7 @@ def kept(request):
     return simulate(scene, history=True).kept[0]
 
 
+@pytest.mark.slow
 def test_the_rim_is_where_the_contact_saw_it(kept):
     interior = interior_of(kept.hoop)
     states = kept.states[::10]

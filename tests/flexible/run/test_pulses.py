@@ -189,6 +189,7 @@ def test_a_pulse_on_the_floor_has_no_time_off_it():
         assert pulse.time_off_floor == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("stiffness", "bending"), [(1e9, 1e5), (2.5e10, 413.0)])
 def test_a_blow_that_turns_the_hoop_is_gone_through(stiffness, bending):
     """It comes in against the way of its pulse, and the pulse goes back over the angles at which the segment began.

@@ -69,6 +69,7 @@ def test_a_smoothed_friction_that_rolls_for_ever_is_seen_to(mu):
     assert motion.ended.startswith("rolls for ever")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lead", [1e-5, 1e-3, 0.1])
 @pytest.mark.parametrize("resolve", ["pulses", "all"])
 def test_a_run_ends_at_its_time(resolve, lead):

@@ -137,6 +137,7 @@ def test_through_a_file(name: str, tmp_path: Any) -> None:
     assert_same(simulate(SCENES[name], history=True, resume=loaded), whole(name))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SCENES)
 def test_a_history_without_states_is_that_with_them(name: str) -> None:
     """Many steps in one call of compiled code, and each in one of its own, whose state is kept; cut, and gone on."""

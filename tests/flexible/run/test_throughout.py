@@ -195,6 +195,7 @@ def test_a_disk_that_rocks_in_a_pulse_does_not_end_it():
     assert pulse.friction_impulse / pulse.normal_impulse == pytest.approx(-0.0129, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_a_turn_of_the_rigid_hoop_where_a_swing_begins_is_none():
     """A swing begins at a turn with what is left of phidot, 5e-10, against which the rigid hoop may turn at once.
 
@@ -227,6 +228,7 @@ def test_a_hoop_that_turns_back_in_a_pulse_leaves_it_where_it_came_in():
     assert 0 < pulse.newton_restitution < 1
 
 
+@pytest.mark.slow
 def test_a_motion_goes_on_from_within_a_pulse_in_which_the_disk_rocks():
     """To the last bit as without a stop, which was while the disk went back."""
     whole = flexible.simulate(ROCKS)

@@ -131,6 +131,7 @@ def test_a_hoop_that_creeps_turns_where_one_does_that_sticks():
     assert turn.phi == pytest.approx(other.phi, abs=3 * slid)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", [-2.0, -1.2, 1.2])
 def test_a_patch_that_bears_next_to_nothing_tells_of_no_turn(angle):
     """Let go undeformed a hoop without mass falls freely at first; its rim's friction is as small as N is."""

@@ -168,6 +168,7 @@ def test_all_nodes_are_caught_alike():
     assert impulses[0] == pytest.approx(impulses[1], rel=3e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("k", "r", "mu", "phi0", "bending", "stiffness", "damping", "rtol"),
     [

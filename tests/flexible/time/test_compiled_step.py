@@ -124,6 +124,7 @@ def test_what_is_known_of_the_ring_is_no_part_of_a_step():
     assert np.array_equal(compliance[:, columns], kept[:, columns])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("level", [ReducedHoop, ChainHoop])
 def test_steps_are_compiled_ahead_for_what_they_are_called_with(monkeypatch, level):
     """By the types of numba, for a hoop of any kind: of others the march would be compiled once more."""

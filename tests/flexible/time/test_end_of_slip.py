@@ -61,6 +61,7 @@ def test_slip_ends_at_zero_unless_n_falls_faster_than_the_patch_would_hold(mode)
     assert not past(1e-6, rate, feet=-mode * 1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("bending", [10.0, 5.0])
 def test_friction_does_not_push_a_soft_hoop_on(bending):
     """In steps in which the whole patch is renewed slip went on past zero unseen, up to a fourteenth of the loss.

@@ -16,6 +16,7 @@ HEAVY = Scene(
 )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_no_step_throws_up_a_hoop_that_lands():
     """One step went from the air, falling, to N = 20, rising, and gave 0.16 of the energy, which no estimate saw.
 
@@ -49,6 +50,7 @@ def test_no_step_leaves_out_a_blow():
     assert motion.pulses[0].normal_impulse == pytest.approx(closer.pulses[0].normal_impulse, rel=10 * rtol)
 
 
+@pytest.mark.slow
 def test_a_damper_takes_energy_where_a_patch_all_but_vanishes():
     """A brush that bounces: N/N_el of a stage with next to no N_el made of an impulse of 4e-6 a gain of 0.06."""
     scene = Scene(

@@ -33,6 +33,7 @@ def test_a_rolling_brush_takes_the_steps_of_a_rolling_patch(level):
     assert friction.max() < 0.3 / 2, "far from sliding"
 
 
+@pytest.mark.slow
 def test_a_brush_on_a_soft_ring_without_mass_is_marched_through():
     """There is no inertia that would hold the rim where its bristles let go: a step of Newton that breaks all of them
     loose leaves it anywhere, and no step longer than 1e-7 could be solved.
@@ -48,6 +49,7 @@ def test_a_brush_on_a_soft_ring_without_mass_is_marched_through():
     assert brush.history.omega[-1] == pytest.approx(patch.history.omega[-1], abs=1e-4), "rtol, of velocities"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("phi0_deg", [10.0, -10.0])
 @pytest.mark.parametrize("rtol", [1e-3, 3e-4, 1e-4])
 def test_a_brush_that_breaks_loose_in_a_slow_roll_does_so_in_time(phi0_deg, rtol):

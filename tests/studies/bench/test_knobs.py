@@ -29,6 +29,7 @@ def test_the_setting_that_rtol_chooses_is_that_of_a_run(pulse):
     assert ours == pytest.approx(whole, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_parts_are_found_one_by_one(monkeypatch):
     """Steps leave most of a pulse without mass; what is finer in all is off by no more than the parts together."""
     monkeypatch.setattr(knobs, "pulse_at", once)

@@ -72,6 +72,7 @@ def test_drake_regularises_as_predicted():
         assert off == pytest.approx(float(term.at(setting)) - term.limit, rel=setting**0.2)
 
 
+@pytest.mark.slow
 def test_what_is_not_installed_says_so(hoop, monkeypatch):
     monkeypatch.setattr(approach, "installed", lambda name: False)
     status, out, _ = hoop("study", "limit", "paper-3.3-massless", "--peers", "--json")

@@ -259,6 +259,7 @@ def test_who_interrupts_the_drawing_of_a_study_has_its_table_and_is_told_how_to_
     assert (out / "report.html").exists()
 
 
+@pytest.mark.slow
 def test_a_study_whose_table_nobody_reads_leaves_its_files(scene, tmp_path):
     """As ``| head -1`` does: the reader is gone before the table is printed, which comes before the figures."""
     out = tmp_path / "out"

@@ -34,6 +34,7 @@ def test_times_windows_and_forces_are_of_the_limit(law):
         assert of(scene) != of(scene.replace(contact={"law": "patch"}))
 
 
+@pytest.mark.slow
 def test_progress_never_goes_back_and_comes_to_its_end():
     """Rolls that are not decided behind the pulse are rolled on, in the same part of it."""
     for bisections in (0, 1):

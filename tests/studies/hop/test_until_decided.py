@@ -22,6 +22,7 @@ def scene_of(bending_stiffness: float, turns: int) -> Scene:
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_roll_that_has_hopped_ends_early_and_says_what_the_whole_one_says():
     scene = scene_of(6.0, 1)
     early, late = roll_until_decided(scene), roll(scene)

@@ -100,6 +100,7 @@ def test_a_patch_that_turns_round_does_so_as_by_a_stiff_solver(damping):
     assert found.end[SLIP] == pytest.approx(slip, rel=1e-7)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("scene", "finer", "share"),
     [(TURNS, 0.01, 1e-4), (BRUSH, 0.1, 1 / 300), (SMOOTHED, 0.01, 1e-4)],

@@ -148,6 +148,7 @@ def test_a_softer_pulse_or_one_within_its_error_is_not_said_to_be_unlike(study):
     assert unlike_sentences(dataclasses.replace(off, sights=(*study.sights, rough))) == []
 
 
+@pytest.mark.slow
 def test_far_from_its_limit_a_strongly_damped_patch_is_said_to_be():
     """Springs behind a damper of 100 take eps theta: of a rigid ring at 1e10 the predicted creep is not there yet."""
     found = limit_study(load_scene("paper-3.3-massless").replace(contact={"damping": 100.0}), foundations=(1e10,))

@@ -90,6 +90,7 @@ def test_a_rigid_ring_comes_to_it_as_predicted(scene):
     assert abs(off[1]) < 0.6 * abs(off[0])
 
 
+@pytest.mark.slow
 @BOTH
 def test_damped_by_more_it_is_the_papers_and_by_less_it_slides_on(scene):
     """Above the critical ratio the patch follows the rigid phases; below, all it rings decides. The same angle and the
@@ -202,6 +203,7 @@ def near_critical(over: float) -> Scene:
     return RIGHT.replace(contact={"damping": stop.damping + over})
 
 
+@pytest.mark.slow
 def test_a_little_above_the_critical_damping_a_stick_is_kept_from_some_foundation_on():
     """The critical ratio is zeta_c + O(eps): what is above it by half as much needs eight times the foundation, by the
     steps of the bisection (a sixty-fourth of a decade each, 7 %) and the next power of eps (1e-4 times some hundreds).
@@ -229,6 +231,7 @@ def test_the_other_hoop_is_known_of_what_breaks_and_of_what_sticks():
     assert kept.holds == broken.holds == 0
 
 
+@pytest.mark.slow
 def test_a_ring_that_breaks_is_not_held_to_the_hoop_that_sticks():
     """Its distance to that is the gap between two hoops, 48 times the predicted one at 1e9 and ten times that at
     1e12: no coefficient is read off it."""

@@ -62,6 +62,7 @@ def test_the_map_of_a_regularised_law_smooths_less_on_a_stiffer_floor():
     assert spot.impulse_ratio - spot.limit == pytest.approx(spot.predicted - spot.limit, rel=0.2)
 
 
+@pytest.mark.slow
 def test_little_damping_settles_late_and_a_hoop_that_rolls_has_a_limit_without():
     scene = load_scene("paper-3.3-massless").replace(contact=Contact(damping=0.003), run={"until": "pulse"})
     assert isfinite(separate_from(passage(scene)))
@@ -70,6 +71,7 @@ def test_little_damping_settles_late_and_a_hoop_that_rolls_has_a_limit_without()
     assert not any("without damping" in said for said in damping_sentences(study))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["paper-3.1", "paper-3.2-k0.25", "paper-3.3-heavier"])
 def test_a_smoothed_law_has_a_layer_where_a_slip_starts(name):
     """Nothing jumps there, and |F| = mu N throughout; to the last bit, which no finite V carries."""
@@ -135,6 +137,7 @@ def test_another_law_whose_pulse_is_not_foreseen_is_left_out():
     assert not any("no damping" in other.name for other in found.others)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("mu_s", "rtol"), [(0.35, 5e-7), (0.4, 2e-6), (0.45, 1e-5)])
 def test_a_brush_on_a_thin_wall_breaks_loose_as_on_a_rigid_ring(mu_s, rtol):
     """By another model, of another's bristles: 1e-4, what a patch of 5e-3 R leaves of it.

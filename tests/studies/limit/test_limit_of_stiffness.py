@@ -54,6 +54,7 @@ def study(request):
     return stiffness_study(scene_of(0.25, 0.0, *request.param), Ladder("both", 1e8, 1e13, 6))
 
 
+@pytest.mark.slow
 def test_the_limit_of_a_light_hoop(study):
     limits_hold(study)
     assert study.limits["impulse_ratio"].uncertainty < 2e-4

@@ -71,6 +71,7 @@ def test_sensitivities_are_those_of_the_rigid_solver(k, mass_ratio):
         assert found == pytest.approx(expected, rel=1e-5, abs=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("k", "mass_ratio", "law"),
     [(0.1, 0.0, "patch"), (0.1, 0.1, "patch"), (0.25, 0.0, "patch"), (0.1, 0.01, "brush"), (0.25, 0.0, "brush")],
@@ -118,6 +119,7 @@ def test_below_a_foundation_the_events_are_not_separate():
     assert separate_from(passage(scene.replace(contact={"damping": 0.0}))) > least
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k", [0.1, 0.25])
 def test_friction_and_damper_take_what_is_predicted(k):
     """The two together, for a rigid ring under a patch; what comes behind eps is linear in it and taken out."""
@@ -261,6 +263,7 @@ def test_the_damper_lessens_the_creep():
     assert far[0] > far[1] > far[2] > 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("k", "mass_ratio", "mu_s", "phi0"), [(0.0924, 1.0, 0.366, 0.3536), (0.4575, 0.0, 0.503, 0.1556)]
 )

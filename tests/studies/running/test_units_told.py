@@ -83,6 +83,7 @@ def same(plain, heavy, units, rel=1e-6) -> None:
             assert (isnan(value) and isnan(si)) or si == pytest.approx(value, rel=rel, abs=1e-9), name
 
 
+@pytest.mark.slow
 def test_a_stiffness_study_tells_its_units():
     plain, heavy = (stiffness_study(scene, Ladder("both", 1e6, 1e7, 2)) for scene in (SCENE, HEAVY))
     same(plain.records(), heavy.records(), heavy.units)
@@ -109,6 +110,7 @@ def test_a_limit_study_tells_its_units():
             assert units[name] == plain.units[name]
 
 
+@pytest.mark.slow
 def test_a_hop_study_tells_its_units():
     def study(**hoop: float) -> HopStudy:
         scene = SCENE.replace(hoop={"mass_ratio": 0.1, **hoop}, solve={"elements": 120})

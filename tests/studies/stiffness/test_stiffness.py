@@ -265,6 +265,7 @@ def test_failing_rungs_are_told_and_the_rest_is_used(hoop, how):
     assert found["limit"]["impulse_ratio"]["value"] is not None
 
 
+@pytest.mark.slow
 def test_a_pulse_that_was_measured_is_not_lost_with_a_later_one(hoop, tmp_path):
     """The first one of each rung counts, as with that alone; where the run stopped is told."""
     line = ["study", "stiffness", "paper-3.3-massless", "--workers", 1, "--json", "--solver"]
@@ -442,6 +443,7 @@ def test_a_stick_that_breaks_for_good_is_told_where_nothing_is_predicted(along, 
     assert found.to_dict()["hanging"][0]["broken"] is True
 
 
+@pytest.mark.slow
 def test_rungs_too_soft_for_a_stick_to_be_kept_say_nothing_of_the_limit():
     """0.4 % above the critical damping, 2.132, a rigid ring breaks its patch up to a foundation of 1e13 (bisection in
     the tests of its limit): the rungs tend to the hoop that slides on, and none is held to the other's coefficient."""

@@ -117,6 +117,7 @@ KNOWN = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", KNOWN)
 @pytest.mark.parametrize(("noise", "floor"), [(0.0, 0.0), (0.03, 3e-6)])
 def test_intervals_of_known_rates_hold_limit_and_further_cases(law, noise, floor):
@@ -145,6 +146,7 @@ def test_intervals_of_known_rates_hold_limit_and_further_cases(law, noise, floor
     assert np.median(told) < 1  # more than the last case says
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", KNOWN)
 def test_soft_cases_of_another_kind_are_left_out(law):
     """Hoops that leave the floor on the two softest cases miss the series of the others by as much as it goes.
@@ -390,6 +392,7 @@ def test_soft_cases_of_another_kind_say_nothing_of_a_limit_that_stiff_ones_have(
     assert not other.rigid_inside
 
 
+@pytest.mark.slow
 def test_errors_that_come_about_by_chance_are_known_together() -> None:
     """Two runs that agree by chance make no case exact; what all of them say is a part of the patch, s^(-1/3).
 
