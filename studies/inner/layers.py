@@ -53,7 +53,7 @@ _CARRYING = 0.2  # of N: a patch whose springs lack no more of it creeps as one 
 _RELEASED = 0.95  # of the part that sticks at the most a brush carries, where its running away begins
 
 
-class TooFastError(StudyError):
+class TooLongError(StudyError):
     """Something in it is so fast that steps do not come to the end of what is followed."""
 
 
@@ -195,7 +195,7 @@ def layer(
     ends = np.array([ahead + duration, np.inf * np.sign(event.omega), fineness, 1.0, MOST])
     records, switches, end, done = _marched(System(body, contact, eps), state, mode, kept, ends)
     if not done:
-        raise TooFastError(too_many)
+        raise TooLongError(too_many)
     records[:, 0] -= ahead
     columns = dict(zip(COLUMNS, records.T, strict=True))
     return Layer(

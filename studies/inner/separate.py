@@ -22,7 +22,7 @@ from meshes import Placement
 from rigid import Scene
 
 from .events import START, Event, Passage
-from .layers import Layer, TooFastError, layer, outer_forces, period_of
+from .layers import Layer, TooLongError, layer, outer_forces, period_of
 
 Array = NDArray[np.float64]
 
@@ -64,7 +64,7 @@ def _followed(way: Passage, event: Event, duration: float | None = None) -> Laye
     """The layer of an event; None where something is too fast for it to be followed."""
     try:
         return layer(way.body, way.contact, event, duration)
-    except TooFastError:
+    except TooLongError:
         return None
 
 

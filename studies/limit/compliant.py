@@ -20,7 +20,7 @@ from rigid.kernel.interrupts import between_calls
 
 from ..inner.creep import creep, half_width
 from ..inner.events import Passage, passage
-from ..inner.layers import TOO_LONG, TooFastError
+from ..inner.layers import TOO_LONG, TooLongError
 from ..inner.march.body import accelerations, rolling_forces, sliding_force
 from ..inner.march.bristles import SIZE, bristles, set_stretch
 from ..inner.march.equations import (
@@ -123,7 +123,7 @@ def march_through(way: Passage, eps: float, fineness: float = 0.1) -> tuple[np.n
             with between_calls():
                 records, turned, state, done = march(System(way.body, way.contact, eps), state, mode, kept, ends)
             if not done:
-                raise TooFastError(_TOO_MANY)
+                raise TooLongError(_TOO_MANY)
             mode = int(records[-1, 5])
             switches = len(turned)
         if psi == way.edges[0]:
@@ -203,7 +203,7 @@ def seen_by_rigid_ring(scene: Scene, foundation: float) -> Sight:
     """A scene's pulse at a foundation, of a rigid ring; or why it cannot be followed there."""
     try:
         seen = go_through(at_foundation(scene, foundation))
-    except TooFastError as error:
+    except TooLongError as error:
         return Sight("rigid ring", foundation, {}, {}, str(error))
     values = {
         "impulse_ratio": seen.impulse_ratio,

@@ -20,7 +20,7 @@ from rigid.output import summary
 
 from ..inner.creep import creep
 from ..inner.events import Event, Passage
-from ..inner.layers import Layer, TooFastError, layer, outer_forces
+from ..inner.layers import Layer, TooLongError, layer, outer_forces
 from ..inner.scales import damping_of
 from ..inner.separate import separate_from, stiff_from
 from ..inner.stops.critical import critical_theta
@@ -296,5 +296,5 @@ def _layer_of(way: Passage, event: Event) -> tuple[Layer | None, str]:
     """The layer of an event, or why it cannot be followed."""
     try:
         return layer(way.body, way.contact, event), ""
-    except TooFastError as error:
+    except TooLongError as error:
         return None, str(error)

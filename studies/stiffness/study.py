@@ -174,7 +174,7 @@ def _against(
 
 def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction | None, float, str]:
     """The prediction, where it is that of the cases, the foundation from which on it holds, and why it was lost."""
-    from ..inner.layers import TooFastError
+    from ..inner.layers import TooLongError
     from ..inner.separate import separate_from
     from ..inner.stops.hanging import followed
     from ..limit.prediction import predict
@@ -184,7 +184,7 @@ def _prediction(scene: Scene, ladder: Ladder, solver: str) -> tuple[Prediction |
         return None, 0.0, ""
     try:
         return predict(scene), separate_from(followed(scene)), ""
-    except TooFastError as error:
+    except TooLongError as error:
         return None, 0.0, str(error)
     except StudyError:  # the pulse has more in it than rolling and sliding
         return None, 0.0, ""
