@@ -52,7 +52,7 @@ class Ledger:
     mass and without thickness (README.md, section 1). ``residual`` is all that the others leave unexplained: the
     work of a patch's points beyond that of the patch as a whole, which is summed by trapezoids over the steps, and
     falls like the square of their length, rtol^(2/3): a hundredth of ``solve.rtol`` of the initial energy, or less,
-    down to 1e-5 in thin walls that are not soft, but up to a tenth of it in thick soft ones, and some times
+    down to 1e-5 in thin walls that are not soft, but up to 0.4 of it in thick soft ones, and some times
     ``solve.rtol`` in hoops that land in a pulse (README.md, section 4). It is a limit of the books, and no part of
     the motion.
     """
@@ -74,7 +74,8 @@ class Ledger:
 class FlexiblePulse(Pulse):
     """A pulse as the flexible hoop goes through it, over the phi-interval of the rigid pulse.
 
-    One that a soft wall throws back leaves that interval where it came in.
+    What every pulse has is said at :class:`rigid.Pulse`. One that a soft wall throws back leaves that interval where it
+    came in.
     ``time_off_floor`` is the time without contact (hopping, the paper's footnote 1); the energy peaks are those of
     the ring's strain and of the contact's springs; ``phases`` is what the patch does inside.
     """
@@ -111,6 +112,8 @@ class FlexiblePulse(Pulse):
 class History(Same):
     """Every accepted step of the flexible segments, as arrays over time; stored only when asked for.
 
+    Names that :class:`rigid.States` has too mean the same. ``patch_length`` is that of the rim which presses on the
+    floor, ``stick_fraction`` the part of it that sticks, 0 to 1; energies are those of :class:`Ledger`.
     Losses and impulses are running ``TOTALS`` over these segments: what the rigid hoop between them loses, and the
     floor gives it, is not among them.
     """

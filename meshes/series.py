@@ -181,6 +181,8 @@ class SeriesWriter:
 class Series:
     """A series on disk; frames are read when they are asked for.
 
+    ``len(series)`` is their number, ``series[i]`` one of them, an iteration gives all.
+
     Attributes
     ----------
     pvd : Path

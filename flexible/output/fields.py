@@ -99,7 +99,8 @@ def write_fields(
         The instants themselves, in the scene's unit of time, in place of that. A frame between two steps is of a
         shorter step from the first, which rings with what the longer damps: N of it can be some percent off its curve.
     fields : sequence of str
-        One, or several, out of ``FIELDS``; what is not asked for is not computed.
+        One, or several, of those that are there by default, which are all; what is not asked for is not computed.
+        Axes, signs and units: :mod:`flexible.output.fields`.
     pulse : int or None
         Number of the pulse, from 0; None, or no pulse at all, spreads the frames over the whole motion.
     progress : callable, optional
