@@ -20,8 +20,8 @@ from scipy.sparse import csr_array
 from rigid import Scene
 
 from ..ring.fem import Ring, membrane_stiffness
+from ..ring.frame import body_of
 from ..ring.mirror import positive_part
-from ..ring.reduction import body_of
 from .bordered import no_blocks
 from .corner import bow_of_rim
 from .mass.ends import EndMass, end_mass

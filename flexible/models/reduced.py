@@ -21,7 +21,7 @@ from ..contact.points.rim import below_floor, margin_around, window_around
 from ..contact.stage import Near, Predictor, Stage
 from ..contact.vectors import largest, plus
 from ..ring.frame import Frame, energies, inertia
-from ..ring.reduction import ReducedRing, Rim, is_known, reduce, residual, window_dofs
+from ..ring.reduced.reduction import ReducedRing, Rim, is_known, reduce, residual, window_dofs
 from .equilibrium import RestingRing
 from .rim_contact import RimContact
 from .stage import FORESEEN, HELD, LET_GO, RAISED, From, Window, filtered_error, solve_stage
@@ -218,7 +218,7 @@ class ReducedHoop(RimContact):
 
     def __init__(self, scene: Scene, modes: int | None = None, points: float | None = None) -> None:
         self.ring: ReducedRing = reduce(scene, modes)
-        super().__init__(scene, self.ring.vertex, points, self.ring.within)
+        super().__init__(scene, self.ring.vertex, points, self.ring.within, self.ring.ring.mesh.around)
         self._blocks: dict[tuple[int, int], tuple[Array, Array]] = {}
 
     @cached_property
@@ -258,7 +258,7 @@ class ReducedHoop(RimContact):
         """See :class:`flexible.models.state.Model`."""
         if window is None or is_known(self.arrays.rim, self.ring.dofs(*window)):
             return False
-        self.ring.ring.solve_rim(self.ring.dofs(*window))
+        self.ring.solve_rim(self.ring.dofs(*window))
         return True
 
     def stage(

@@ -133,19 +133,23 @@ class RimContact:
         Contact points to a patch; by default what the scene's tolerance asks for.
     within : float
         What the wall gives way by within an element, in R per pressure: the foundation and its bristles do in addition.
+    around : int, optional
+        Elements of the mesh, where the rim's are finer.
     """
 
     linear = True
     """Whether rotations of the ring's sections against one are neglected."""
 
-    def __init__(self, scene: Scene, vertex: Array, points: float | None, within: float = 0.0) -> None:
+    def __init__(
+        self, scene: Scene, vertex: Array, points: float | None, within: float = 0.0, around: int | None = None
+    ) -> None:
         self.scene = scene
         self.vertex = vertex
         middle = (vertex + np.append(vertex[1:], vertex[0] + 2 * pi)) / 2
         self.theta = np.column_stack([vertex, middle]).ravel()
         if points is None:
             points = points_to_a_patch(LAWS[scene.contact.law], scene.solve.rtol, soft=not self.linear)
-        self.law = contact_law(scene, len(vertex), points, within)
+        self.law = contact_law(scene, around or len(vertex), points, within)
         self.element = 2 * pi / len(vertex)
         self.relaxation = relaxation_time(scene)
         self.steps = share_of_linear_steps(scene) if self.linear else share_of_steps(scene)

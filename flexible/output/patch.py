@@ -78,13 +78,19 @@ def profile(hoop: RimContact, state: State) -> Profile:
     return Profile(theta, pressure, traction, stick.astype(np.int8))
 
 
-def _gap(hoop: RimContact, state: State, theta: Array) -> Array:
-    """Gap of material points, on the displacement that the contact used."""
+def displaced(hoop: RimContact, state: State, theta: Array) -> Array:
+    """Displacement of material points in the disk's axes, as the contact used it, (n, 2)."""
     vertex, (first, count) = hoop.vertex, state.window
     element = np.clip([element_at(vertex, angle) for angle in theta], first, first + count - 1)
     start, end = vertex_angle(vertex, element), vertex_angle(vertex, element + 1)
     k = 2 * (element - first)
-    u = sum(n[:, None] * state.u[k + i] for i, n in enumerate(shape_functions((theta - start) / (end - start))))
+    shape = np.stack(shape_functions((theta - start) / (end - start)))
+    return np.asarray(np.einsum("in,inj->nj", shape, state.u[k + np.arange(3)[:, None]]))
+
+
+def _gap(hoop: RimContact, state: State, theta: Array) -> Array:
+    """Gap of material points."""
+    u = displaced(hoop, state, theta)
     phi, height = state.pos[2], state.pos[1]
     gap: Array = gap_at(height, phi + theta - pi, upward(u[:, 0], u[:, 1], np.sin(phi), np.cos(phi)))
     return gap

@@ -30,7 +30,7 @@ from meshes.placing import around
 
 from ..models.state import State
 from ..ring.fem import Ring
-from ..ring.reduction import ReducedRing
+from ..ring.reduced.reduction import ReducedRing
 
 Array = NDArray[np.float64]
 
@@ -79,10 +79,14 @@ class Interior:
 
     def dent(self, state: State, given: float) -> Array:
         """Of the displacement of the rim's nodes what they have of ``given`` per pressure of the floor, (n_rim, 2)."""
+        spread: Array = self._spread.solve(given * self._on_rim(state))
+        return spread
+
+    def _on_rim(self, state: State) -> Array:
+        """Forces of the floor on the rim's nodes, (n_rim, 2)."""
         load = np.zeros((len(self.mesh.rim_nodes), 2))
         np.add.at(load, (2 * state.window[0] + np.arange(len(state.nodal))) % len(load), state.nodal)
-        spread: Array = self._spread.solve(given * load)
-        return spread
+        return load
 
     @cached_property
     def _spread(self) -> Any:
@@ -219,10 +223,13 @@ class ReducedInterior(Interior):
         moved: Array = ring.solve(load) / self.young
         return moved - shapes @ ((shapes.T @ load) / self.reduced.frame.modal[:, :1])
 
+    def _on_rim(self, state: State) -> Array:
+        return self.reduced.on_mesh(state.window, state.nodal).reshape(-1, 2)
+
     def _static(self, states: Sequence[State]) -> Array:
         load = np.zeros((len(self.ring.free), len(states)))
         for column, state in zip(load.T, states, strict=True):
-            np.add.at(column, self.ring.rim_dofs[self.reduced.dofs(*state.window)], state.nodal.ravel())
+            column[self.ring.rim_dofs] = self._on_rim(state).ravel()
         moved: Array = self.ring.solve(load)
         if self.mass > 0:
             shapes = self.reduced.shapes

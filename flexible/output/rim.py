@@ -18,7 +18,7 @@ from meshes.fields import LINE
 from ..contact.points.rim import shape_functions
 from ..models.rim_contact import RimContact
 from ..models.state import State
-from .patch import FREE, Profile, profile
+from .patch import FREE, Profile, displaced, profile
 
 Array = NDArray[np.float64]
 
@@ -86,6 +86,10 @@ def rim_of(
             here = np.einsum("ni,nij->nj", shape, value[nodes])
             on_line[name] = np.concatenate([value, here])[order]
         theta = together[order]
+        if contact is not None and "displacement" in on_line:
+            counted = (theta - patch.theta[0]) % (2 * pi) + patch.theta[0]
+            touching = counted <= patch.theta[-1]
+            on_line["displacement"][touching] = length * place.vectors(displaced(*contact, counted[touching]))
     if contact is not None and "displacement" in on_line:
         dent = given_by(contact[0]) * np.column_stack([columns["traction"], columns["pressure"]])
         on_line["displacement"] = on_line["displacement"] + length * dent

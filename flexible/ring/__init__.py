@@ -6,7 +6,7 @@
 ``fem``        stiffness, mass, static compliance of the rim, vibration modes, stress, by scikit-fem
 ``choice``     which of these a scene stands on: elements by tolerance, stiffness and wall
 ``exact``      its elasticity with Green's strain, where it turns far
-``reduction``  fixed-interface modes, and the rest of the compliance as static
 ``frame``      inertia of disk and modes in axes that float on the disk
 ``nodal``      the same with every node free
+``reduced``    fixed-interface modes, and the rest of the compliance as static; a rim for floors that are far stiffer
 """

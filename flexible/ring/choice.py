@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import gc
 from functools import lru_cache
-from math import ceil, inf, log2, pi, sqrt
+from math import ceil, hypot, inf, log2, pi, sqrt
 
 from meshes import ring_mesh
 from rigid import Scene
 
-from .fem import Ring
+from .fem import Ring, membrane_stiffness
 from .possible import ensure_thick
 
 AROUND = 240  # elements where no tolerance asks for more
@@ -22,6 +22,12 @@ THICK = 1 / 6  # wall from which on that is more, and a pulse knows more of what
 MOST_AROUND, MOST_THROUGH = 1200, 10  # the compliance of so long a rim is 180 MB
 FAR_ERROR, FAR_SOFT, FAR_SOFTER = 1e-4, 10.0, 1.6  # a ring that bends far: its error at so small an E I, and its power
 MOST_FAR = 480  # around such a ring: its sections pay in every step
+UNEVEN, FELT = (
+    0.7,
+    1e-3,
+)  # by how much over E b places on an element give, and the share of the patch's own that is felt
+PULSE = 3.0  # weights; a patch under them that is wider than an element knows no places on it
+STOUT = 2.0  # wall over the distance of the rim's nodes from which on the wall is dented there before it bends
 
 
 @lru_cache(maxsize=8)
@@ -79,6 +85,26 @@ def elements_bent_far(rtol: float, bending_stiffness: float) -> int:
     return min(max(AROUND, 2 * round(AROUND / 2 * 3 * error / rtol)), MOST_FAR)
 
 
+def feels_places(scene: Scene, around: int) -> bool:
+    """Whether a floor knows the places on an element of a rim of so many from each other.
+
+    It does where what they give by differs by a share of its own patch's depth under the weight, and that patch is
+    narrower than an element in a pulse too. One that is damped by more is as much the stiffer for what comes as fast.
+    """
+    foundation, weight = scene.contact.stiffness, 1 + scene.hoop.mass_ratio
+    half_width = (1.5 * weight / foundation) ** (1 / 3)
+    elastic = membrane_stiffness(scene)
+    share = UNEVEN * 2 * foundation * half_width / elastic
+    dent = sqrt(4 * weight / (pi * elastic))  # half-width on a rigid floor, as Hertz has it
+    pulse = hypot(half_width * PULSE ** (1 / 3), dent * PULSE ** (1 / 2))
+    return max(1.0, scene.contact.damping) * share > FELT and pulse < 2 * pi / around
+
+
+def elements_of_stout(wall: float) -> int:
+    """Elements around from which on a wall is thick beside the distance of their nodes."""
+    return ceil(STOUT * pi / wall)
+
+
 def ring_of(scene: Scene, through: int = 1, linear: bool = True) -> Ring:
     """The ring of a scene; one is built per shape, and shared by all stiffnesses, masses and contacts.
 
@@ -96,5 +122,7 @@ def ring_of(scene: Scene, through: int = 1, linear: bool = True) -> Ring:
     around = scene.solve.elements or (
         elements_around(rtol, bending_stiffness, scene.wall) if linear else elements_bent_far(rtol, bending_stiffness)
     )
+    if linear and not scene.solve.elements and feels_places(scene, around):
+        around = max(around, min(elements_of_stout(scene.wall), MOST_AROUND))
     halved = halved_at_rim(scene.wall, around, through)
     return _shared_ring(scene.wall, around, through, halved, scene.ring.weld_half_angle, scene.ring.poisson)

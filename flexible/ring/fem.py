@@ -178,15 +178,25 @@ class Ring:
         below 2 h, by which elements were sides of a polygon: a share of that. A wall below ``THIN`` h bends, and the
         mesh knows of that.
         """
-        h, mesh = 2 * pi / len(self.mesh.rim_nodes), self.mesh
-        return WITHIN * 2 * h / pi if mesh.outer - mesh.inner > THIN * h else 0.0
+        mesh = self.mesh
+        thick = mesh.outer - mesh.inner > THIN * 2 * pi / len(mesh.rim_nodes)
+        return self.between_nodes if thick else 0.0
+
+    @property
+    def between_nodes(self) -> float:
+        """The same of any wall."""
+        return WITHIN * 4 / len(self.mesh.rim_nodes)
 
     @cached_property
     def given_within(self) -> Array:
         """What is ``within`` of the displacement of a rim's node under unit forces on it and others, (n_rim, n_rim)."""
-        if self.within == 0:
+        return self.given(self.within)
+
+    def given(self, within: float) -> Array:
+        """The same of any such share."""
+        if within == 0:
             return np.zeros(self.rim_products.shape)
-        return np.asarray(splu(self.rim_products).solve(self.within * np.eye(len(self.mesh.rim_nodes))))
+        return np.asarray(splu(self.rim_products).solve(within * np.eye(len(self.mesh.rim_nodes))))
 
     def _by_itself(self, columns: NDArray[np.int64]) -> Array:
         """The same of the rim's components, under unit forces on some of them."""

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from rigid import Scene
 from rigid.kernel.compile import loop, part
 
 
@@ -27,6 +28,15 @@ class Body(NamedTuple):
     disk_inertia: float  # the disk's moment about its centre
     ring_mass: float
     ring_inertia: float  # the undeformed ring's moment about C
+
+
+def body_of(scene: Scene) -> Body:
+    """The rigid parts of a scene's hoop."""
+    hoop = scene.hoop
+    offset = (1 - hoop.k) / hoop.r
+    inner = 1 - scene.wall
+    mass = float(hoop.mass_ratio)
+    return Body(offset, (hoop.k / hoop.r) ** 2 / 2, mass, mass * (1 + inner**2) / 2)
 
 
 class Frame(NamedTuple):

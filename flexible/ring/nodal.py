@@ -23,8 +23,7 @@ from scipy.sparse.linalg import splu
 from rigid import Scene
 
 from .fem import Ring, membrane_stiffness
-from .frame import disk_force, disk_tangent, instant_of
-from .reduction import body_of
+from .frame import body_of, disk_force, disk_tangent, instant_of
 
 Array = NDArray[np.float64]
 

@@ -139,8 +139,9 @@ def test_a_blow_at_the_release_is_in_the_books_of_the_rigid_hoop_between_pulses(
 def test_an_elastic_hoop_has_the_blow_at_its_release_itself(law, start):
     """Its floor gives back some of what it takes up of the blow: the hoop leaves it, which no rigid one does there."""
     scene = JAMMED.replace(
-        run={"t_end": 0.5}, contact={"law": law, "stiffness": 1e9}, solve={"resolve": "all", "start": start}
-    )
+        run={"t_end": 0.5}, contact={"law": law, "stiffness": 1e9},
+        solve={"resolve": "all", "start": start, "rtol": 1e-4},  # at 1e-3 a force of 3e-5 is none
+    )  # fmt: skip
     motion = flexible.simulate(scene)
     ledger = motion.ledger
     assert (motion.at(0.0).slip_velocity, motion.phases[0].kind) == (-0.5, Kind.SPIN)

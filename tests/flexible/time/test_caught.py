@@ -1,7 +1,7 @@
 """Where a spot of the rim without inertia cannot slide, the floor catches it."""
 
 import itertools
-from math import cos, log, pi, sin
+from math import cos, inf, log, pi, sin
 
 import numpy as np
 import pytest
@@ -11,6 +11,7 @@ import flexible
 from flexible.contact.laws.patch import STICK
 from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
+from flexible.ring import choice
 from flexible.time.adaptive import march
 from flexible.time.advance import CAUGHT, MOST_STALLS, RESTS
 from flexible.time.events import Ends
@@ -22,6 +23,12 @@ THICK = HOOP.replace(
 )  # fmt: skip
 BESIDE = 0.09  # of the spot from the middle of the weld, whose end is at 0.052
 SLOW, FAST = 0.02, 0.2  # slips: of a landing whose friction is all but gone when it leaves, and of one whose is not
+
+
+@pytest.fixture
+def uneven(monkeypatch):
+    """A rim that gives way by more on nodes than between: of one that is even no spot is driven on as it leaves."""
+    monkeypatch.setattr(choice, "FELT", inf)
 
 
 def compliance(hoop, theta):
@@ -98,6 +105,7 @@ def test_a_spot_that_friction_pulls_down_as_much_as_pressure_lifts_it_lands_stic
     assert abs(end.numerical_loss) < 30 * scene.solve.rtol * begin.kinetic
 
 
+@pytest.mark.usefixtures("uneven")
 @pytest.mark.parametrize("side", [1, -1])
 @pytest.mark.parametrize("beside", [0.06, 0.07, 0.1, 0.11])
 def test_a_spot_that_breaks_loose_where_friction_drives_it_on_snaps_off(beside, side):
@@ -116,6 +124,7 @@ def test_a_spot_that_breaks_loose_where_friction_drives_it_on_snaps_off(beside, 
     assert ledger_closes(scene, records)
 
 
+@pytest.mark.usefixtures("uneven")
 @pytest.mark.parametrize("beside", [0.06, 0.1])
 @pytest.mark.parametrize("side", [1, -1])
 def test_stick_and_slip_that_would_follow_each_other_without_end_are_few(beside, side):

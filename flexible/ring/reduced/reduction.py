@@ -18,9 +18,10 @@ from numpy.typing import NDArray
 from rigid import Scene
 from rigid.kernel.compile import jit, loop, part
 
-from .choice import ring_of
-from .fem import COLUMNS, Ring, membrane_stiffness
-from .frame import Body, Frame
+from ..choice import ring_of
+from ..fem import COLUMNS, Ring, membrane_stiffness
+from ..frame import Frame, body_of
+from .even import EvenRim, even_rim_of
 
 Array = NDArray[np.float64]
 
@@ -89,8 +90,10 @@ class ReducedRing:
         Modes on the free dofs: those that are integrated, and therefore those that are drawn.
     rim_shapes : (2 n_rim, n) array
         The same on the rim, two components per node.
-    vertex : (n_elements,) array
-        Angles at which rim elements begin.
+    theta : (n_rim,) array
+        Angles of the rim's nodes: those of the mesh, or of a rim that is ``even``, which are more.
+    even : EvenRim or None
+        That rim, where a floor is stiff enough to know the places on an element from each other.
     """
 
     ring: Ring
@@ -98,18 +101,34 @@ class ReducedRing:
     frame: Frame
     shapes: Array
     rim_shapes: Array
-    vertex: Array
+    theta: Array
+    even: EvenRim | None = None
+
+    @cached_property
+    def vertex(self) -> Array:
+        """Angles at which rim elements begin, (n_elements,)."""
+        return np.ascontiguousarray(self.theta[::2])
 
     @property
     def within(self) -> float:
         """See :class:`flexible.models.rim_contact.RimContact`: the static compliance lacks it."""
-        return self.ring.within / self.stiffness
+        return (self.even or self.ring).within / self.stiffness
+
+    def solve_rim(self, columns: NDArray[np.int64]) -> tuple[Array, NDArray[np.bool_]]:
+        """See :meth:`flexible.ring.fem.Ring.solve_rim`."""
+        return (self.even or self.ring).solve_rim(columns)
+
+    def on_mesh(self, window: tuple[int, int], nodal: Array) -> Array:
+        """Forces on the mesh's nodes of the rim by those on the contact's in a window, (2 n_rim,)."""
+        load = np.zeros(2 * len(self.theta))
+        np.add.at(load, self.dofs(*window), nodal.ravel())
+        return load if self.even is None else np.asarray(self.even.curve.T @ load)
 
     @cached_property
     def rim(self) -> Rim:
         """The rim for compiled code; what it knows of the compliance grows."""
         weighted = np.ascontiguousarray(self.rim_shapes / self.frame.modal[:, 0])
-        return Rim(self.rim_shapes, weighted, *self.ring.solve_rim(np.empty(0, np.int64)), self.stiffness)
+        return Rim(self.rim_shapes, weighted, *self.solve_rim(np.empty(0, np.int64)), self.stiffness)
 
     def window(self, first: int, count: int) -> tuple[Array, Array]:
         """Modes and residual compliance of the nodes of rim elements ``first`` to ``first + count - 1``."""
@@ -119,7 +138,7 @@ class ReducedRing:
 
     def compliance(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> Array:
         """Residual static compliance: displacement of some rim dofs under unit forces on others."""
-        self.ring.solve_rim(columns)
+        self.solve_rim(columns)
         block: Array = residual(self.rim, rows, columns)
         return block
 
@@ -127,15 +146,6 @@ class ReducedRing:
         """Rim dofs of a window, counted round and round."""
         dofs: NDArray[np.int64] = window_dofs(len(self.vertex), (first, count))
         return dofs
-
-
-def body_of(scene: Scene) -> Body:
-    """The rigid parts of a scene's hoop."""
-    hoop = scene.hoop
-    offset = (1 - hoop.k) / hoop.r
-    inner = 1 - scene.wall
-    mass = float(hoop.mass_ratio)
-    return Body(offset, (hoop.k / hoop.r) ** 2 / 2, mass, mass * (1 + inner**2) / 2)
 
 
 LEAST, MODES = 6, 30  # modes at any rtol, and at the rtol
@@ -178,11 +188,14 @@ def reduce(scene: Scene, modes: int | None = None) -> ReducedRing:
         shapes = shapes / root
     else:
         modal, gyro, shapes = np.zeros((0, 5)), np.zeros((0, 0)), np.zeros((len(ring.free), 0))
+    even = even_rim_of(scene, ring)
+    rim_shapes = shapes[ring.rim_dofs]
     return ReducedRing(
         ring=ring,
         stiffness=stiffness,
         frame=Frame(body_of(scene), np.ascontiguousarray(modal), np.ascontiguousarray(gyro)),
         shapes=shapes,
-        rim_shapes=np.ascontiguousarray(shapes[ring.rim_dofs]),
-        vertex=np.ascontiguousarray(ring.mesh.rim_theta[::2]),
+        rim_shapes=np.ascontiguousarray(rim_shapes if even is None else even.curve @ rim_shapes),
+        theta=ring.mesh.rim_theta if even is None else even.theta,
+        even=even,
     )
