@@ -18,7 +18,6 @@ from .places import ripple
 
 Array = NDArray[np.float64]
 
-_TIE = 1e-9  # of angles that are the same but for rounding
 PARTS, MANY, PARTS_OF_MANY = 4, 480, 2  # of an element; elements around beyond which they are fewer, and how many
 
 
@@ -90,7 +89,7 @@ class EvenRim:
         for away in range(-reach, reach + 1):
             at = (loaded - away) % len(self.theta)
             between = self.theta[at] + (self.theta[loaded] - self.theta[at] + pi) % (2 * pi) / 2 - pi / 2
-            on_weld = np.abs((between + pi) % (2 * pi) - pi) < self.ring.mesh.weld_half_angle + _TIE
+            on_weld = np.abs((between + pi) % (2 * pi) - pi) < self.ring.mesh.weld_half_angle + 1e-9
             free, held = (table[at % places, away + reach] for table in self._ripple)
             rest = np.where(on_weld[:, None, None], held, free)
             found[at[:, None, None], np.arange(2)[:, None], columns[:, None, :]] += np.einsum(
