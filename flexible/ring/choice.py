@@ -22,10 +22,7 @@ THICK = 1 / 6  # wall from which on that is more, and a pulse knows more of what
 MOST_AROUND, MOST_THROUGH = 1200, 10  # the compliance of so long a rim is 180 MB
 FAR_ERROR, FAR_SOFT, FAR_SOFTER = 1e-4, 10.0, 1.6  # a ring that bends far: its error at so small an E I, and its power
 MOST_FAR = 480  # around such a ring: its sections pay in every step
-UNEVEN, FELT = (
-    0.7,
-    1e-3,
-)  # by how much over E b places on an element give, and the share of the patch's own that is felt
+UNEVEN, FELT = 0.7, 1e-3  # by how much over E b places on an element give; share of a patch's own that is felt
 PULSE = 3.0  # weights; a patch under them that is wider than an element knows no places on it
 STOUT = 2.0  # wall over the distance of the rim's nodes from which on the wall is dented there before it bends
 
