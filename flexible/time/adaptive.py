@@ -232,7 +232,11 @@ def _stop(why: int, now: Standing, limits: Limits) -> Stop:
     """Why a march stopped early."""
     state = now.state
     if why == CAPPED:
-        return Stop(f" after {limits.before + now.attempts} steps", state.t)
+        aloft = ", off the floor, where its ring vibrates: a larger solve.rtol takes longer ones"
+        return Stop(
+            f" after {limits.before + now.attempts} steps{aloft * (state.normal_force == 0 and len(state.pos) > 3)}",
+            state.t,
+        )
     if why == PAUSED:
         return Stop(" as asked", state.t, by_ring=False)
     trouble = "no step however short could be solved"

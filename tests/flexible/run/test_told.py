@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
 import pytest
-from scenes import HOOP
+from scenes import HOOP, flying
 
 from flexible import load_motion, simulate
+from flexible.models.reduced import ReducedHoop
 from flexible.run.told import in_words
+from flexible.time.adaptive import Limits, march
 from flexible.time.course import Stop
+from flexible.time.events import Ends
 from rigid import Run, load_scene
 from rigid import simulate as rigid_motion
 
@@ -73,6 +77,16 @@ def test_a_run_that_is_out_of_steps_tells_all_that_it_took():
     motion = simulate(scene, most_steps=first + 5)
     assert len(motion.pulses) == 1
     assert motion.ended == f"stopped at t = {motion.t_end:.6g} after {first + 5} steps"
+
+
+@pytest.mark.parametrize("mass", [0.0, 0.1])
+def test_a_run_that_is_out_of_steps_in_the_air_says_what_takes_them(mass):
+    hoop = ReducedHoop(HOOP.replace(hoop={"mass_ratio": mass}))
+    pos, vel = np.zeros((2, 3 + hoop.coordinates))
+    pos[1:3] = 0.5, 2.0
+    told = march(hoop, flying(hoop, pos, vel), Ends(t=0.5), 1e-3, Limits(most=3)).stop.told()
+    assert ("off the floor, where its ring vibrates: a larger solve.rtol" in told) == (mass > 0)
+    assert " after 3 steps" in told
 
 
 def test_a_stop_that_was_asked_for_gets_no_advice():
