@@ -174,7 +174,8 @@ class Solve:
         at 1e-5.
     elements : int or None
         Elements around the ring; by default 240, and more where ``rtol`` asks for it: with a wall of 2 % 463 at 1e-5
-        up to E I = 400, and of the chain of a soft ring up to 480, at 1e-3 from E I = 3 down, at 1e-4 from 12.9 down.
+        up to E I = 400, and of the chain of a soft ring up to 480, at 1e-3 from E I = 3 down, at 1e-4 from 12.9 down;
+        2 pi over its thickness on a floor far stiffer than the wall, at most 1200.
     through : int or None
         Elements through its wall; by default as many as keep the ring's slow frequencies and its compliances within
         0.1 %: one up to r = 1.029, three at 1.2, five at 2; of the chain's mesh two at least. Linear rings ("reduced"
