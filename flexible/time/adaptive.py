@@ -141,6 +141,21 @@ def _in_mode(model: Model, state: State, mode: int, before: Record) -> tuple[Sta
     return behind, energies, before.ring_strain + before.contact_spring - energies[2] - spring
 
 
+def _behind(model: Model, state: State, mode: int, why: int, before: Record) -> tuple[State, Energies, float]:
+    """The same; where a stick ends and no slide that the friction it had would slow down is balanced, it snaps off.
+
+    See :func:`_instead`: the slide is then under the opposite friction.
+    """
+    try:
+        return _in_mode(model, state, mode, before)
+    except MarchError:
+        law = model.law.parameters
+        other = opposite(law, state) if why == MODE_ENDED and sticks(law, state.mode) else None
+        if other is None:
+            raise
+        return _in_mode(model, state, other, before)
+
+
 def _instead(model: Model, state: State, why: int) -> int | None:
     """The mode to go on in where a patch can neither stay in its own nor pass to the next; None if there is none.
 
@@ -205,7 +220,7 @@ def march(
         mode = successor(model.law.parameters, now.state) if why == MODE_ENDED else _instead(model, now.state, why)
         if mode is not None and (why == MODE_ENDED or now.state.t > lost):
             try:
-                state, energies, released = _in_mode(model, now.state, mode, records[-1])
+                state, energies, released = _behind(model, now.state, mode, why, records[-1])
             except MarchError as trouble:
                 stop = trouble.stop if why == MODE_ENDED else None
                 break

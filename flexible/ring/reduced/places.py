@@ -92,8 +92,8 @@ def _of_elements(ring: Ring, clamped: bool, given: Array) -> Array:
     found = np.fft.irfft(answers, around, axis=0)
     middle = around // 4
     for j in range(-2 * REACH, 2 * REACH + 1):
-        some = given[2 * (middle + j) : 2 * (middle + j) + 2, 2 * middle : 2 * middle + 2]
-        found[j % around] -= np.kron(some, np.eye(2))
+        beside = np.arange(2 * (middle + j), 2 * (middle + j) + 2) % len(given)
+        found[j % around] -= np.kron(given[beside, 2 * middle : 2 * middle + 2], np.eye(2))
     return found
 
 

@@ -260,6 +260,7 @@ def test_the_softest_ring():
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("uneven")
 def test_a_thick_pulse_against_all_nodes():
     """A wall of a tenth of R, linear, on one mesh: a percent of the largest force, a thousandth of J_N.
 

@@ -1,7 +1,7 @@
 """Where a spot of the rim without inertia cannot slide, the floor catches it."""
 
 import itertools
-from math import cos, inf, log, pi, sin
+from math import cos, log, pi, sin
 
 import numpy as np
 import pytest
@@ -11,7 +11,6 @@ import flexible
 from flexible.contact.laws.patch import STICK
 from flexible.models.full import FullHoop
 from flexible.models.reduced import ReducedHoop
-from flexible.ring import choice
 from flexible.time.adaptive import march
 from flexible.time.advance import CAUGHT, MOST_STALLS, RESTS
 from flexible.time.events import Ends
@@ -23,12 +22,6 @@ THICK = HOOP.replace(
 )  # fmt: skip
 BESIDE = 0.09  # of the spot from the middle of the weld, whose end is at 0.052
 SLOW, FAST = 0.02, 0.2  # slips: of a landing whose friction is all but gone when it leaves, and of one whose is not
-
-
-@pytest.fixture
-def uneven(monkeypatch):
-    """A rim that gives way by more on nodes than between: of one that is even no spot is driven on as it leaves."""
-    monkeypatch.setattr(choice, "FELT", inf)
 
 
 def compliance(hoop, theta):
@@ -163,6 +156,7 @@ def test_stick_and_slip_that_would_follow_each_other_without_end_are_few(beside,
     assert found == pytest.approx(stated, rel=0.04)
 
 
+@pytest.mark.usefixtures("uneven")
 @pytest.mark.slow
 def test_all_nodes_are_caught_alike():
     """The momentum that the floor gives, with all nodes and with the static ring that stands for them.
