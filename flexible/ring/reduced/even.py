@@ -24,7 +24,8 @@ PARTS, MANY, PARTS_OF_MANY = 4, 480, 2  # of an element; elements around beyond 
 def even_rim_of(scene: Scene, ring: Ring) -> EvenRim | None:
     """That rim of a scene's ring; None where its floor feels no difference, or the wall is too thin for one."""
     stout = ring.mesh.around >= elements_of_stout(scene.wall)
-    return ring.once(EvenRim) if stout and feels_places(scene, ring.mesh.around) else None
+    # one for each hoop: a compliance that a whole roll has filled takes hundreds of megabytes
+    return EvenRim(ring) if stout and feels_places(scene, ring.mesh.around) else None
 
 
 class EvenRim:
@@ -99,9 +100,18 @@ class EvenRim:
 
     @cached_property
     def _ripple(self) -> tuple[Array, Array]:
-        free, held = (ripple(self.ring, self.parts, clamped, self._given) for clamped in (False, True))
-        return free, held
+        return self.ring.once(_ripples, self.parts)
 
     @cached_property
     def _given(self) -> Array:
-        return self.ring.given(self.within)
+        return self.ring.once(_given)
+
+
+def _given(ring: Ring) -> Array:
+    return ring.given(ring.between_nodes)
+
+
+def _ripples(ring: Ring, parts: int) -> tuple[Array, Array]:
+    """Of a free inner rim, and of one that is held."""
+    free, held = (ripple(ring, parts, clamped, ring.once(_given)) for clamped in (False, True))
+    return free, held
