@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import gc
 from functools import lru_cache
-from math import ceil, hypot, inf, log2, pi, sqrt
+from math import ceil, inf, log2, pi, sqrt
 
 from meshes import ring_mesh
 from rigid import Scene
@@ -23,7 +23,7 @@ MOST_AROUND, MOST_THROUGH = 1200, 10  # the compliance of so long a rim is 180 M
 FAR_ERROR, FAR_SOFT, FAR_SOFTER = 1e-4, 10.0, 1.6  # a ring that bends far: its error at so small an E I, and its power
 MOST_FAR = 480  # around such a ring: its sections pay in every step
 UNEVEN, FELT = 0.7, 1e-3  # by how much over E b places on an element give; share of a patch's own that is felt
-PULSE = 3.0  # weights; a patch under them that is wider than an element knows no places on it
+PULSE, GENTLE = 100.0, 3.0  # weights that press in a pulse, and always: what is as wide as an element feels no places
 STOUT = 2.0  # wall over the distance of the rim's nodes from which on the wall is dented there before it bends
 
 
@@ -86,15 +86,14 @@ def feels_places(scene: Scene, around: int) -> bool:
     """Whether a floor knows the places on an element of a rim of so many from each other.
 
     It does where what they give by differs by a share of its own patch's depth under the weight, and that patch is
-    narrower than an element in a pulse too. One that is damped by more is as much the stiffer for what comes as fast.
+    narrow: the floor's own, in a pulse, within half an element, the one that Hertz has on a rigid floor, under little
+    more than the weight, within one. A patch that is damped by more is as much the stiffer for what comes as fast.
     """
     foundation, weight = scene.contact.stiffness, 1 + scene.hoop.mass_ratio
-    half_width = (1.5 * weight / foundation) ** (1 / 3)
-    elastic = membrane_stiffness(scene)
-    share = UNEVEN * 2 * foundation * half_width / elastic
-    dent = sqrt(4 * weight / (pi * elastic))  # half-width on a rigid floor, as Hertz has it
-    pulse = hypot(half_width * PULSE ** (1 / 3), dent * PULSE ** (1 / 2))
-    return max(1.0, scene.contact.damping) * share > FELT and pulse < 2 * pi / around
+    half_width, elastic = (1.5 * weight / foundation) ** (1 / 3), membrane_stiffness(scene)
+    share, length = UNEVEN * 2 * foundation * half_width / elastic, 2 * pi / around
+    narrow = 2 * half_width * PULSE ** (1 / 3) < length and sqrt(GENTLE * 4 * weight / (pi * elastic)) < length
+    return max(1.0, scene.contact.damping) * share > FELT and narrow
 
 
 def elements_of_stout(wall: float) -> int:
