@@ -8,6 +8,8 @@ where it is as much, all of it is left out.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,11 +24,14 @@ Array = NDArray[np.float64]
 _SMALL = 1e-4  # of a strain; what is of third order cancels
 
 
-def bow_of_rim(rod: Rod, compliance: RodCompliance, nodes: RimNodes, theta: Array) -> Array:
+def bow_of_rim(
+    rod: Rod, compliance: RodCompliance, nodes: RimNodes, from_mesh: Callable[[Array], Array], theta: Array
+) -> Array:
     """Second derivatives, (n_rim, 2, 2, 3, 3), of the rim's displacement by the strains of the first and the last part.
 
     Those with which nodes up to the first section move as on the mesh when forces far behind it bend the wall, to
-    second order; the chain's own are taken off. ``nodes.root`` must be known.
+    second order; the chain's own are taken off. ``nodes.root`` must be known; ``from_mesh`` makes displacements of
+    these ``nodes`` of those of the mesh's.
     """
     answers = second_order(compliance, float(rod.theta[1]))
     weld, end, half = float(rod.theta[0]), float(rod.theta[1]), len(rod.theta) // 2
@@ -42,7 +47,8 @@ def bow_of_rim(rod: Rod, compliance: RodCompliance, nodes: RimNodes, theta: Arra
         q[1:half, 2] = u[2]
         return np.asarray(follow(rod, q, nodes)[0])
 
-    mesh = 2 * np.einsum("kabc,bi,cj->kaij", answers.rim, load, load)
+    rim = from_mesh(answers.rim.reshape(-1, 9)).reshape(-1, 2, 3, 3)
+    mesh = 2 * np.einsum("kabc,bi,cj->kaij", rim, load, load)
     chain, unit = np.zeros_like(mesh), _SMALL * np.diag([1.0, 1.0, 1.0])
     for i in range(3):
         for j in range(3):

@@ -19,6 +19,7 @@ from scipy.sparse import csr_array
 
 from rigid import Scene
 
+from ..ring.even.rim import EvenRim, parts_of
 from ..ring.fem import Ring, membrane_stiffness
 from ..ring.frame import body_of
 from ..ring.mirror import positive_part
@@ -36,6 +37,7 @@ from .rod.tangent import elastic_tangent
 Array = NDArray[np.float64]
 
 PULLED = (*LOADED, 2.6, -2.6)  # angles of loads far away: of six alone one pair may strain the ends as another does
+PARTS = 2  # into which an element of an even rim is cut
 PRESSED = 0.4  # walls by which a slender ring yields to p/E: 13/32 beside a beam's middle, along it (1 + nu)/4
 
 
@@ -121,14 +123,16 @@ def _end_without_a_step(root: Array, theta: Array, begin: float, end: float) -> 
 class _Shape:
     """What of a chain depends on its shape alone: at E b = 1 and unit mass."""
 
-    def __init__(self, ring: Ring, parts: int) -> None:
+    def __init__(self, ring: Ring, parts: int, finer: int = 0) -> None:
         mesh = ring.mesh
         self.ring = ring
+        self.even = EvenRim(ring, finer) if finer else None
+        self.theta = mesh.rim_theta if self.even is None else self.even.theta
         self.compliance = rod_compliance(ring, 2 * (pi - mesh.weld_half_angle) / parts / FINER)
         self.rod = make_rod(self.compliance, ring, parts)
         self.ends = end_mass(self.compliance, float(self.rod.theta[1]))
-        theta = mesh.rim_theta % (2 * pi)
-        inside = np.abs(mesh.rim_theta) > mesh.weld_half_angle
+        theta = self.theta % (2 * pi)
+        inside = np.minimum(theta, 2 * pi - theta) > mesh.weld_half_angle + 1e-12
         part = np.clip(np.searchsorted(self.rod.theta, theta, side="right") - 1, 0, parts - 1)
         xi = (theta - self.rod.theta[part]) / np.diff(self.rod.theta)[part]
         self.still = np.zeros((parts + 1, 3))
@@ -149,12 +153,13 @@ class _Shape:
 
         All else of it the chain has, see :mod:`flexible.chain.rod.surface`.
         """
-        theta = self.ring.mesh.rim_theta
-        loaded = np.array([int(np.argmin(np.abs(theta - angle))) for angle in PULLED])
-        columns = (2 * loaded[:, None] + np.arange(2)).ravel()
+        theta = (self.theta + pi) % (2 * pi) - pi
         by_sections = rim_matrix(self.rod, self.still, self.nodes)[1]
+        loaded = np.array([int(np.argmin(np.abs(self.ring.mesh.rim_theta - angle))) for angle in PULLED])
+        pressed = self.from_mesh(self.ring.pressed(dofs_of(loaded)))
+        columns = dofs_of(self.at(loaded))
         turned = self.inverse @ by_sections[columns].T
-        misfit = (self.ring.pressed(columns) - by_sections @ turned).reshape(len(theta), 2, len(columns))
+        misfit = (pressed - by_sections @ turned).reshape(len(theta), 2, len(columns))
         first, last = turned[:3], turned[-3:]
         place = self.rod.place
         strains = [chord_strains(place[0], place[1], 2) @ first, chord_strains(place[-2], place[-1], 1) @ last]
@@ -162,7 +167,21 @@ class _Shape:
         _end_without_a_step(root, theta, self.ring.mesh.weld_half_angle, self.compliance.weld)
         self.nodes = self.nodes._replace(root=np.ascontiguousarray(root))
         if self.ring.mesh.weld_half_angle > 1 - self.ring.mesh.inner / self.ring.mesh.outer:
-            self.nodes = self.nodes._replace(bow=bow_of_rim(self.rod, self.compliance, self.nodes, theta))
+            self.nodes = self.nodes._replace(
+                bow=bow_of_rim(self.rod, self.compliance, self.nodes, self.from_mesh, theta)
+            )
+
+    def at(self, nodes: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Which nodes of the rim those of the mesh's are."""
+        return nodes if self.even is None else self.even.parts * nodes
+
+    def from_mesh(self, moved: Array) -> Array:
+        """Displacement of the rim's nodes, (2 n_rim, .), by that of the mesh's."""
+        return moved if self.even is None else np.asarray(self.even.curve @ moved)
+
+    def to_mesh(self, load: Array) -> Array:
+        """Forces on the mesh's nodes by those on the rim's, (2 n_rim,)."""
+        return load if self.even is None else np.asarray(self.even.curve.T @ load)
 
     @cached_property
     def rim(self) -> csr_array:
@@ -188,8 +207,18 @@ class _Shape:
             wall = 1 - self.ring.mesh.inner / self.ring.mesh.outer
             spread = np.linalg.inv(self.ring.rim_products.toarray())
             return np.asarray(PRESSED * wall * np.kron(spread, np.eye(2)), dtype=float)
-        held = np.kron(self.ring.given_within, np.eye(2)) + self.rim @ self.inverse @ self.rim.T
-        return positive_part(self.ring.rim_compliance - held, self.ring.mirror)
+        held = self.rim @ self.inverse @ self.rim.T
+        if self.even is not None:
+            own = self.even.compliance - held
+            return positive_part((own + own.T) / 2, self.even.mirror)
+        return positive_part(
+            self.ring.rim_compliance - np.kron(self.ring.given_within, np.eye(2)) - held, self.ring.mirror
+        )
+
+
+def dofs_of(nodes: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Components of nodes of the rim, (2 m,)."""
+    return (2 * nodes[:, None] + np.arange(2)).ravel()
 
 
 class ChainRing:
@@ -207,16 +236,16 @@ class ChainRing:
     nodes : RimNodes
         Of the whole rim.
     vertex : (n_elements,) array
-        Angles at which rim elements begin.
+        Angles at which rim elements begin: the mesh's, or those of a rim that is even, which are more.
     within : float
         See :class:`flexible.models.rim_contact.RimContact`.
     """
 
     def __init__(self, scene: Scene, ring: Ring, parts: int) -> None:
-        self.shape = ring.once(_Shape, parts)
+        self.shape = ring.once(_Shape, parts, parts_of(scene, ring.mesh.around, PARTS))
         self.ring = ring
         self.stiffness = membrane_stiffness(scene)
-        self.within = ring.within / self.stiffness
+        self.within = (self.shape.even or ring).within / self.stiffness
         unit, mass = self.shape.rod, scene.hoop.mass_ratio
         rod = unit._replace(
             local=unit.local * self.stiffness,
@@ -232,7 +261,7 @@ class ChainRing:
         ends = EndMass(*(mass * entry for entry in self.shape.ends))
         self.chain = Chain(make_body(scene, rod), rod, ends)
         self.nodes = self.shape.nodes
-        self.vertex = np.ascontiguousarray(ring.mesh.rim_theta[::2])
+        self.vertex = np.ascontiguousarray(self.shape.theta[::2])
         self._windows: dict[tuple[int, int], tuple[NDArray[np.int64], RimNodes]] = {}
 
     @property
@@ -254,8 +283,7 @@ class ChainRing:
 
     def missing(self, rows: NDArray[np.int64], columns: NDArray[np.int64]) -> Array:
         """Compliance between rim nodes that the chain lacks, (2 rows, 2 columns)."""
-        rows, columns = (np.column_stack([2 * nodes, 2 * nodes + 1]).ravel() for nodes in (rows, columns))
-        return self.shape.missing[np.ix_(rows, columns)] / self.stiffness
+        return self.shape.missing[np.ix_(dofs_of(rows), dofs_of(columns))] / self.stiffness
 
 
 __all__ = ["ChainRing", "dense_stiffness", "make_rod", "rim_matrix"]

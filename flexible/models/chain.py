@@ -48,7 +48,7 @@ class ChainHoop(RimContact):
     def __init__(self, scene: Scene, points: float | None = None, through: int = THROUGH) -> None:
         ring = ring_of(scene, through, self.linear)
         self.ring = ChainRing(scene, ring, ring.mesh.around // PER_PART)
-        super().__init__(scene, self.ring.vertex, points, self.ring.within)
+        super().__init__(scene, self.ring.vertex, points, self.ring.within, ring.mesh.around)
         #: momenta of the slow vibrations, by which steps are chosen, of a rate of the sections
         self._slow = np.zeros((0, self.coordinates))
         if scene.hoop.mass_ratio > 0:

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from ..chain.rim import follow
-from ..chain.ring import PULLED, inverse_of
+from ..chain.ring import PULLED, dofs_of, inverse_of
 from ..chain.rod.corotated import bends_and_stretches, chord, elastic
 from ..chain.rod.ends import chord_strains
 from ..chain.whole import sections
@@ -71,11 +71,11 @@ class ChainInterior(ExactInterior):
         """What the nodes near the weld move by the strains of the first and the last part, (n_nodes, 2, 6)."""
         shape, ring = self.chain.shape, self.ring
         theta = ring.mesh.rim_theta
-        loaded = [int(np.argmin(np.abs(theta - angle))) for angle in PULLED]
-        dofs = np.array([2 * node + way for node in loaded for way in (0, 1)])
+        loaded = np.array([int(np.argmin(np.abs(theta - angle))) for angle in PULLED])
+        dofs = dofs_of(loaded)
         load = np.zeros((len(ring.free), len(dofs)))
         load[ring.rim_dofs[dofs], np.arange(len(dofs))] = 1.0
-        answers = shape.inverse @ shape.rim[dofs].T
+        answers = shape.inverse @ shape.rim[dofs_of(shape.at(loaded))].T
         still = np.zeros_like(shape.still)
         misfit = np.zeros((len(self._moves), 2, len(dofs)))
         for k, (moved, answer) in enumerate(zip(ring.solve(load).T, answers.T, strict=True)):
@@ -173,12 +173,13 @@ class ChainInterior(ExactInterior):
         number, nodes = chain.window(*state.window)
         back = -follow(chain.chain.rod, q, nodes)[2]
         force = _turned(state.nodal, back).ravel()
-        dofs = np.column_stack([2 * number, 2 * number + 1]).ravel()
-        load = np.zeros(len(self.ring.free))
-        np.add.at(load, self.ring.rim_dofs[dofs], force)
+        shape, load = chain.shape, np.zeros(len(self.ring.free))
+        on_rim = np.zeros(2 * len(shape.theta))
+        np.add.at(on_rim, dofs_of(number), force)
+        load[self.ring.rim_dofs] = shape.to_mesh(on_rim)
         moved += self.ring.expand(self.ring.solve(load))
         answer = np.zeros_like(q)
-        answer[1:-1] = (chain.shape.inverse @ (chain.shape.rim[dofs].T @ force)).reshape(-1, 3)
+        answer[1:-1] = (shape.inverse @ (shape.rim.T @ on_rim)).reshape(-1, 3)
         moved -= self._way(np.zeros_like(q), answer)
         return _turned(moved / chain.stiffness, self._carried(q)[1])
 

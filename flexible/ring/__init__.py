@@ -8,5 +8,6 @@
 ``exact``      its elasticity with Green's strain, where it turns far
 ``frame``      inertia of disk and modes in axes that float on the disk
 ``nodal``      the same with every node free
-``reduced``    fixed-interface modes, and the rest of the compliance as static; a rim for floors that are far stiffer
+``even``       its rim for floors that are far stiffer than the wall
+``reduction``  fixed-interface modes, and the rest of the compliance as static
 """

@@ -119,7 +119,8 @@ def ring_of(scene: Scene, through: int = 1, linear: bool = True) -> Ring:
         elements_around(rtol, bending_stiffness, scene.wall) if linear else elements_bent_far(rtol, bending_stiffness)
     )
     stout = max(around, elements_of_stout(scene.wall))
-    if linear and not scene.solve.elements and stout <= MOST_AROUND and feels_places(scene, stout):
+    most = MOST_AROUND if linear else MOST_FAR
+    if not scene.solve.elements and stout <= most and feels_places(scene, stout):
         around = stout
     halved = halved_at_rim(scene.wall, around, through)
     return _shared_ring(scene.wall, around, through, halved, scene.ring.weld_half_angle, scene.ring.poisson)

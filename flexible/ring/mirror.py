@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
+from scipy.linalg import eigh
 
 Array = NDArray[np.float64]
 
@@ -31,10 +32,9 @@ class Mirror(NamedTuple):
 
 
 def mirror_of(theta: Array) -> Mirror:
-    """Of a rim whose nodes are at ascending angles in [-pi, pi], each with its image but pi."""
-    order = np.argsort(np.where(theta == -np.pi, np.pi, theta), kind="stable")
-    image = np.empty(len(theta), np.int64)
-    image[order] = order[::-1] if theta[0] > -np.pi and theta[-1] < np.pi else np.append(order[-2::-1], order[-1])
+    """Of a rim whose nodes go round once by ascending angles: their images go round the other way."""
+    first = int(np.argmin(np.abs(np.exp(1j * theta) - np.exp(-1j * theta[0]))))
+    image = (first - np.arange(len(theta))) % len(theta)
     return Mirror((2 * image[:, None] + np.arange(2)).ravel(), np.tile([1.0, -1.0], len(theta)))
 
 
@@ -56,10 +56,9 @@ def positive_part(matrix: Array, mirror: Mirror) -> Array:
     """Of a symmetric matrix that is its own mirror image, what its positive eigenvalues make."""
     part = np.zeros_like(matrix)
     for basis in _bases(mirror):
-        values, vectors = np.linalg.eigh(basis.T @ (basis.T @ matrix.T).T)
-        kept = values > 0
-        own = (vectors[:, kept] * values[kept]) @ vectors[:, kept].T
-        part += basis @ (basis @ own).T
+        own = basis.T @ (basis.T @ matrix.T).T
+        values, vectors = eigh(own, driver="evr", subset_by_value=(-np.inf, 0.0))  # few beside those that are kept
+        part += basis @ (basis @ (own - (vectors * values) @ vectors.T)).T
     return part
 
 

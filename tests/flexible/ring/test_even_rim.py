@@ -6,8 +6,8 @@ import pytest
 import flexible
 import rigid
 from flexible.ring.choice import elements_of_stout, feels_places, ring_of
-from flexible.ring.reduced.curve import curve, finer
-from flexible.ring.reduced.even import EvenRim, even_rim_of
+from flexible.ring.even.curve import curve, finer
+from flexible.ring.even.rim import EvenRim, parts_of
 from rigid import Run
 
 PULSE = rigid.load_scene("paper-3.3-massless").replace(run=Run(until="pulse"))
@@ -151,6 +151,6 @@ def test_who_has_one():
     assert around == elements_of_stout(1 - 1 / 1.008)
     thin = on_stiff_floor(1.003, rtol=1e-3)  # it would take more elements than there may be
     assert ring_of(thin).mesh.around == ring_of(thin.replace(contact={"stiffness": 1e6})).mesh.around
-    assert even_rim_of(thin, ring_of(thin)) is None
+    assert parts_of(thin, ring_of(thin).mesh.around) == 0
     few = on_stiff_floor(1.008, rtol=1e-3, elements=240)
-    assert even_rim_of(few, ring_of(few)) is None
+    assert parts_of(few, 240) == 0

@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 from rigid import Scene
 from rigid.kernel.compile import jit, loop, part
 
-from ..choice import ring_of
-from ..fem import COLUMNS, Ring, membrane_stiffness
-from ..frame import Frame, body_of
-from .even import EvenRim, even_rim_of
+from .choice import ring_of
+from .even.rim import EvenRim, parts_of
+from .fem import COLUMNS, Ring, membrane_stiffness
+from .frame import Frame, body_of
 
 Array = NDArray[np.float64]
 
@@ -188,7 +188,9 @@ def reduce(scene: Scene, modes: int | None = None) -> ReducedRing:
         shapes = shapes / root
     else:
         modal, gyro, shapes = np.zeros((0, 5)), np.zeros((0, 0)), np.zeros((len(ring.free), 0))
-    even = even_rim_of(scene, ring)
+    parts = parts_of(scene, ring.mesh.around)
+    # one for each hoop: a compliance that a whole roll has filled takes hundreds of megabytes
+    even = EvenRim(ring, parts) if parts else None
     rim_shapes = shapes[ring.rim_dofs]
     return ReducedRing(
         ring=ring,

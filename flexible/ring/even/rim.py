@@ -13,19 +13,23 @@ from rigid import Scene
 
 from ..choice import elements_of_stout, feels_places
 from ..fem import COLUMNS, Ring
+from ..mirror import Mirror, half_of, mirror_of, mirrored
 from .curve import curve, finer
 from .places import ripple
 
 Array = NDArray[np.float64]
 
-PARTS, MANY, PARTS_OF_MANY = 4, 480, 2  # of an element; elements around beyond which they are fewer, and how many
+PARTS, MANY, FEW = 4, 480, 2  # of an element; elements around beyond which they are fewer, and how many
 
 
-def even_rim_of(scene: Scene, ring: Ring) -> EvenRim | None:
-    """That rim of a scene's ring; None where its floor feels no difference, or the wall is too thin for one."""
-    stout = ring.mesh.around >= elements_of_stout(scene.wall)
-    # one for each hoop: a compliance that a whole roll has filled takes hundreds of megabytes
-    return EvenRim(ring) if stout and feels_places(scene, ring.mesh.around) else None
+def parts_of(scene: Scene, around: int, most: int = PARTS) -> int:
+    """Parts into which the elements of a scene's ring are cut, so many of them around; ``most`` of them.
+
+    None of them, 0, where its floor feels no difference between places, or the wall is too thin for an even rim.
+    """
+    if around < elements_of_stout(scene.wall) or not feels_places(scene, around):
+        return 0
+    return most if around <= MANY else min(most, FEW)
 
 
 class EvenRim:
@@ -34,11 +38,11 @@ class EvenRim:
     Parameters
     ----------
     ring : Ring
+    parts : int
+        Into which each element is cut; each has a node at its start and in its middle, n_fine = parts n_rim in all.
 
     Attributes
     ----------
-    parts : int
-        Into which each element is cut; each has a node at its start and in its middle, n_fine = parts n_rim in all.
     theta : (n_fine,) array
         Angles of these nodes.
     curve : (2 n_fine, 2 n_rim) sparse
@@ -47,12 +51,24 @@ class EvenRim:
         See :attr:`flexible.ring.fem.Ring.within`: here of any wall.
     """
 
-    def __init__(self, ring: Ring) -> None:
+    def __init__(self, ring: Ring, parts: int = PARTS) -> None:
         self.ring = ring
         self.within = ring.between_nodes
-        self.parts = PARTS if ring.mesh.around <= MANY else PARTS_OF_MANY
+        self.parts = parts
         self.theta = finer(ring.mesh.rim_theta, self.parts)
         self.curve = sp.kron(curve(ring.mesh.rim_theta, self.parts), sp.identity(2), format="csr")
+
+    @cached_property
+    def mirror(self) -> Mirror:
+        """See :attr:`flexible.ring.fem.Ring.mirror`: of the finer nodes."""
+        return mirror_of(self.theta)
+
+    @property
+    def compliance(self) -> Array:
+        """All of :meth:`solve_rim`, not kept."""
+        half = half_of(self.mirror)
+        columns = [self._pressed(some) for some in np.split(half, range(COLUMNS, len(half), COLUMNS))]
+        return mirrored(np.concatenate(columns, axis=1), half, self.mirror)
 
     @cached_property
     def _columns(self) -> tuple[Array, NDArray[np.bool_]]:
