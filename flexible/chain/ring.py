@@ -19,10 +19,10 @@ from scipy.sparse import csr_array
 
 from rigid import Scene
 
-from ..ring.even.rim import EvenRim, parts_of
 from ..ring.fem import Ring, membrane_stiffness
 from ..ring.frame import body_of
 from ..ring.mirror import positive_part
+from ..ring.rim.even import EvenRim, parts_of
 from .bordered import no_blocks
 from .corner import bow_of_rim
 from .mass.ends import EndMass, end_mass

@@ -21,7 +21,7 @@ from ..contact.points.rim import below_floor, margin_around, window_around
 from ..contact.stage import Near, Predictor, Stage
 from ..contact.vectors import largest, plus
 from ..ring.frame import Frame, energies, inertia
-from ..ring.reduction import ReducedRing, Rim, is_known, reduce, residual, window_dofs
+from ..ring.rim.reduction import ReducedRing, Rim, is_known, reduce, residual, window_dofs
 from .equilibrium import RestingRing
 from .rim_contact import RimContact
 from .stage import FORESEEN, HELD, LET_GO, RAISED, From, Window, filtered_error, solve_stage

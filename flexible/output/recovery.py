@@ -30,7 +30,7 @@ from meshes.placing import around
 
 from ..models.state import State
 from ..ring.fem import Ring
-from ..ring.reduction import ReducedRing
+from ..ring.rim.reduction import ReducedRing
 
 Array = NDArray[np.float64]
 

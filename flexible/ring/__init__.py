@@ -8,6 +8,5 @@
 ``exact``      its elasticity with Green's strain, where it turns far
 ``frame``      inertia of disk and modes in axes that float on the disk
 ``nodal``      the same with every node free
-``even``       its rim for floors that are far stiffer than the wall
-``reduction``  fixed-interface modes, and the rest of the compliance as static
+``rim``        as a floor feels it: evenly, and of few modes
 """

@@ -15,7 +15,7 @@ from flexible.contact.laws.listing import LAWS
 from flexible.models.reduced import ReducedHoop
 from flexible.models.rim_contact import points_to_a_patch
 from flexible.ring.choice import elements_around, elements_through, forget_rings
-from flexible.ring.reduction import modes_for
+from flexible.ring.rim.reduction import modes_for
 from rigid import Scene
 
 from .race import Claim, Result, Row

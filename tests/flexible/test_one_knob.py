@@ -8,7 +8,7 @@ import rigid
 from flexible.contact.laws.listing import LAWS
 from flexible.models.reduced import ReducedHoop
 from flexible.models.rim_contact import known_to, points_to_a_patch, share_of_linear_steps, share_of_steps
-from flexible.ring.reduction import modes_for
+from flexible.ring.rim.reduction import modes_for
 from flexible.start.handover import hand_over
 from flexible.time.adaptive import march
 from flexible.time.events import Ends

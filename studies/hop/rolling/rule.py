@@ -52,7 +52,7 @@ def _over(value: float, least: float) -> float:
 
 def slowest_period(scene: Scene) -> float:
     """Of the ring's vibrations about the weld, in sqrt(R/g); 0 of one without mass."""
-    from flexible.ring.reduction import reduce
+    from flexible.ring.rim.reduction import reduce
 
     if scene.hoop.mass_ratio == 0:
         return 0.0

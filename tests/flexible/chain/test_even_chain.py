@@ -10,7 +10,7 @@ from flexible.models.chain import ChainHoop
 from flexible.models.select import hoop_of
 from flexible.output.interior import interior_of
 from flexible.ring.choice import elements_of_stout, ring_of
-from flexible.ring.even.rim import EvenRim
+from flexible.ring.rim.even import EvenRim
 from flexible.start.equilibrium import equilibrium
 from flexible.start.pose import Pose
 from rigid import Kind, Run

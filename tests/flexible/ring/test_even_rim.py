@@ -6,8 +6,8 @@ import pytest
 import flexible
 import rigid
 from flexible.ring.choice import elements_of_stout, feels_places, ring_of
-from flexible.ring.even.curve import curve, finer
-from flexible.ring.even.rim import EvenRim, parts_of
+from flexible.ring.rim.curve import curve, finer
+from flexible.ring.rim.even import EvenRim, parts_of
 from rigid import Run
 
 PULSE = rigid.load_scene("paper-3.3-massless").replace(run=Run(until="pulse"))

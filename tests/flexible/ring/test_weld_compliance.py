@@ -8,7 +8,7 @@ from scipy.sparse.linalg import spsolve
 
 from flexible.ring.choice import ring_of
 from flexible.ring.fem import Ring, membrane_stiffness
-from flexible.ring.reduction import reduce
+from flexible.ring.rim.reduction import reduce
 from meshes import ring_mesh
 from rigid import Friction, Hoop, Release, Scene, Solve
 

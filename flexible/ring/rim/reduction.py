@@ -18,10 +18,10 @@ from numpy.typing import NDArray
 from rigid import Scene
 from rigid.kernel.compile import jit, loop, part
 
-from .choice import ring_of
-from .even.rim import EvenRim, parts_of
-from .fem import COLUMNS, Ring, membrane_stiffness
-from .frame import Frame, body_of
+from ..choice import ring_of
+from ..fem import COLUMNS, Ring, membrane_stiffness
+from ..frame import Frame, body_of
+from .even import EvenRim, parts_of
 
 Array = NDArray[np.float64]
 
