@@ -89,7 +89,7 @@ def example() -> tuple[tuple[Any, ...], Solved]:
     return (chain, facing, law, mode, before, damper, Predictor(row, row, 0.0, row), start), solved
 
 
-@apart(example)
+@apart(example, needs=(contact_forces,))
 def solve_stage(
     chain: Any, facing: Facing, law: Any, mode: int, before: Any, damper: Any, predictor: Any, start: Begin
 ) -> Solved:
@@ -270,4 +270,4 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
     return found
 
 
-solved, solved_in_step = jit(_solved, needs=(contact_forces, solve_stage)), part(_solved)
+solved, solved_in_step = jit(_solved, needs=(solve_stage,)), part(_solved)

@@ -214,7 +214,7 @@ def example() -> tuple[tuple[Any, ...], Contact]:
     return (row, table, Rim(number, row), law, number, before, UNDAMPED, False), contact
 
 
-@apart(example)
+@apart(example, needs=(tractions,))
 def contact_forces(
     pose: Any, u: Any, rim: Rim, law: Parameters, mode: int, before: Before, damper: Damper, differentiates: bool
 ) -> Contact:  # fmt: skip

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from rigid import Scene
 from rigid.kernel.compile import jit, loop, part
 
-from ..contact.forces import contact_forces
 from ..contact.guess import is_let_go
 from ..contact.laws.listing import is_smoothed, may_end
 from ..contact.points.data import Damper, Parameters, at_start
@@ -150,7 +149,7 @@ def _solved(
     return found
 
 
-solved, solved_in_step = jit(_solved, needs=(contact_forces, solve_stage)), part(_solved)
+solved, solved_in_step = jit(_solved, needs=(solve_stage,)), part(_solved)
 
 
 @part

@@ -150,7 +150,7 @@ def example() -> tuple[tuple[Any, ...], Solved]:
     return (frame, window, law, mode, before, damper, Predictor(row, row, 0.0, row), start), solved
 
 
-@apart(example)
+@apart(example, needs=(contact_forces, inertia))
 def solve_stage(
     frame: Frame, window: Window, law: Parameters, mode: int, before: Before, damper: Damper, predictor: Predictor,
     start: From,

@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rigid import Scene
-from rigid.kernel.compile import loop, part
+from rigid.kernel.compile import apart, loop, part
 
 
 class Body(NamedTuple):
@@ -223,7 +223,13 @@ def _ring_by_modes(
         tangent[3 + i, 3 + i] += r2 + square - w * w
 
 
-@part
+def example() -> tuple[tuple[Any, ...], Any]:
+    """Arguments and a result, of the types that compiled code has."""
+    row, table = np.empty(0), np.empty((0, 0))
+    return (Frame(Body(0.0, 0.0, 0.0, 0.0), table, table), row, row, row, 0.0), (row, table)
+
+
+@apart(example)
 def inertia(frame: Frame, pos: Any, vel: Any, acc: Any, beta: float) -> Any:
     """Inertial, gravitational and elastic forces, and their tangent.
 

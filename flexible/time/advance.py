@@ -13,7 +13,6 @@ import numpy as np
 
 from rigid.kernel.compile import jit, loop, part
 
-from ..contact.forces import contact_forces
 from ..contact.laws.listing import breaks, care, free, sticks
 from ..contact.points.bristles import drag_of
 from ..contact.points.data import EXACTLY, Parameters
@@ -281,6 +280,6 @@ take_reduced = part(
     momentum_error=reduced.momentum_error,
 )  # fmt: skip
 advance_reduced = jit(
-    advance, needs=(contact_forces, solve_stage), tried=take_reduced, held=reduced.held,
+    advance, needs=(solve_stage,), tried=take_reduced, held=reduced.held,
     energies_of=reduced.energies_of, lacks=reduced.lacks, sight=sight_reduced,
 )  # fmt: skip

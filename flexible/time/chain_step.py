@@ -9,7 +9,6 @@ from __future__ import annotations
 from rigid.kernel.compile import jit, part
 
 from ..chain import stage, whole
-from ..contact.forces import contact_forces
 from ..models.state import rotation
 from .advance import advance
 from .events import sight
@@ -21,6 +20,6 @@ take_chain = part(
 )  # fmt: skip
 sight_chain = part(sight, module=__name__, rotation=part(rotation, module=__name__, held=whole.held_by))
 advance_chain = jit(
-    advance, module=__name__, needs=(contact_forces, stage.solve_stage), tried=take_chain, held=whole.held_by,
+    advance, module=__name__, needs=(stage.solve_stage,), tried=take_chain, held=whole.held_by,
     energies_of=whole.energies_of, lacks=whole.lacks, sight=sight_chain,
 )  # fmt: skip

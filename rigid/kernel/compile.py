@@ -143,10 +143,13 @@ def jit(function: F, module: str = "", needs: tuple[Any, ...] = (), **instead: A
     return entry
 
 
-def apart(example: Callable[[], tuple[tuple[Any, ...], Any]]) -> Callable[[F], F]:
+def apart(
+    example: Callable[[], tuple[tuple[Any, ...], Any]], needs: tuple[Any, ...] = ()
+) -> Callable[[F], F]:  # fmt: skip
     """Mark a function that is compiled by itself and called by its address, see :mod:`rigid.kernel.insides.address`.
 
-    ``example`` returns arguments and a result of the types that compiled code calls it with.
+    ``example`` returns arguments and a result of the types that compiled code calls it with. ``needs`` are others like
+    it that it calls.
 
     Raises
     ------
@@ -160,7 +163,7 @@ def apart(example: Callable[[], tuple[tuple[Any, ...], Any]]) -> Callable[[F], F
         raise ImportError("the flexible solver runs compiled alone, which NUMBA_DISABLE_JIT forbids")
 
     def mark(function: F) -> F:
-        marked: F = called_by_address(_compiler(_at_home(function, "", {}), keep=True), example)
+        marked: F = called_by_address(_compiler(_at_home(function, "", {}), keep=True), example, needs)
         return marked
 
     return mark

@@ -18,14 +18,22 @@ from .processes import Processes, WorkerDied
 LEVELS = {"reduced": "flexible.time.advance", "chain": "flexible.time.chain_step"}
 """Levels of the flexible solver that have compiled code of their own, and the module whose code is compiled last."""
 
-CONTACT, STAGE, CHAIN_STAGE = "flexible.contact.forces", "flexible.models.stage", "flexible.chain.stage"
-APART = {CONTACT: "contact_forces", STAGE: "solve_stage", CHAIN_STAGE: "solve_stage"}
+CONTACT, LAWS, INERTIA = "flexible.contact.forces", "flexible.contact.laws.listing", "flexible.ring.frame"
+STAGE, CHAIN_STAGE = "flexible.models.stage", "flexible.chain.stage"
+APART = {
+    CONTACT: "contact_forces",
+    LAWS: "tractions",
+    INERTIA: "inertia",
+    STAGE: "solve_stage",
+    CHAIN_STAGE: "solve_stage",
+}
 """Functions that are compiled by themselves, by their modules."""
 
-CALLED = {"reduced": (STAGE, CONTACT), "chain": (CHAIN_STAGE, CONTACT)}
+CALLED = {"reduced": (STAGE, CONTACT, LAWS, INERTIA), "chain": (CHAIN_STAGE, CONTACT, LAWS)}
 """Those of them that a level's steps call."""
 
-DEAREST = ("rigid", "chain", CHAIN_STAGE, "reduced", CONTACT, STAGE)  # to compile: some 25, 18, 18, 10, 8 and 5 s
+DEAREST = ("rigid", "chain", CHAIN_STAGE, "reduced", CONTACT, STAGE, LAWS, INERTIA)
+"""The same with levels and "rigid", the dearest first: to compile some 25 s, 18, 18, 9, 8, 4, 2 and 1."""
 
 
 def levels_of(scenes: Iterable[Scene]) -> list[str]:
@@ -89,7 +97,7 @@ def compile_alone(name: str, told: bool) -> None:
     if told:
         is_told("flexible")
     if name in APART:
-        getattr(import_module(name), APART[name]).load()
+        getattr(import_module(name), APART[name]).load_alone()
         return
     from flexible.models.select import hoop_of
     from flexible.start.equilibrium import compile_ahead

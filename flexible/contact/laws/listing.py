@@ -8,9 +8,15 @@ from __future__ import annotations
 from math import inf
 from typing import Any
 
-from rigid import Scene, SceneLike, as_scene
-from rigid.kernel.compile import loop
+import numpy as np
 
+from rigid import Scene, SceneLike, as_scene
+from rigid.kernel.compile import apart, loop
+
+from ..points.bristles import Carried
+from ..points.data import Load, Parameters, PointForces, Shared, Slip, Tractions
+from ..points.detection import Points
+from ..points.normal import Foundation
 from . import brush, patch, regularised
 from .brush import Brush
 from .law import Law
@@ -20,9 +26,23 @@ from .regularised import Regularised
 LAWS: dict[str, type[Law]] = {law.name: law for law in (Patch, Brush, Regularised)}
 
 
-@loop
+def example() -> tuple[tuple[Any, ...], Tractions]:
+    """Arguments and a result of :func:`tractions`, of the types that compiled code has."""
+    row, fives, whole, flag = np.empty(0), np.empty((0, 5)), np.empty(0, np.int64), np.empty(0, np.int8)
+    shape = np.empty((0, 3))
+    points = Points(whole, flag, whole, shape, shape, *[row] * 16)
+    forces = PointForces(row, row, row, row, fives, row, fives, flag)
+    carried = Carried(row, row, row, row, flag, flag, row, row, row)
+    law = Parameters(0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    load, slip = Load(0.0, 0.0, 0.0), Slip(0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    answer = Tractions(Shared(False, 0.0, 0.0, 0.0, 0.0, 0.0), 0.0, 0.0, 0.0, False)
+    return (forces, points, Foundation(row, row, row, 0.0, 0.0), carried, 0, load, slip, law), answer
+
+
+@apart(example)
 def tractions(
-    forces: Any, points: Any, foundation: Any, carried: Any, mode: int, load: Any, slip: Any, law: Any
+    forces: PointForces, points: Points, foundation: Foundation, carried: Carried, mode: int, load: Load, slip: Slip,
+    law: Parameters,
 ) -> Any:  # fmt: skip
     """What the scene's law answers; see :class:`flexible.contact.laws.law.Law`."""
     if law.law == patch.CODE:

@@ -25,10 +25,14 @@ class Apart:
         Of the function, with a cache on disk.
     example : callable
         Returns arguments and a result of the types for which it is compiled: who calls it must know them beforehand.
+    needs : tuple
+        Others of its kind that it calls.
     """
 
-    def __init__(self, compiler: Any, example: Callable[[], tuple[tuple[Any, ...], Any]]) -> None:
-        self.compiler, self._example = compiler, example
+    def __init__(
+        self, compiler: Any, example: Callable[[], tuple[tuple[Any, ...], Any]], needs: tuple[Any, ...]
+    ) -> None:
+        self.compiler, self._example, self._needs = compiler, example, needs
         self._place = ctypes.c_void_p()
         function = compiler.py_func
         self.name = f"hoop_pulse.{function.__module__}.{function.__name__}"
@@ -42,7 +46,13 @@ class Apart:
         return tuple(map(typeof, arguments)), typeof(result)
 
     def load(self) -> None:
-        """Have it ready for compiled callers: from the cache on disk, else compiled."""
+        """Have it ready for compiled callers, with all that it needs: from the cache on disk, else compiled."""
+        for function in self._needs:
+            function.load()
+        self.load_alone()
+
+    def load_alone(self) -> None:
+        """Have it ready, and nothing else."""
         if self._place.value:
             return
         arguments, result = self.types
@@ -87,22 +97,26 @@ class Apart:
             return impl_ret_new_ref(context, builder, signature.return_type, result)
 
 
-def called_by_address(compiler: Any, example: Callable[[], tuple[tuple[Any, ...], Any]]) -> Any:
+def called_by_address(
+    compiler: Any, example: Callable[[], tuple[tuple[Any, ...], Any]], needs: tuple[Any, ...] = ()
+) -> Any:
     """The function for Python and for compiled code: ``load`` it before compiled code that calls it runs.
 
     Where numba's insides are not known it becomes a part of what calls it, and there is nothing to load.
     """
-    apart = Apart(compiler, example)
+    apart = Apart(compiler, example, needs)
     if not are_known():
-        vars(compiler).update(load=lambda: None)
+        vars(compiler).update(load=lambda: None, load_alone=lambda: None)
         return compiler
 
     @wraps(compiler.py_func)
     def function(*arguments: Any) -> Any:
+        for each in needs:
+            each.load()
         return compiler(*arguments)
 
     apart.known_to_compiled_code(function)
-    vars(function).update(load=apart.load, py_func=compiler.py_func)
+    vars(function).update(load=apart.load, load_alone=apart.load_alone, py_func=compiler.py_func)
     return function
 
 

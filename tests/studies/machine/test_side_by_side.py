@@ -13,6 +13,8 @@ from studies.machine import kernels
 from studies.machine.kernels import (
     CHAIN_STAGE,
     CONTACT,
+    INERTIA,
+    LAWS,
     LEVELS,
     STAGE,
     compile_alone,
@@ -70,7 +72,8 @@ def test_workers_compile_once_for_all_what_the_cases_need(asked):
     run = workers.run_case
     first, *then = asked
     assert first == workers._awake  # both processes load, while this one is still busy with what they shall do
-    linear = [(compile_alone, "reduced", False), (compile_alone, CONTACT, True), (compile_alone, STAGE, True)]
+    linear = [(compile_alone, "reduced", False)]
+    linear += [(compile_alone, part, True) for part in (CONTACT, STAGE, LAWS, INERTIA)]
     linear.append((prepare, "reduced"))
     exact = [(compile_alone, "chain", False), (compile_alone, CHAIN_STAGE, True), (prepare, "chain")]
     assert then == [first, run, *linear, run, run, *exact, run]
@@ -82,13 +85,14 @@ def test_a_single_motion_is_compiled_for_on_all_cores(asked, cold, monkeypatch):
     compile_on_all_cores(["chain"])
     assert not asked
     monkeypatch.setattr(kernels, "cores", lambda: 2)
-    parts = [(compile_alone, "chain", False), (compile_alone, CHAIN_STAGE, True), (compile_alone, CONTACT, True)]
+    parts = [(compile_alone, "chain", False)]
+    parts += [(compile_alone, part, True) for part in (CHAIN_STAGE, CONTACT, LAWS)]
     for _ in range(2):
         compile_on_all_cores(["chain"])
         assert asked == [*parts, "stopped"]
     cold.add(CHAIN_STAGE)  # it was killed in the middle, say
     compile_on_all_cores(["chain"])
-    assert asked[4:] == [(compile_alone, CHAIN_STAGE, False), "stopped"]
+    assert asked[5:] == [(compile_alone, CHAIN_STAGE, False), "stopped"]
 
 
 def test_what_a_process_dies_compiling_is_left_to_whoever_calls_it(cold, monkeypatch):
