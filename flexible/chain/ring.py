@@ -209,7 +209,9 @@ class _Shape:
             return np.asarray(PRESSED * wall * np.kron(spread, np.eye(2)), dtype=float)
         held = self.rim @ self.inverse @ self.rim.T
         if self.even is not None:
-            own = self.even.compliance - held
+            own = self.even.compliance
+            own -= held
+            del held  # each is 120 MB of 480 elements
             return positive_part((own + own.T) / 2, self.even.mirror)
         return positive_part(
             self.ring.rim_compliance - np.kron(self.ring.given_within, np.eye(2)) - held, self.ring.mirror

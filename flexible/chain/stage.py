@@ -43,7 +43,8 @@ class Arrays(NamedTuple):
 
     chain: Chain
     nodes: RimNodes  # of the whole rim
-    missing: Any  # (2 n_rim, 2 n_rim) compliance that the chain lacks
+    missing: Any  # (2 n_rim, 2 n_rim) compliance that the chain lacks for E b = 1
+    stiffness: float  # E b
     slow: Any  # (k, 3 n) momenta of the slow vibrations of a rate of the sections
     vertex: Any  # (n_elements,) angles at which rim elements begin
     theta: Any  # (n_rim,) angles of rim nodes
@@ -225,7 +226,7 @@ def _solved(arrays: Arrays, old: Any, mode: int, damper: Any, predictor: Any, ne
         window = window_around(vertex, expected[2], looked[0], looked[1], margin)
         u_old, beyond = moved(arrays, old, window)
         number, nodes = near_floor(arrays, window)
-        facing = Facing(Rim(window[0], vertex), nodes, lacking(arrays.missing, number, number))
+        facing = Facing(Rim(window[0], vertex), nodes, lacking(arrays, number, number))
         before = at_start(old, u_old, predictor.beta)
         u = follow(arrays.chain.rod, sections(expected), nodes)[0]
         move(expected, u, 1.0, nothing, beyond.ravel())

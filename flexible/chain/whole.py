@@ -123,12 +123,13 @@ def near_floor(arrays: Any, window: tuple[int, int]) -> tuple[Any, RimNodes]:
 
 
 @part
-def lacking(missing: Any, rows: Any, columns: Any) -> Any:
+def lacking(arrays: Any, rows: Any, columns: Any) -> Any:
     """Compliance between rim nodes that the chain lacks, (2 rows, 2 columns)."""
     block = np.empty((2 * rows.shape[0], 2 * columns.shape[0]))
     for i in range(block.shape[0]):
         for j in range(block.shape[1]):
-            block[i, j] = missing[2 * rows[i // 2] + i % 2, 2 * columns[j // 2] + j % 2]
+            unit = arrays.missing[2 * rows[i // 2] + i % 2, 2 * columns[j // 2] + j % 2]
+            block[i, j] = unit / arrays.stiffness
     return block
 
 
@@ -146,7 +147,7 @@ def moved(arrays: Any, old: Any, window: tuple[int, int]) -> tuple[Any, Any]:
         return old.u, beyond
     if old.res.normal != 0:
         there, nodes = near_floor(arrays, old.window)
-        gives = turned(lacking(arrays.missing, here, there), turn, follow(rod, q, nodes)[2])
+        gives = turned(lacking(arrays, here, there), turn, follow(rod, q, nodes)[2])
         for i in range(gives.shape[0]):
             for j in range(gives.shape[1]):
                 beyond[i // 2, i % 2] += gives[i, j] * old.nodal[j // 2, j % 2]
@@ -206,7 +207,7 @@ def beside(arrays: Any, pos: Any, window: tuple[int, int], u: Any, nodal: Any, m
             if again == 1 or gap[side] > 2 * most:  # 5/4 are the weights of a parabola at most
                 break
             there, nodes = near_floor(arrays, window)
-            gives = turned(lacking(arrays.missing, here, there), turns, follow(rod, q, nodes)[2])
+            gives = turned(lacking(arrays, here, there), turns, follow(rod, q, nodes)[2])
             for i in range(gives.shape[0]):
                 for j in range(gives.shape[1]):
                     own[i // 2, i % 2] += gives[i, j] * nodal[j // 2, j % 2]

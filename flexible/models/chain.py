@@ -64,10 +64,10 @@ class ChainHoop(RimContact):
     @cached_property
     def arrays(self) -> Arrays:
         """What the compiled step takes."""
-        ring, every = self.ring, np.arange(len(self.theta))
+        ring = self.ring
         return Arrays(
-            ring.chain, ring.nodes, ring.missing(every, every), self._slow, self.vertex, self.theta, self.element,
-            self.law.parameters, np.zeros(2),
+            ring.chain, ring.nodes, ring.shape.missing, ring.stiffness, self._slow, self.vertex, self.theta,
+            self.element, self.law.parameters, np.zeros(2),
         )  # fmt: skip
 
     def displacement(self, state: State, window: Window) -> Array:
