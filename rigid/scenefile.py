@@ -110,13 +110,20 @@ def _ensure_all_units(hoop: Mapping[str, Any]) -> None:
         raise SceneError(f"hoop.{given[0]} is in SI units: {others} must be given in them too.")
 
 
+def _no_part(name: str) -> SceneError:
+    """What to say of a table that no scene has: where a key of that name stands, if it is one."""
+    near = unknown("part of a scene", name, list(PARTS))
+    homes = [] if "did you mean" in str(near) else [part for part in PARTS if name in _file_keys(part)]
+    return SceneError(f"{name} is not a part of a scene: it is a key of [{homes[0]}].") if homes else near
+
+
 def _ensure_known(data: Mapping[str, Any]) -> None:
     """Whether all keys are a scene's, before what one that is written wrong leaves out is missed."""
     if not isinstance(data, Mapping):
         raise SceneError(f"{shown(data)} is not a scene: that is a table of {', '.join(PARTS)}.")
     for part, table in data.items():
         if part not in PARTS:
-            raise unknown("part of a scene", str(part), list(PARTS))
+            raise _no_part(str(part))
         if not isinstance(table, Mapping):
             raise SceneError(f"{part} = {table!r} is not possible: {part} is a table, [{part}].")
         known = [*_file_keys(part), *(SECTION if part == "ring" else ())]

@@ -148,6 +148,8 @@ def run_sweep(
     ------
     SceneError
         As of :func:`load_sweep`.
+    StudyError
+        ``out`` cannot be a folder.
     """
     sweep = as_sweep(sweep)
     asked: list[tuple[dict[str, Any], str, Case | str]] = []

@@ -24,11 +24,14 @@ FAR_ERROR, FAR_SOFT, FAR_SOFTER = 1e-4, 10.0, 1.6  # a ring that bends far: its 
 MOST_FAR = 480  # around such a ring: its sections pay in every step
 UNEVEN, FELT = 0.7, 1e-3  # by how much over E b places on an element give; share of a patch's own that is felt
 PULSE, GENTLE = 100.0, 3.0  # weights that press in a pulse, and always: what is as wide as an element feels no places
+KEPT = 8  # rings, with what was made of them
 STOUT = 2.0  # wall over the distance of the rim's nodes from which on the wall is dented there before it bends
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=KEPT)
 def _shared_ring(wall: float, elements: int, through: int, halved: int, weld: float, poisson: float) -> Ring:
+    if _shared_ring.cache_info().currsize == KEPT:
+        gc.collect()  # those that are not kept any more and what was made of them refer to each other
     return Ring(ring_mesh(1 - wall, 1.0, elements, through, weld, halved=halved), poisson)
 
 

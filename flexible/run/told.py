@@ -10,6 +10,7 @@ from rigid import Motion, Run, Scene
 from rigid.output.units import Unit
 from rigid.solve import ended_in
 
+from ..contact.laws.listing import LAWS
 from ..time.course import Stop
 
 Report = Callable[[float], object]
@@ -71,6 +72,10 @@ def period_told(ending: Ending) -> float | None:
 
 def _advice(scene: Scene) -> str:
     """What to say of a ring that may be too soft for its disk, if that may be; in the solver's units."""
+    if LAWS[scene.contact.law].lost_when_soft and scene.contact.damping > 0:
+        return (
+            f'; under a damped contact of law = "{scene.contact.law}" a soft ring is hard to follow, under others less'
+        )
     needed = 1.3 / scene.hoop.k if scene.hoop.k > 0 else inf
     if scene.ring.bending_stiffness >= 10 * needed:
         return ""

@@ -43,10 +43,14 @@ def table_of(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
         unknown = set(map(str, scenes)) - set(QUANTITIES)
         missing = set(QUANTITIES) - set(scenes) - set(DEFAULTS)
         if unknown or missing:
-            what = "is not a quantity of" if unknown else "is missing in"
+            one = len(unknown or missing) == 1
+            if unknown:
+                what = "is not a quantity of" if one else "are not quantities of"
+            else:
+                what = f"{'is' if one else 'are'} missing in"
             hint = " phi0 = np.radians(...) is the angle." if "phi0_deg" in unknown else ""
             raise SceneError(
-                f"{', '.join(sorted(unknown or missing))} {what} a batch: {', '.join(QUANTITIES)};"
+                f"{', '.join(sorted(unknown or missing))} {what} a batch, which has {', '.join(QUANTITIES)};"
                 f" angles in radians.{hint}"
             )
         table = _broadcast([_numbers(name, scenes.get(name, DEFAULTS.get(name))) for name in QUANTITIES])

@@ -102,7 +102,7 @@ def bench(
 @click.option(
     "--soft", type=click.IntRange(0, 100_000), default=0, metavar="N", help="N more, of any stiffness; 0 by default."
 )
-@click.option("--quick", is_flag=True, help="Fewer scenes, with fewer steps each: a minute or two.")
+@click.option("--quick", is_flag=True, help="Fewer scenes, with fewer steps each: two or three minutes.")
 @click.pass_context
 def stress(
     ctx: click.Context, as_json: bool, out: Path | None, seed: int, scenes: int | None, soft: int, quick: bool

@@ -89,7 +89,7 @@ def rigid(scene: str, as_json: bool, out: Path | None) -> int:
     "--times",
     metavar="T,T,...",
     help="Frames at these times instead, in sqrt(R/g), or in seconds where the scene is in SI units; between two steps "
-    "of the march N of a frame can be some percent off its curve.",
+    "of the march N and F of a frame can be some percent off their curves; so can those at the end of a pulse.",
 )
 @click.option(
     "--only",
@@ -115,6 +115,9 @@ def flexible(
     earlier: Path | None,
 ) -> int:
     """Motion of the flexible hoop, measured like the rigid one, and where the energy went.
+
+    In --out, history.csv has the march's own steps: rows where the hoop is elastic alone, impulses and losses of these
+    alone. motion.json has the ledger of all of it.
 
     Interrupted (Ctrl-C, SIGTERM) it keeps in --out what it has, and --continue goes on from there.
     """

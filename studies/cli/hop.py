@@ -32,7 +32,8 @@ if TYPE_CHECKING:
     multiple=True,
     metavar="KEY=LOW:HIGH:COUNT",
     help="Range of ring.bending_stiffness (0.5:1e4:24 by default), and of one key more (hoop.k, hoop.mass_ratio, "
-    "contact.stiffness, friction.mu, ...) for a map; evenly in the logarithm, evenly from 0. Or KEY=VALUE,VALUE,...",
+    "contact.stiffness, friction.mu, ...) for a map; evenly in the logarithm, evenly from 0. Or KEY=VALUE,VALUE,... "
+    "hoop.R, m and g change units alone: E I/(m g R^2) and m_h/m stay, whatever they were given by.",
 )
 @click.option(
     "--bisections",

@@ -114,8 +114,12 @@ def write_whole(path: str | Path, write: Callable[[Path], Any]) -> Path:
 
 
 def write_text(path: str | Path, text: str) -> Path:
-    """Write a text file whole or not at all; a name in it whose bytes are no UTF-8 keeps these bytes."""
-    return write_whole(path, lambda part: part.write_text(text, encoding="utf-8", errors="surrogateescape"))
+    """Write a text file, which ends with a newline, whole or not at all.
+
+    A name in it whose bytes are no UTF-8 keeps these bytes.
+    """
+    whole = text if not text or text.endswith("\n") else f"{text}\n"
+    return write_whole(path, lambda part: part.write_text(whole, encoding="utf-8", errors="surrogateescape"))
 
 
 def plain(value: Any) -> Any:
@@ -134,5 +138,5 @@ def plain(value: Any) -> Any:
 
 
 def to_json(value: Any, indent: int | None = 2) -> str:
-    """JSON that any reader takes: no NaN, no infinity."""
+    """JSON that any reader takes: no NaN, no infinity; without a newline at its end."""
     return json.dumps(plain(value), indent=indent, allow_nan=False, ensure_ascii=False)

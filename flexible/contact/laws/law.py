@@ -62,6 +62,8 @@ class Law:
         Share of a step's tolerance there, where N's peak and the instants of events hang on the ring's vibrations.
     rolls_to : float
         Share of mu N up to which a rolling patch is that of the rigid hoop; from there on it creeps its own way.
+    lost_when_soft : bool
+        Whether a march on a soft ring may be lost where the contact is damped.
     tractions : compiled function
         ``tractions(forces, points, foundation, carried, mode, load, slip, parameters) -> Tractions``: fills in the
         ``forces``, zero before (:class:`~flexible.contact.points.data.PointForces`), that pull at
@@ -76,6 +78,7 @@ class Law:
     points_of_soft: ClassVar[int] = 8
     steps_of_soft: ClassVar[float] = 1.0
     rolls_to: ClassVar[float] = 1.0
+    lost_when_soft: ClassVar[bool] = False
     tractions: ClassVar[Callable[..., Any]]
 
     def __init__(self, parameters: Parameters) -> None:

@@ -54,6 +54,7 @@ class Regularised(Law):
 
     name, code = "regularised", CODE
     rolls_to = 0.3  # of a hoop that creeps as slowly as that what is left out is a hundredth of what v_s changes
+    lost_when_soft = True
     tractions = staticmethod(tractions)
 
     def rolls(self, state: PatchState, omega: float, share: float) -> bool:

@@ -94,7 +94,8 @@ def _chatter(motion: FlexibleMotion) -> str:
         return ""
     damping, told = scene.contact.damping, f"{period:.3g} {Unit.TIME.label(scene)}"
     how = f"The contact, damped at {damping:g}," if damping > 0 else "The undamped contact"
+    ends = "which a larger one need not end: it is the ring that vibrates" if damping > 0 else "which one may end"
     return (
         f"{how} chatters in the pulses: {hops} of their {len(flexible)} phases are hops shorter than a period of the "
-        f"patch's own vibration, {told}; a {'larger ' if damping > 0 else ''}contact.damping ends that."
+        f"patch's own vibration, {told}; contact.damping = {damping:g}, {ends}."
     )
