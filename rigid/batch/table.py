@@ -43,11 +43,11 @@ def table_of(scenes: Sequence[SceneLike] | Mapping[str, ArrayLike]) -> Array:
         unknown = set(map(str, scenes)) - set(QUANTITIES)
         missing = set(QUANTITIES) - set(scenes) - set(DEFAULTS)
         if unknown or missing:
-            one = len(unknown or missing) == 1
+            single = len(unknown or missing) == 1
             if unknown:
-                what = "is not a quantity of" if one else "are not quantities of"
+                what = "is not a quantity of" if single else "are not quantities of"
             else:
-                what = f"{'is' if one else 'are'} missing in"
+                what = f"{'is' if single else 'are'} missing in"
             hint = " phi0 = np.radians(...) is the angle." if "phi0_deg" in unknown else ""
             raise SceneError(
                 f"{', '.join(sorted(unknown or missing))} {what} a batch, which has {', '.join(QUANTITIES)};"

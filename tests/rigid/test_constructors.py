@@ -327,3 +327,10 @@ def test_a_number_is_not_asked_for_as_a_word():
 def test_a_tolerance_below_which_steps_do_not_end_is_refused(rtol):
     assert "between 1e-08 and 0.5" in said(Solve, rtol=rtol)
     assert Solve(rtol=1e-8).rtol == 1e-8
+
+
+def test_a_key_that_stands_for_itself_is_told_its_table():
+    """Of a key that has no table before it: which one that is."""
+    scene = {"hoop": {"k": 0.1}, "k": 0.1}
+    assert said(simulate, scene) == "k is not a part of a scene: it is a key of [hoop]."
+    assert said(simulate, {"zzz": 1}).startswith("zzz is not a part of a scene: known are hoop, ")
