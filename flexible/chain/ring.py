@@ -19,6 +19,7 @@ from scipy.sparse import csr_array
 
 from rigid import Scene
 
+from ..ring.choice import AROUND
 from ..ring.fem import Ring, membrane_stiffness
 from ..ring.frame import body_of
 from ..ring.mirror import positive_part
@@ -244,7 +245,9 @@ class ChainRing:
     """
 
     def __init__(self, scene: Scene, ring: Ring, parts: int) -> None:
-        self.shape = ring.once(_Shape, parts, parts_of(scene, ring.mesh.around, PARTS))
+        around = ring.mesh.around
+        finer = parts_of(scene, around, PARTS) if around >= AROUND else 0  # one element over half the weld is too few
+        self.shape = ring.once(_Shape, parts, finer)
         self.ring = ring
         self.stiffness = membrane_stiffness(scene)
         self.within = (self.shape.even or ring).within / self.stiffness

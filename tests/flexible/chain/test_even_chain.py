@@ -31,6 +31,8 @@ def test_who_has_one():
     assert hoop.ring.sections == around // 2 - 1
     softer = hoop_of(SOFT.replace(contact={"stiffness": 1e8}))
     assert softer.ring.ring.mesh.around == len(softer.vertex) == 240
+    few = hoop_of(SOFT.replace(hoop={"r": 1.1}, solve={"elements": 120}))
+    assert len(few.vertex) == 120
     thin = ring_of(SOFT.replace(hoop={"r": 1.01}), linear=False)
     assert thin.mesh.around == 240, "more sections than a step of a soft ring may cost"
 
