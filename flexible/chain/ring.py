@@ -213,7 +213,7 @@ class _Shape:
             own = self.even.compliance
             own -= held
             del held  # each is 120 MB of 480 elements
-            return positive_part((own + own.T) / 2, self.even.mirror)
+            return positive_part(own, self.even.mirror)
         return positive_part(
             self.ring.rim_compliance - np.kron(self.ring.given_within, np.eye(2)) - held, self.ring.mirror
         )

@@ -57,6 +57,7 @@ def positive_part(matrix: Array, mirror: Mirror) -> Array:
     part = np.zeros_like(matrix)
     for basis in _bases(mirror):
         own = basis.T @ (basis.T @ matrix.T).T
+        own = (own + own.T) / 2  # a compliance that was solved for by columns is symmetric to rounding errors alone
         values, vectors = eigh(own, driver="evr", subset_by_value=(-np.inf, 0.0))  # few beside those that are kept
         part += basis @ (basis @ (own - (vectors * values) @ vectors.T)).T
     return part
