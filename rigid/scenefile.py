@@ -112,9 +112,10 @@ def _ensure_all_units(hoop: Mapping[str, Any]) -> None:
 
 def _no_part(name: str) -> SceneError:
     """What to say of a table that no scene has: where a key of that name stands, if it is one."""
-    near = unknown("part of a scene", name, list(PARTS))
-    homes = [] if "did you mean" in str(near) else [part for part in PARTS if name in _file_keys(part)]
-    return SceneError(f"{name} is not a part of a scene: it is a key of [{homes[0]}].") if homes else near
+    for part in PARTS:
+        if name in _file_keys(part):
+            return SceneError(f"{name} is not a part of a scene: it is a key of [{part}].")
+    return unknown("part of a scene", name, list(PARTS))
 
 
 def _ensure_known(data: Mapping[str, Any]) -> None:

@@ -23,7 +23,7 @@ from meshes import RingMesh
 from rigid import Scene
 
 from .corners import corners
-from .mirror import Mirror, half_of, mirror_of, mirrored
+from .mirror import Mirror, by_halves, mirror_of
 
 Array = NDArray[np.float64]
 
@@ -159,9 +159,7 @@ class Ring:
     @property
     def rim_compliance(self) -> Array:
         """Displacement of the rim under unit forces on it, (2 n_rim, 2 n_rim), in the order of ``rim_dofs``."""
-        half = half_of(self.mirror)
-        columns = [self.pressed(some) for some in np.split(half, range(COLUMNS, len(half), COLUMNS))]
-        compliance = mirrored(np.concatenate(columns, axis=1), half, self.mirror)
+        compliance = by_halves(self.pressed, self.mirror, COLUMNS)
         return (compliance + compliance.T) / 2
 
     def pressed(self, columns: NDArray[np.int64]) -> Array:

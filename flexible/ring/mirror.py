@@ -6,6 +6,7 @@ symmetric about that line and of what is not.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -42,6 +43,13 @@ def half_of(mirror: Mirror) -> NDArray[np.int64]:
     """Components of one node of each pair, and of those that are their own image."""
     every = np.arange(len(mirror.image))
     return every[every <= mirror.image]
+
+
+def by_halves(solve: Callable[[NDArray[np.int64]], Array], mirror: Mirror, lot: int) -> Array:
+    """All columns of a matrix that is its own mirror image, of which ``solve`` gives some, a lot at a time."""
+    half = half_of(mirror)
+    columns = [solve(some) for some in np.split(half, range(lot, len(half), lot))]
+    return mirrored(np.concatenate(columns, axis=1), half, mirror)
 
 
 def mirrored(columns: Array, half: NDArray[np.int64], mirror: Mirror) -> Array:

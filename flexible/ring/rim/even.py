@@ -13,7 +13,7 @@ from rigid import Scene
 
 from ..choice import elements_of_stout, feels_places
 from ..fem import COLUMNS, Ring
-from ..mirror import Mirror, half_of, mirror_of, mirrored
+from ..mirror import Mirror, by_halves, mirror_of
 from .curve import curve, finer
 from .places import ripple
 
@@ -66,9 +66,7 @@ class EvenRim:
     @property
     def compliance(self) -> Array:
         """All of :meth:`solve_rim`, not kept."""
-        half = half_of(self.mirror)
-        columns = [self._pressed(some) for some in np.split(half, range(COLUMNS, len(half), COLUMNS))]
-        return mirrored(np.concatenate(columns, axis=1), half, self.mirror)
+        return by_halves(self._pressed, self.mirror, COLUMNS)
 
     @cached_property
     def _columns(self) -> tuple[Array, NDArray[np.bool_]]:
