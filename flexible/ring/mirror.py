@@ -62,7 +62,7 @@ def mirrored(columns: Array, half: NDArray[np.int64], mirror: Mirror) -> Array:
 
 def positive_part(matrix: Array, mirror: Mirror) -> Array:
     """Of a symmetric matrix that is its own mirror image, what its positive eigenvalues make."""
-    part = np.zeros_like(matrix)
+    part = np.zeros(matrix.shape)  # by rows, whatever the order of what is given: the steps are compiled for that
     for basis in _bases(mirror):
         own = basis.T @ (basis.T @ matrix.T).T
         own = (own + own.T) / 2  # a compliance that was solved for by columns is symmetric to rounding errors alone
