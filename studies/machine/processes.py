@@ -9,14 +9,16 @@ from __future__ import annotations
 
 import logging
 import multiprocessing
+import multiprocessing.spawn
 import os
 import pickle
 import queue
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
 from multiprocessing.connection import wait as wait_for_any
@@ -28,6 +30,11 @@ from . import BLAS_THREADS, search_garbage_seldom
 _ONE_THREAD = dict.fromkeys((*BLAS_THREADS, "NUMBA_NUM_THREADS"), "1")
 
 _DIED = "its worker process died: out of memory perhaps"
+_ONCE = "what is to run once belongs below if __name__ == '__main__'"
+_OURS = "hoop-pulse worker"
+
+_READY = b"ready"
+"""What a worker sends first: that it has imported what it must."""
 
 _STARTING = threading.Lock()
 _LOGGER = logging.getLogger("hoop-pulse")
@@ -37,6 +44,10 @@ Task = tuple[Callable[..., Any], tuple[Any, ...]]
 
 class WorkerDied(RuntimeError):
     """The process that had a task is gone, and the task with it."""
+
+
+class NoWorker(RuntimeError):
+    """No worker can begin, for a reason that the next one would have too."""
 
 
 class Processes:
@@ -49,19 +60,23 @@ class Processes:
     """
 
     def __init__(self, count: int) -> None:
-        if getattr(multiprocessing.current_process(), "_inheriting", False):
-            raise RuntimeError(
-                "Workers import this script: what is to run once belongs below if __name__ == '__main__'."
-            )
+        process = multiprocessing.current_process()
+        if getattr(process, "_inheriting", False):
+            if process.name == _OURS:
+                sys.exit(1)  # without a traceback: who has this worker tells why none begins
+            raise RuntimeError(f"Workers import this script: {_ONCE}.")
         self._tasks: queue.SimpleQueue[tuple[Task, Future[Any]] | None] = queue.SimpleQueue()
         self._closing = threading.Event()
         self._workers: dict[int, SpawnProcess] = {}
+        self._begun = False
+        self._none = _hindrance()
         self._threads = [threading.Thread(target=self._hold, args=(slot,), daemon=True) for slot in range(count)]
         for thread in self._threads:
             thread.start()
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
-        """Have a worker call an importable function; a death of the worker is :class:`WorkerDied` in the future.
+        """Have a worker call an importable function; in the future, a death of the worker is :class:`WorkerDied`, and
+        :class:`NoWorker` that there can be none.
 
         Raises
         ------
@@ -97,7 +112,7 @@ class Processes:
                 pipe = pipe or self._start(slot)
                 pipe.send(task)
                 answer, error = self._answer(pipe, self._workers[slot])
-            except WorkerDied as death:
+            except (WorkerDied, NoWorker) as death:
                 pipe, error = None, death
             except OSError:  # it had died before it could be given the task
                 pipe, error = None, WorkerDied(_DIED)
@@ -111,11 +126,13 @@ class Processes:
             pipe.close()
 
     def _start(self, slot: int) -> Connection:
-        """A new worker for a slot."""
+        """A new worker for a slot, once it is ready to work."""
+        if self._none:
+            raise NoWorker(f"No worker can begin: {self._none}.")
         # spawn: nothing of this process, its threads least of all, is inherited but the environment
         context = multiprocessing.get_context("spawn")
         ours, theirs = context.Pipe()
-        worker = context.Process(target=_work, args=(theirs, _LOGGER.level), daemon=True)
+        worker = context.Process(target=_work, name=_OURS, args=(theirs, _LOGGER.level), daemon=True)
         _deaf_to_interrupts()
         with _STARTING, _one_thread():
             if self._closing.is_set():
@@ -126,23 +143,45 @@ class Processes:
                 raise WorkerDied(f"its worker process could not be started: {error.strerror or error}") from None
             self._workers[slot] = worker
         theirs.close()
+        if _received(ours, worker) is None:
+            # a signal, as of want of memory, may spare the next one, and so may whatever came up since one has begun
+            if not self._begun and (worker.exitcode or 0) >= 0:
+                self._none = f"each imports this script, and ended in that; {_ONCE}"
+                raise NoWorker(f"No worker can begin: {self._none}.")
+            raise WorkerDied(_DIED)
+        self._begun = True
         return ours
 
     @staticmethod
     def _answer(pipe: Connection, worker: SpawnProcess) -> tuple[Any, BaseException | None]:
-        wait_for_any([pipe, worker.sentinel])
-        try:
-            came = pipe.recv_bytes() if pipe.poll() else None  # also where it died just after it had answered
-        except (EOFError, OSError):
-            came = None
+        came = _received(pipe, worker)
         if came is None:
-            worker.join()
             raise WorkerDied(_DIED)
         try:
             answer: tuple[Any, BaseException | None] = pickle.loads(came)
         except Exception as unreadable:  # an answer whose parts are not to be had here
             return None, unreadable
         return answer
+
+
+def _received(pipe: Connection, worker: SpawnProcess) -> bytes | None:
+    """What a worker sends next; None where it is gone instead."""
+    wait_for_any([pipe, worker.sentinel])
+    try:
+        came = pipe.recv_bytes() if pipe.poll() else None  # also where it died just after it had answered
+    except (EOFError, OSError):
+        came = None
+    if came is None:
+        worker.join()
+    return came
+
+
+def _hindrance() -> str:
+    """Why no worker could begin, where it is known beforehand: what it imports as the script is no file."""
+    script = multiprocessing.spawn.get_preparation_data(_OURS).get("init_main_from_path")
+    if script is None or os.path.exists(script):
+        return ""
+    return f"each imports the script, and there is no file {script}, as of one that is read from stdin"
 
 
 def _work(pipe: Connection, level: int) -> None:
@@ -156,6 +195,8 @@ def _work(pipe: Connection, level: int) -> None:
     parent = multiprocessing.parent_process()
     if parent is not None:
         threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()
+    with suppress(OSError):  # nobody is there any more, and no task comes
+        pipe.send_bytes(_READY)
     while True:
         try:
             task = pipe.recv_bytes()

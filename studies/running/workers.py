@@ -14,7 +14,7 @@ from rigid.allowed import require_whole
 from rigid.batch.cores import cores
 
 from ..machine.kernels import compile_side_by_side, levels_of, prepare
-from ..machine.processes import Processes, WorkerDied
+from ..machine.processes import NoWorker, Processes, WorkerDied
 from .case import Case, OtherBuild, Outcome, run_case
 from .files import StudyError, plain
 from .solvers import version
@@ -84,9 +84,10 @@ class Machine(Pool):
     def submit(self, case: Case) -> Future[Outcome]:
         if case.solver == "flexible":
             levels = [level for level in levels_of([case.scene]) if level not in self._ready]
-            if absent := compile_side_by_side(levels, self._processes.submit):  # once for all workers
-                with suppress(WorkerDied):  # the cases compile it, and one that does not survive that is tried again
-                    self._processes.submit(prepare, *absent).result()
+            with suppress(NoWorker):  # which the case then says
+                if absent := compile_side_by_side(levels, self._processes.submit):  # once for all workers
+                    with suppress(WorkerDied):  # the cases compile it; one that does not survive that is tried again
+                        self._processes.submit(prepare, *absent).result()
             self._ready.update(levels)
         return self._processes.submit(run_case, case)
 
@@ -114,7 +115,7 @@ def ensure_address(address: str) -> None:
     StudyError
         It has no port, nor a scheme that needs none.
     """
-    if not re.fullmatch(r"inproc://.+|([\w-]+://)?.+:\d{1,5}", address):
+    if not isinstance(address, str) or not re.fullmatch(r"inproc://.+|([\w-]+://)?.+:\d{1,5}", address):
         raise StudyError(f"There is no Dask scheduler at {address}: it takes host and port, tcp://host:8786.")
 
 
@@ -185,7 +186,7 @@ def run_all(cases: Iterable[Case], pool: Pool) -> Iterator[tuple[Case, Outcome]]
     Raises
     ------
     StudyError
-        The workers have other sources than this process: their results are not ours.
+        The workers have other sources than this process, and their results are not ours; or none can begin.
     """
     waiting = deque(cases)
     again: deque[Case] = deque()
@@ -211,6 +212,8 @@ def run_all(cases: Iterable[Case], pool: Pool) -> Iterator[tuple[Case, Outcome]]
                     yield case, failed(case, f"{_DEATHS} times {death}")
             except OtherBuild as error:
                 raise StudyError(f"{error}.") from None
+            except NoWorker as error:
+                raise StudyError(str(error)) from None
             except (Exception, CancelledError) as error:
                 yield case, failed(case, f"{type(error).__name__}: {' '.join(str(error).split())}")
 
