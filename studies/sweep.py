@@ -14,7 +14,7 @@ from rigid.elastic import UNITS
 from rigid.scenefile import units_of_keys
 
 from .running.case import Case, Outcome
-from .running.history import rows_to_csv
+from .running.history import records_to_csv
 from .running.measures import MEASURES, units_of_measures
 from .running.runs import run_cases
 from .running.solvers import version
@@ -74,14 +74,18 @@ class Table:
     def records(self) -> list[dict[str, Any]]:
         """One flat record for each pulse of each row, or one for a row without any."""
         records = []
+        # those that the rows were made with: another may have been entered since
+        names = dict.fromkeys(name for row in self.rows for pulse in row.outcome.pulses for name in pulse) or MEASURES
+        empty: dict[str, float] = dict.fromkeys(names, float("nan"))
         for row in self.rows:
             found = row.outcome
             head = {**row.values, "solver": row.solver}
             tail = {"ended": found.ended, "failure": found.failure, "key": found.key}
-            empty: dict[str, float] = dict.fromkeys(MEASURES, float("nan"))
             for number, pulse in enumerate(found.pulses or (empty,), 1):
                 phases = " ".join(found.phases[number - 1]) if found.pulses else ""
-                records.append({**head, "pulse": number if found.pulses else 0, **pulse, "phases": phases, **tail})
+                records.append(
+                    {**head, "pulse": number if found.pulses else 0, **empty, **pulse, "phases": phases, **tail}
+                )
         return records
 
     def to_dataframe(self) -> pandas.DataFrame:
@@ -99,8 +103,7 @@ class Table:
 
     def to_csv(self) -> str:
         """The table as text, numbers to the last bit."""
-        records = self.records()
-        return rows_to_csv(list(records[0]), (record.values() for record in records)) if records else ""
+        return records_to_csv(self.records())
 
 
 def as_sweep(source: Sweep | str | PathLike[str] | Mapping[str, Any]) -> Sweep:

@@ -16,7 +16,7 @@ from rigid.kernel.announce import running_clock
 from .files import plain
 from .history import Columns, through
 from .measures import MEASURES, measures, phase_sequence
-from .solvers import build, solver, version
+from .solvers import build_here, enter_from, solver, version
 
 SHARE = 0.1
 """Numerical error may be this share of the distance that a study reports."""
@@ -63,7 +63,7 @@ class Case:
     histories : bool
         Whether the forces through each pulse come back too.
     build : str
-        Version, sources and packages that it is meant for, see :func:`build`; those of this process by default.
+        Version, sources, packages and measures that it is meant for, by default those of this process.
     cut : bool
         Whether a motion that stops before what was asked is a result too, as far as it came; otherwise it is a failure.
     """
@@ -77,7 +77,7 @@ class Case:
 
     def __post_init__(self) -> None:
         if not self.build:
-            object.__setattr__(self, "build", build(self.solver))
+            object.__setattr__(self, "build", build_here(self.solver))
 
     @property
     def key(self) -> str:
@@ -143,18 +143,22 @@ class OtherBuild(RuntimeError):
     """A case came to a process whose sources or packages are not those it is meant for."""
 
 
-def run_case(case: Case) -> Outcome:
+def run_case(case: Case, homes: tuple[str, ...] = ()) -> Outcome:
     """Run a case; whatever goes wrong in it, a solver that wants to end the process too, is told in the outcome.
+
+    Modules that enter its measures, their ``homes``, are imported first.
 
     Raises
     ------
     OtherBuild
-        It is meant for other sources or packages than this process has: the result would be filed under a wrong key.
+        It is meant for other sources, packages or measures than are here: the result would be filed under a wrong key.
     """
-    if case.build != (ours := build(case.solver)):
+    enter_from(homes)
+    if case.build != (ours := build_here(case.solver)):
         raise OtherBuild(
             f"The workers run hoop-pulse {ours}, the sweep is one of {case.build}: they must agree, and so must their"
-            " versions of Python, numpy, scipy, numba and scikit-fem"
+            " versions of Python, numpy, scipy, numba and scikit-fem, and the measures entered, which workers take"
+            " from the script or from modules, not from a notebook's cells"
         )
     start = running_clock()
     known = {

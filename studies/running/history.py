@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import dataclasses
 import io
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -105,6 +105,12 @@ def accumulated(t: Array, values: Array) -> Array:
 def to_csv(columns: Columns) -> str:
     """Columns as text, numbers to the last bit."""
     return rows_to_csv(list(columns), zip(*(values.tolist() for values in columns.values()), strict=True))
+
+
+def records_to_csv(records: Sequence[Mapping[str, object]]) -> str:
+    """Records as text, each value below its own name; nothing where a record has none."""
+    names = list(dict.fromkeys(name for record in records for name in record))
+    return rows_to_csv(names, ([record.get(name, "") for name in names] for record in records)) if records else ""
 
 
 def rows_to_csv(header: list[str], rows: Iterable[Iterable[object]]) -> str:

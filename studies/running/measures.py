@@ -63,6 +63,10 @@ MEASURES: dict[str, Measure] = {}
 def measure(symbol: str, unit: Unit) -> Callable[[Callable[[Motion, Pulse], float]], Callable[[Motion, Pulse], float]]:
     """Enter a function of a motion and a pulse among the measures, by its own name.
 
+    Results that are kept know the function by its code, with the functions and plain numbers of its module that it
+    names: where that has changed, or a measure was not there, a case is run again. Workers import the script or the
+    module that enters it; a cell of a notebook they cannot.
+
     Parameters
     ----------
     symbol : str
@@ -204,6 +208,11 @@ def units_of_measures(scene: Scene) -> dict[str, str]:
 def measures(motion: Motion, pulse: Pulse) -> dict[str, float]:
     """Every measure of a pulse by name."""
     return {name: float(entry.of(motion, pulse)) for name, entry in MEASURES.items()}
+
+
+def own_measures() -> list[Measure]:
+    """Those that were entered elsewhere than here, by name."""
+    return [MEASURES[name] for name in sorted(MEASURES) if MEASURES[name].of.__module__ != __name__]
 
 
 def inside(motion: Motion, pulse: Pulse) -> list[Phase]:

@@ -3,21 +3,24 @@ here.
 
 A third solver is compared by writing one adapter, a function of this signature, and naming it
 ``module:function`` on the command line (``--solver``) or from Python. Naming it runs it: its module is imported and the
-function called, in every worker, with all that the user may do; what it prints goes to stderr. Files, a sweep's for
-instance, are data and name the built-in solvers alone.
+function called, in every worker, with all that the user may do; what it prints goes to stderr. Results know the file of
+its module, not what that imports. Files, a sweep's for instance, are data and name the built-in solvers alone.
 """
 
 from __future__ import annotations
 
+import dis
 import hashlib
+import inspect
 import json
 import sys
-from collections.abc import Callable
-from contextlib import redirect_stdout
+from collections.abc import Callable, Iterator
+from contextlib import redirect_stdout, suppress
 from functools import cache, wraps
 from importlib import import_module, metadata
 from importlib.util import find_spec
 from pathlib import Path
+from types import CodeType, FunctionType
 from typing import Any, Protocol
 
 from rigid import Motion, Scene
@@ -25,6 +28,7 @@ from rigid.allowed import shown
 from rigid.output.file import version
 
 from .files import StudyError
+from .measures import own_measures
 
 Progress = Callable[[float], None]
 
@@ -113,6 +117,70 @@ def ensure_accepts(name: str, scene: Scene) -> None:
         from flexible import ensure_possible
 
         ensure_possible(scene)
+
+
+def build_here(name: str) -> str:
+    """All that results of a solver hang on but the case: its build, and the measures that have been entered here."""
+    with suppress(StudyError):  # which its run then says
+        solver(name)  # its module may enter some as it is imported
+    return build(name) + entered()
+
+
+def entered() -> str:
+    """The measures of one's own, each with a digest of what it computes; part of a case's build."""
+    return "".join(f"+{each.name}:{_digest(each.of)}" for each in own_measures())
+
+
+def homes() -> tuple[str, ...]:
+    """The modules that enter them, for other processes; a script these import by themselves."""
+    return tuple({entry.of.__module__: None for entry in own_measures() if entry.of.__module__ != "__main__"})
+
+
+def enter_from(modules: tuple[str, ...]) -> None:
+    """Import modules that enter measures, as far as they are to be had here."""
+    for name in modules:
+        try:
+            import_module(name)
+        except Exception:  # what is missing then is told by the case's build
+            continue
+
+
+def _digest(function: Callable[..., object]) -> str:
+    return hashlib.sha256("\n".join(_told(inspect.unwrap(function), [])).encode()).hexdigest()[:8]
+
+
+def _told(value: object, seen: list[object]) -> Iterator[str]:
+    """What a function does, in words that are the same in every process: its code, and what that names.
+
+    What other modules have in their place is left out, and so is a number that the function itself counts with.
+    """
+    if isinstance(value, (int, float, complex, str, bytes, type(None))):
+        yield repr(value)
+    elif isinstance(value, (tuple, frozenset)):
+        yield type(value).__name__
+        each = [" ".join(_told(entry, seen)) for entry in value]
+        yield from sorted(each) if isinstance(value, frozenset) else each  # a set of words has an order by process
+    elif isinstance(value, CodeType):
+        yield value.co_code.hex()
+        yield " ".join(value.co_names)
+        for constant in value.co_consts:
+            yield from _told(constant, seen)
+    elif isinstance(value, FunctionType) and value not in seen:
+        seen.append(value)
+        cells = [cell.cell_contents for cell in value.__closure__ or ()]
+        named = [value.__globals__.get(name) for name in _globals(value.__code__)]
+        near = [each for each in named if getattr(each, "__module__", value.__module__) == value.__module__]
+        for part in (value.__code__, value.__defaults__, *(value.__kwdefaults__ or {}).values(), *cells, *near):
+            yield from _told(part, seen)
+
+
+@cache
+def _globals(code: CodeType) -> tuple[str, ...]:
+    """Names of its module that code reads and does not set."""
+    steps = list(dis.get_instructions(code))
+    read, written = ({step.argval for step in steps if step.opname == f"{does}_GLOBAL"} for does in ("LOAD", "STORE"))
+    inner = {name for each in code.co_consts if isinstance(each, CodeType) for name in _globals(each)}
+    return tuple(sorted((inner | read) - written))
 
 
 @cache

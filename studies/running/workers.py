@@ -17,7 +17,7 @@ from ..machine.kernels import compile_side_by_side, levels_of, prepare
 from ..machine.processes import NoWorker, Processes, WorkerDied
 from .case import Case, OtherBuild, Outcome, run_case
 from .files import StudyError, plain
-from .solvers import version
+from .solvers import homes, version
 
 T = TypeVar("T")
 
@@ -89,7 +89,7 @@ class Machine(Pool):
                     with suppress(WorkerDied):  # the cases compile it; one that does not survive that is tried again
                         self._processes.submit(prepare, *absent).result()
             self._ready.update(levels)
-        return self._processes.submit(run_case, case)
+        return self._processes.submit(run_case, case, homes())
 
     def beside(self, function: Callable[..., T], *arguments: object) -> Future[T]:
         return self._processes.submit(function, *arguments)
@@ -137,7 +137,7 @@ class Cluster(Pool):
         self.executor: Executor = self.client.get_executor(pure=False)
 
     def submit(self, case: Case) -> Future[Outcome]:
-        return self.executor.submit(run_case, case)
+        return self.executor.submit(run_case, case, homes())
 
     def workers(self) -> int:
         return max(1, sum(self.client.nthreads().values()))

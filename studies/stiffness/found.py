@@ -13,7 +13,7 @@ from rigid import Scene, scene_to_dict
 from rigid.output import summary
 
 from ..running.case import SAME, SHARE, Outcome
-from ..running.history import rows_to_csv
+from ..running.history import records_to_csv
 from ..running.measures import MEASURES, OF_THE_MEASURE, known, units_of_measures
 from .coefficient import Coefficient, coefficient
 from .errors import errors_of
@@ -222,9 +222,8 @@ class StiffnessStudy(summary.Summarised):
 
     def to_csv(self) -> str:
         """The records as text, numbers to the last bit."""
-        records = self.records()
-        told = ([("" if value != value else value) for value in record.values()] for record in records)  # NaN is empty
-        return rows_to_csv(list(records[0]), told)
+        told = [{name: "" if value != value else value for name, value in each.items()} for each in self.records()]
+        return records_to_csv(told)  # NaN is empty
 
     def _table(self) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
         rows = [

@@ -7,6 +7,7 @@ from math import nan
 from typing import Any
 
 from ..running.case import Outcome
+from ..running.measures import known
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,14 +32,20 @@ class Rung:
     outcome: Outcome
 
     def measure(self, name: str, pulse: int = 0) -> float:
-        """A measure of a pulse, NaN where there is none."""
+        """A measure of a pulse, NaN where there is no such pulse.
+
+        Raises
+        ------
+        ValueError
+            It is none of those that the study was made with.
+        """
         pulses = self.outcome.pulses
-        return pulses[pulse][name] if pulse < len(pulses) else nan
+        return known(pulses[pulse], name) if pulse < len(pulses) else nan
 
     def error(self, name: str, pulse: int = 0) -> float:
         """Numerical error of that measure, from its change when the tolerance was quartered."""
         errors = self.outcome.numerical_error
-        return errors[pulse][name] if pulse < len(errors) else nan
+        return known(errors[pulse], name) if pulse < len(errors) else nan
 
     def to_dict(self) -> dict[str, Any]:
         """The rung as JSON prints it: the first pulse's measures at the top, all pulses below."""

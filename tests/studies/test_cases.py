@@ -11,7 +11,8 @@ from third_solver import softened
 
 from flexible import FlexiblePulse
 from rigid import Motion, Scene, load_scene
-from studies.running.case import FINER, Case, _pair, run_case
+from studies import MEASURES, Measure, Unit
+from studies.running.case import FINER, Case, OtherBuild, _pair, run_case
 from studies.running.store import Store
 
 SCENE = load_scene("paper-3.1")
@@ -24,6 +25,60 @@ def test_all_that_is_asked_of_a_case_is_in_its_key(asked):
     """A result without histories is none of a case that wants them."""
     case = Case("rigid", SCENE)
     assert dataclasses.replace(case, **asked).key != case.key
+
+
+def entered(monkeypatch, function):
+    """A measure that is there as long as the test."""
+    monkeypatch.setitem(MEASURES, "own", Measure("own", "own", Unit.TIME, function))
+
+
+def test_a_measure_that_was_edited_makes_other_cases(monkeypatch):
+    """What it does, where it is, and by which number; not where in a file it stands."""
+    bare = Case("rigid", SCENE).key
+    keys = []
+    for text in (
+        "def own(motion, pulse): return pulse.t_start",
+        "\n\ndef own(motion, pulse): return pulse.t_start",
+        "def own(motion, pulse): return pulse.t_end",
+        "def own(motion, pulse): return 2.0 * pulse.t_end",
+        "TIMES = 2.0\ndef own(motion, pulse): return TIMES * pulse.t_end",
+        "TIMES = 3.0\ndef own(motion, pulse): return TIMES * pulse.t_end",
+        "def own(motion, pulse): return inner(pulse)\ndef inner(pulse): return pulse.t_end",
+        "def own(motion, pulse): return inner(pulse)\ndef inner(pulse): return pulse.t_start",
+        "def own(motion, pulse): return max(x.t_end for x in (pulse,))",
+        "def own(motion, pulse): return max(x.t_start for x in (pulse,))",
+        "def own(motion, pulse, times=1): return times",
+        "def own(motion, pulse, times=2): return times",
+    ):
+        namespace = {"__name__": "mine"}
+        exec(text, namespace)
+        entered(monkeypatch, namespace["own"])
+        keys.append(Case("rigid", SCENE).key)
+    assert keys[0] == keys[1]
+    assert len({bare, *keys}) == len(keys)
+    monkeypatch.delitem(MEASURES, "own")
+    assert Case("rigid", SCENE).key == bare
+
+
+def test_a_measure_may_count_how_often_it_was_asked(monkeypatch):
+    """With a number that only it sets: it is the same measure."""
+    namespace = {"__name__": "mine"}
+    exec("asked = 0\ndef own(motion, pulse):\n    global asked\n    asked += 1\n    return asked", namespace)
+    entered(monkeypatch, namespace["own"])
+    case = Case("rigid", SCENE)
+    assert not run_case(case).failure
+    assert namespace["asked"] > 0
+    assert Case("rigid", SCENE).key == case.key
+    assert not run_case(case).failure
+
+
+def test_a_process_without_a_measure_refuses_the_cases_that_have_it(monkeypatch):
+    with monkeypatch.context() as here:
+        entered(here, lambda motion, pulse: pulse.t_start)
+        case = Case("rigid", SCENE)
+        assert "own" in run_case(case).pulses[0]
+    with pytest.raises(OtherBuild, match=r"\+own:[0-9a-f]{8}: they must agree.*measures entered"):
+        run_case(case)
 
 
 def verbose(scene: Scene, *, history: bool = False, progress: object = None) -> Motion:

@@ -69,6 +69,12 @@ def test_a_point_is_called_above_the_rigid_value_where_it_is(study):
     pyplot.close("all")
 
 
+def test_a_measure_that_a_rung_has_not_is_told_with_those_that_it_has(study):
+    for of in (study.rungs[0].measure, study.rungs[0].error):
+        with pytest.raises(ValueError, match=r"^'my_time' is not a measure of this study: known are normal_impulse, "):
+            of("my_time")
+
+
 def test_a_study_as_a_table_and_in_a_few_lines(study):
     table = study.to_dataframe()
     assert list(table["contact_stiffness"]) == pytest.approx(list(np.geomspace(1e7, 1e12, 6)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import errno
+import io
 import json
 import math
 import os
@@ -29,7 +30,7 @@ from command_line import HANGS, SCENE, command, environment, is_one_sentence, pr
 from rigid import SceneError, load_scene, scene_from_dict, scene_to_dict
 from rigid import simulate as rigid_motion
 from rigid.output import whole
-from studies import StudyError, load_sweep, pool, run_sweep, sweep_from_dict
+from studies import MEASURES, Measure, StudyError, Table, Unit, load_sweep, pool, run_sweep, sweep_from_dict
 from studies.machine.processes import Processes, WorkerDied
 from studies.running.case import Case, run_case
 from studies.running.measures import phase_sequence
@@ -98,6 +99,75 @@ def test_the_table_is_a_data_frame_and_a_csv_of_the_same_numbers(tmp_path):
     (tmp_path / "table.csv").write_text(table.to_csv())
     read = pandas.read_csv(tmp_path / "table.csv", dtype={"friction_loss": str})
     assert [float(text) for text in read["friction_loss"]] == list(frame["friction_loss"])
+
+
+def test_each_number_is_below_the_name_of_its_measure(tmp_path, monkeypatch):
+    """Of rows that were kept before another measure was entered, too, and of a table that is older than one."""
+    lists = {"sweep": {"scene": "paper-3.1", "solvers": ["rigid"]}, "run": {"until": "pulse"}}
+    some, more = ({**lists, "hoop": {"k": ks}} for ks in ([0.1], [0.1, 0.2]))
+    monkeypatch.setitem(MEASURES, "begins", Measure("begins", "t0", Unit.TIME, lambda motion, pulse: pulse.t_start))
+    first = run_sweep(some, out=tmp_path)
+    monkeypatch.delitem(MEASURES, "begins")
+    monkeypatch.setitem(MEASURES, "angle", Measure("angle", "phi0", Unit.NUMBER, lambda motion, pulse: pulse.phi_start))
+    second = run_sweep(more, out=tmp_path)
+    assert "angle" not in first.to_dataframe()
+    assert "begins" not in second.to_dataframe()
+    together = Table((*first.rows, *second.rows))
+    for table in (first, second, together):
+        none = {"begins": ["nan"], "angle": ["nan"]}
+        text = io.StringIO(table.to_csv())
+        read = pd.read_csv(text, keep_default_na=False, na_values=none, float_precision="round_trip")
+        pd.testing.assert_frame_equal(read, table.to_dataframe(), check_exact=True)
+    frame = together.to_dataframe()
+    assert frame["begins"].isna().tolist() == [False, True, True]
+    assert frame["angle"].isna().tolist() == [True, False, False]
+    assert list(frame)[-4:] == ["phases", "ended", "failure", "key"]
+
+
+MEASURED = """\
+import studies
+
+def two(motion, pulse):
+    return pulse.{what}
+
+if {where}:
+    studies.measure("t", studies.Unit.TIME)(two)
+
+if __name__ == "__main__":
+    import mine
+    lists = {{"sweep": {{"scene": "paper-3.1", "solvers": ["rigid"]}}, "hoop": {{"k": [0.1, 0.2]}}}}
+    with studies.pool(2) as place:
+        table = studies.run_sweep({{**lists, "run": {{"until": "pulse"}}}}, place, "out")
+    for row in table.rows:
+        print(*(row.outcome.pulses[0][name] for name in ("one", "two", "duration")))
+"""
+
+
+@pytest.mark.slow
+def test_workers_have_the_measures_of_modules_and_of_the_script(tmp_path):
+    """One that is defined anew is measured anew; one that they cannot have ends the sweep."""
+    of = "import studies\n\n@studies.measure('t', studies.Unit.TIME)\ndef one(motion, pulse): return pulse.t_start\n"
+    (tmp_path / "mine.py").write_text(of)
+    script = tmp_path / "script.py"
+
+    def ended(what: str, where: str = "True") -> subprocess.CompletedProcess[str]:
+        script.write_text(MEASURED.format(what=what, where=where))
+        words = [sys.executable, script]
+        return subprocess.run(words, cwd=tmp_path, env=environment(), capture_output=True, text=True, timeout=HANGS)
+
+    def rows(done: subprocess.CompletedProcess[str]) -> list[list[float]]:
+        assert done.stderr == ""
+        return [[float(word) for word in line.split()] for line in done.stdout.splitlines()]
+
+    begun, over = rows(ended("t_start")), rows(ended("t_end"))
+    assert len(begun) == len(over) == 2
+    for (start, same, lasts), (start_too, end, _) in zip(begun, over, strict=True):
+        assert start == same == start_too
+        assert end == pytest.approx(start + lasts)
+    refused = ended("t_start + 1", "__name__ == '__main__'")
+    assert refused.returncode == 1
+    assert "StudyError: The workers run" in refused.stderr
+    assert "measures entered" in refused.stderr
 
 
 def test_each_pulse_is_a_record_with_its_own_number_measures_and_phases():
