@@ -18,7 +18,7 @@ from .running.history import records_to_csv
 from .running.measures import MEASURES, units_of_measures
 from .running.runs import run_cases
 from .running.solvers import version
-from .running.workers import Here, Pool
+from .running.workers import Pool, as_pool
 from .sweepfile import Sweep, load_sweep, sweep_from_dict
 
 if TYPE_CHECKING:
@@ -152,16 +152,16 @@ def run_sweep(
     SceneError
         As of :func:`load_sweep`.
     StudyError
-        ``out`` cannot be a folder.
+        ``pool`` is none, or ``out`` cannot be a folder.
     """
-    sweep = as_sweep(sweep)
+    sweep, place = as_sweep(sweep), as_pool(pool)
     asked: list[tuple[dict[str, Any], str, Case | str]] = []
     for values, scene in sweep.points:
         for name in sweep.solvers:
             what = scene if isinstance(scene, str) else Case(name, scene, histories=sweep.histories)
             asked.append((dict(zip(sweep.keys, values, strict=True)), name, what))
     cases = [case for _, _, case in asked if isinstance(case, Case)]
-    outcomes = iter(run_cases(cases, pool or Here(), out, progress, forget=True, say=say))
+    outcomes = iter(run_cases(cases, place, out, progress, forget=True, say=say))
     rows = []
     for at, name, case in asked:
         outcome = next(outcomes) if isinstance(case, Case) else Outcome("", name, {}, version(), failure=case)

@@ -18,7 +18,7 @@ from rigid.scenefile import units_of_keys
 
 from ..running.case import Case, Outcome
 from ..running.runs import run_cases
-from ..running.workers import Here, Pool
+from ..running.workers import Pool, as_pool
 from .rolling.asked import STIFFNESS, Ask, HopMap
 from .rolling.energies import HopEnergies
 from .rolling.roll import SOLVER, WHOLE, Flight
@@ -177,10 +177,11 @@ def hop_study(
     Raises
     ------
     SceneError, StudyError
-        What is asked is no scene, or as of :class:`HopMap`.
+        What is asked is no scene, ``pool`` is none, or as of :class:`HopMap`.
     """
     if not isinstance(asked, HopMap):
         asked = HopMap(as_scene(asked))
+    place = as_pool(pool)
     rounds = asked.bisections + 1 if asked.bisections else 0  # behind the map, which is most of the work
     shares = [0.0, *np.linspace(0.8, 1.0, rounds + 1).tolist()] if rounds else [0.0, 1.0]
     stage = 0
@@ -199,9 +200,7 @@ def hop_study(
         cases = [Case(WHOLE if asked.whole else SOLVER, scene, cut=True) for scene in scenes]
         low, high = shares[stage : stage + 2]
         part = " of the map" if stage == 0 and asked.bisections else ""
-        outcomes = run_cases(
-            cases, pool or Here(), out, lambda share: tell(low + (high - low) * share), say=say, part=part
-        )
+        outcomes = run_cases(cases, place, out, lambda share: tell(low + (high - low) * share), say=say, part=part)
         found = [
             (ask.line, HopCase(ask.stiffness, scene, outcome, ask.whole and _to_its_end(outcome)))
             for ask, scene, outcome in zip(asks, scenes, outcomes, strict=True)

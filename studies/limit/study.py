@@ -27,7 +27,7 @@ from ..inner.stops.critical import critical_theta
 from ..inner.stops.hanging import Hanging, followed, hanging
 from ..plots.sheet import power_of
 from ..running.measures import MEASURES, known
-from ..running.workers import Here, Pool
+from ..running.workers import Pool, as_pool
 from .compliant import Sight, at_foundation, seen_by_flexible, seen_by_rigid_rings, times_off
 from .damping import Other, others
 from .prediction import Prediction, predict, units_told
@@ -284,7 +284,7 @@ def limit_study(
         )  # fmt: skip
     sights = seen_by_rigid_rings(scene, foundations)
     limits = {name: prediction.terms[name].limit for name in OBSERVED}
-    sights += seen_by_flexible(scene, limits, flexible, pool or Here(), out, progress)
+    sights += seen_by_flexible(scene, limits, flexible, as_pool(pool), out, progress)
     separate = separate_from(way, [event.layer for event in found])
     stiff, hangs = stiff_from(way, scene), hanging(scene, way)
     return LimitStudy(

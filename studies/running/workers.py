@@ -10,7 +10,7 @@ from contextlib import contextmanager, suppress
 from typing import Protocol, TypeVar
 
 from rigid import scene_to_dict
-from rigid.allowed import require_whole
+from rigid.allowed import require_whole, shown
 from rigid.batch.cores import cores
 
 from ..machine.kernels import compile_side_by_side, levels_of, prepare
@@ -175,6 +175,21 @@ def pool(workers: int | None = None, scheduler: str | None = None) -> Iterator[P
         yield place
     finally:
         place.stop()
+
+
+def as_pool(given: Pool | None) -> Pool:
+    """Where cases run, here if nothing is said.
+
+    Raises
+    ------
+    StudyError
+        What is no pool.
+    """
+    if given is None:
+        return Here()
+    if not all(callable(getattr(given, name, None)) for name in ("submit", "workers")):
+        raise StudyError(f"pool = {shown(given)} is not possible: it is what `with studies.pool(4) as pool:` gives.")
+    return given
 
 
 def run_all(cases: Iterable[Case], pool: Pool) -> Iterator[tuple[Case, Outcome]]:

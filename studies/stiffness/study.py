@@ -24,7 +24,7 @@ from ..running.case import Case
 from ..running.files import StudyError
 from ..running.runs import run_cases
 from ..running.solvers import ensure_accepts
-from ..running.workers import Here, Pool
+from ..running.workers import Here, Pool, as_pool
 from .errors import errors_of
 from .extrapolation.limits import Limit, limit_of
 from .found import LIMITS, StiffnessStudy
@@ -82,7 +82,7 @@ def stiffness_study(
     SceneError
         What is no rate.
     StudyError
-        No ladder, no such solver, a rigid hoop without a pulse to study, or no rung that came through. Of too
+        No ladder, no pool, no such solver, a rigid hoop without a pulse to study, or no rung that came through. Of too
         few rungs a limit is NaN: a rate that is fitted takes five, known ones four, and two more than they are.
     """
     from flexible import rigid_limit
@@ -97,7 +97,7 @@ def stiffness_study(
         raise StudyError(f"ladder = {ladder!r} is not possible: it is a studies.Ladder.")
     ladder = (ladder or Ladder()).around(scene)
     ensure_accepts(solver, ladder.rungs(scene)[0])
-    pool = pool or Here()
+    pool = as_pool(pool)
     if not all_pulses:
         scene = scene.replace(run=Run(until="pulse"))
 

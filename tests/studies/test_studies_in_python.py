@@ -33,6 +33,21 @@ def test_workers_that_are_no_number_of_them_are_refused(workers):
         pass
 
 
+@pytest.mark.parametrize("place", [3, 0, pool(2)])
+@pytest.mark.parametrize("run", [stiffness_study, studies.hop_study, run_sweep])
+def test_a_pool_that_is_none_is_refused_before_anything_runs(run, place, tmp_path):
+    what = "paper-3.3-massless" if run is not run_sweep else {"sweep": {"scene": "paper-3.1"}, "hoop": {"k": [0.1]}}
+    with pytest.raises(StudyError, match=r"^pool = .* is not possible: it is what `with studies\.pool"):
+        run(what, pool=place, out=tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("address", [3, "", "nowhere"])
+def test_what_is_no_address_of_a_scheduler_is_refused(address):
+    with pytest.raises(StudyError, match=f"no Dask scheduler at {address}: it takes host and port"), pool(2, address):
+        pass
+
+
 @pytest.mark.parametrize("rate", [float("nan"), float("inf"), -1.0, 0.0, "a", [1.0]])
 def test_a_rate_that_is_none_is_refused_before_anything_runs(tmp_path, rate):
     with pytest.raises(SceneError, match=r"^rate = .* is not possible"):
