@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import errno
 import gc
 import os
 import re
@@ -19,6 +20,7 @@ import rigid
 from rigid.kernel import announce, store
 from rigid.kernel.compile import Patience
 from rigid.kernel.insides.parts import as_part
+from rigid.output.whole import PART
 
 ROOT = Path(__file__).parent.parent
 CALLEE = "flexible/contact/points/normal.py"
@@ -50,6 +52,15 @@ OF_WHAT = """
 from numba.core.codegen import JITCodeLibrary
 made, finish = [], JITCodeLibrary._finalize_specific
 JITCodeLibrary._finalize_specific = lambda library: (made.append(library.name), finish(library))
+"""
+FULL = """
+import errno, os
+replace = os.replace
+def full(source, target):
+    if str(target).endswith({!r}):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    replace(source, target)
+os.replace = full
 """
 TOLD = """
 import sys
@@ -172,6 +183,24 @@ def test_another_folder_than_expected_is_told(tmp_path, monkeypatch):
     folder, trouble = store.user_cache.__wrapped__()
     assert not folder.is_relative_to(tmp_path / "file")
     assert "cannot be written" in trouble
+
+
+@pytest.mark.parametrize("ends", ["", ".nbc"])
+def test_on_a_full_disk_nothing_is_kept_which_is_told_once(tmp_path, ends):
+    """No file finds room, not even the sources, or none as large as code."""
+    installation, cache = copy_of_the_packages(tmp_path / "installation"), tmp_path / "cache"
+    result, compiled, told = run(installation, cache, FULL.format(ends) + PROGRAM)
+    assert (result, compiled) == (-1.5, True)
+    assert told.count(f"hoop: compiled code is not kept: {cache / store.NAME} is full.") == 1
+    assert told.count("\n") == 2
+    assert not [file for file in files(cache) if file.suffix == ".nbc" or file.name.startswith(PART)]
+
+
+def test_what_else_goes_wrong_with_a_file_is_not_passed_over(monkeypatch, tmp_path):
+    monkeypatch.setattr(store, "_full", set())
+    with pytest.raises(PermissionError), store.as_room_allows(tmp_path):
+        raise PermissionError(errno.EACCES, "denied")
+    assert store.keeps()
 
 
 def test_two_processes_may_begin_at_once(tmp_path, monkeypatch):

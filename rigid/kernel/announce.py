@@ -58,16 +58,14 @@ def _begin(package: str) -> None:
         _search_seldom()
     _thread.depth = depth + 1
     if depth == 0 and ours and package not in _told:
-        from .store import user_cache
+        from .store import keeps, user_cache
 
         _told.add(package)
         folder, trouble = user_cache()
         _logger.warning(
-            "hoop: compiling a part of the %s solver for this machine, once: 10 to 40 s, or more if it is busy. "
-            "Kept in %s%s.",
+            "hoop: compiling a part of the %s solver for this machine, once: 10 to 40 s, or more if it is busy.%s",
             package,
-            folder,
-            f", as {trouble}" if trouble else "",
+            f" Kept in {folder}{f', as {trouble}' if trouble else ''}." if keeps() else "",
         )
 
 

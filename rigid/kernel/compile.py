@@ -232,9 +232,11 @@ def _compiler(function: FunctionType, keep: bool, **options: Any) -> Any:
     import numba
 
     from .announce import tell
-    from .store import beside_the_source
+    from .store import keep_code
 
     tell()
-    with beside_the_source():
-        compiler: Any = numba.njit
-        return compiler(cache=keep, **{**_OPTIONS, **options})(function)
+    mark: Any = numba.njit
+    compiler = mark(**{**_OPTIONS, **options})(function)
+    if keep and compiler is not function:  # which it is where NUMBA_DISABLE_JIT is set
+        keep_code(compiler)
+    return compiler

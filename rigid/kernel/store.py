@@ -9,13 +9,16 @@ so numba's own, documented cache puts the code there: never into the package, wh
 and never under the fingerprint of other sources, the callees' included. Installations of the same sources share a
 folder, wherever they are. The cache is ``NUMBA_CACHE_DIR`` where that is set, else the platform's. What an installation
 has beside its packages (``hoop compile --shared``), or what a ``NUMBA_CACHE_DIR`` that cannot be written holds, is
-copied from there instead of compiled again. What nothing has used for two months is removed.
+copied from there instead of compiled again. What nothing has used for two months is removed. On a full disk code is
+compiled and not kept.
 """
 
 from __future__ import annotations
 
 import contextlib
+import errno
 import hashlib
+import logging
 import os
 import re
 import shutil
@@ -151,6 +154,25 @@ def _own(folder: Path) -> bool:
     return status.st_uid == os.getuid() and not status.st_mode & 0o022
 
 
+@contextlib.contextmanager
+def as_room_allows(folder: Path) -> Iterator[None]:
+    """What writes into a folder, as far as its disk or a quota has room: the rest is left undone, and told."""
+    try:
+        yield
+    except OSError as error:
+        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+            raise
+        if not _full:
+            logging.getLogger(NAME).warning("hoop: compiled code is not kept: %s is full.", folder)
+        _full.add(folder)
+
+
+def keeps() -> bool:
+    """Whether all that was compiled so far found room."""
+    return not _full
+
+
+_full: set[Path] = set()
 _homes: list[Path] = []
 
 
@@ -159,10 +181,12 @@ def home(name: str, stamp: str) -> Path:
     cache_folder, trouble = user_cache()
     place = cache_folder / machine() / f"{name}-{stamp}"
     if not is_compiled(place):
-        for other in (shared_cache(), *([_wanted_cache()] if trouble else [])):
-            _copy(other / machine() / place.name, place)
+        with as_room_allows(cache_folder):
+            for other in (shared_cache(), *([_wanted_cache()] if trouble else [])):
+                _copy(other / machine() / place.name, place)
         if not place.is_dir():
-            place.mkdir(parents=True, exist_ok=True)  # another process may be as far
+            with as_room_allows(cache_folder):
+                place.mkdir(parents=True, exist_ok=True)  # another process may be as far
             prune(cache_folder)
     with contextlib.suppress(OSError):
         os.utime(place)
@@ -222,11 +246,12 @@ def prune(cache_folder: Path, now: float | None = None) -> None:
 
 
 def moved(function: FunctionType, place: Path, scope: dict[str, object] | None = None) -> FunctionType:
-    """The same function, as if defined in a copy of its file that stands in ``place``."""
+    """The same function, as if defined in a copy of its file that stands in ``place`` unless that is full."""
     original = Path(function.__code__.co_filename)
     copy = place / f"{function.__module__}.py"  # two rooms may have modules of one name
     if not copy.exists():
-        _write(copy, original.read_bytes())
+        with as_room_allows(user_cache()[0]):
+            _write(copy, original.read_bytes())
     code = function.__code__.replace(co_filename=str(copy))
     scope = function.__globals__ if scope is None else scope
     twin = FunctionType(code, scope, function.__name__, function.__defaults__, function.__closure__)
@@ -234,8 +259,29 @@ def moved(function: FunctionType, place: Path, scope: dict[str, object] | None =
     return twin
 
 
+def keep_code(compiler: Any) -> None:
+    """Have numba keep what it compiles of a function beside its source, as long as that stands and there is room."""
+    source = Path(compiler.py_func.__code__.co_filename)
+    if not source.is_file():  # for which there was no room
+        return
+    with as_room_allows(user_cache()[0]), _beside_the_source():
+        try:
+            compiler.enable_caching()
+        except RuntimeError:  # all that numba says of a folder that takes no file
+            with tempfile.TemporaryFile(dir=source.parent):
+                raise
+        kept = compiler._cache
+        save = kept.save_overload
+
+        def saved(*code: Any) -> None:
+            with as_room_allows(user_cache()[0]):
+                save(*code)
+
+        kept.save_overload = saved
+
+
 @contextlib.contextmanager
-def beside_the_source() -> Iterator[None]:
+def _beside_the_source() -> Iterator[None]:
     """Functions marked for compilation meanwhile are kept beside their source.
 
     numba prefers ``NUMBA_CACHE_DIR`` to that, and files by path and not by fingerprint there; the copies of sources

@@ -7,6 +7,7 @@ sentence; 130 interrupted; 141 nobody reads the output any more.
 
 from __future__ import annotations
 
+import errno
 import os
 import shlex
 import sys
@@ -167,13 +168,15 @@ def mesh(scene: str, file: Path) -> None:
 @click.option("--shared", is_flag=True, help="Keep it beside the installation too, for all who use that.")
 def compile_(shared: bool) -> None:
     """Compile both solvers for this machine now, not at their first use."""
-    from rigid.kernel.store import share
+    from rigid.kernel.store import keeps, share
 
     from ..machine.kernels import LEVELS, compile_on_all_cores, prepare
 
     start = time.perf_counter()
     compile_on_all_cores(("rigid", *LEVELS))
     place = prepare("rigid", *LEVELS)
+    if not keeps():
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(place))
     kept = share() if shared else place
     click.echo(f"Both solvers are compiled, in {kept}: it took {time.perf_counter() - start:.0f} s.")
 
