@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import nan
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
@@ -187,8 +188,12 @@ class FlexibleMotion(Motion):
     Its period is that of the rigid hoop which, released from this one's state at the end, will roll for ever.
     With the steps come the states of the ring (``kept``, one per flexible segment), of which fields are made.
     ``marches`` is what :func:`flexible.simulate` goes on from. Two motions are equal if all but these three are, which
-    are arrays that follow from the same steps.
+    are arrays that follow from the same steps. :meth:`to_dict` has it as plain values; ``dataclasses.asdict`` cannot
+    copy the factored matrices of ``kept``.
     """
+
+    if TYPE_CHECKING:  # the same field, of pulses that say more
+        pulses: Sequence[FlexiblePulse]
 
     ledger: Ledger
     steps: int

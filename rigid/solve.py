@@ -143,7 +143,7 @@ def _logged(events: Any, state: Any) -> Array:
     return np.array(events[: int(state[at.RECORDS]) * at.WIDTH], dtype=float).reshape(-1, at.WIDTH)
 
 
-def simulate(scene: SceneLike, aloft: Aloft = ON_THE_FLOOR) -> Motion:
+def simulate(scene: SceneLike, aloft: Aloft | tuple[float, float] = ON_THE_FLOOR) -> Motion:
     """The rigid motion of a scene, exact to round-off.
 
     Parameters

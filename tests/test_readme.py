@@ -93,6 +93,18 @@ def test_python_examples_run() -> None:
         exec(compile(block, "README.md", "exec"), {})
 
 
+@pytest.mark.slow
+def test_python_examples_are_typed(tmp_path: Path) -> None:
+    """For a user's checker, which has the packages and their ``py.typed`` alone."""
+    script = tmp_path / "example.py"
+    script.write_text("\n".join(re.findall(r"```python\n(.*?)```", README, flags=re.DOTALL)), encoding="utf-8")
+    options = ["--strict", "--follow-imports", "silent", "--cache-dir", "types"]
+    command = [sys.executable, "-m", "mypy", *options, script.name]
+    environment = {**os.environ, "MYPYPATH": str(ROOT)}
+    done = subprocess.run(command, cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=HANGS)
+    assert done.returncode == 0, done.stdout
+
+
 PAGES = [page for page in sorted(ROOT.glob("**/*.md")) if ".venv" not in page.parts]
 
 
