@@ -10,13 +10,14 @@ import dataclasses
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from numbers import Real
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .allowed import times_within
+from .allowed import shown, times_within
 from .output import sampling, summary, units
 from .record.values import Array, Phase, Pulse, Side, States, Turn
 from .scene import Scene
@@ -91,9 +92,10 @@ class Motion(summary.Summarised):
         if not self.phases:
             raise ValueError("a motion without phases")
         search = bisect_right if side == "right" else bisect_left
-        if np.ndim(t):
+        inside = self._inside(t, side)
+        if inside.ndim:
             raise ValueError("phase_at takes one time")
-        found = search(self.phases, float(self._inside(t, side)), key=lambda phase: phase.t_start)
+        found = search(self.phases, float(inside), key=lambda phase: phase.t_start)
         return self.phases[max(found - 1, 0)]
 
     def times(self, start: float = 0.0, end: float | None = None) -> Array:
@@ -102,7 +104,12 @@ class Motion(summary.Summarised):
         doubles tell them apart. All steps of a flexible motion are among them: there N, F, omega and slip velocity are
         straight between two, and impulses are the steps' own, of a higher order than the areas under these lines.
         """
-        return sampling.instants(self, start, self.t_end if end is None else end)
+        end = self.t_end if end is None else end
+        for one in (start, end):
+            if not isinstance(one, (Real, np.ndarray)) or np.ndim(one):
+                told = f"Times from {shown(start)} to {shown(end)} are not possible"
+                raise ValueError(f"{told}: each of the two is a number.")
+        return sampling.instants(self, start, end)
 
     def plot(self, *quantities: str, over: str = "t", axes: Any = None) -> NDArray[np.object_]:
         """Curves of the motion, a panel for each quantity; phases that do not roll are shaded if there are no more than

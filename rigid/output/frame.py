@@ -18,7 +18,7 @@ def states_of(motion: Any, t: ArrayLike | None) -> pandas.DataFrame:
     """A row for each instant, with the kind of phase; see :meth:`rigid.Motion.to_dataframe`."""
     import pandas
 
-    times = motion.times() if t is None else np.atleast_1d(np.asarray(t))
+    times = motion.times() if t is None else np.atleast_1d(motion._inside(t, "right"))
     if times.ndim != 1:
         raise ValueError(f"t of shape {times.shape} is not possible: times must be one-dimensional.")
     columns = columns_of(motion.at(times))

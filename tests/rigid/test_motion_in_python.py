@@ -161,6 +161,9 @@ def test_a_table_of_states(motion):
     assert len(motion.to_dataframe(0.5)) == 1
     with pytest.raises(ValueError, match="times must be one-dimensional"):
         motion.to_dataframe([[1, 2]])
+    for t in (np.ma.array([1.0, 2.0], mask=[False, True]), [[1, 2], [3]], "1"):
+        with pytest.raises(ValueError, match=r"^times = .* is not possible: the motion goes from 0 to "):
+            motion.to_dataframe(t)
 
 
 @pytest.mark.parametrize("span", [(3, 1), (1e9,), (0.0, np.nan)])
@@ -168,6 +171,12 @@ def test_times_run_upward(motion, span):
     with pytest.raises(ValueError, match="they run upward"):
         motion.times(*span)
     assert motion.times(1, 1).dtype == float
+
+
+@pytest.mark.parametrize(("start", "end"), [("x", 2), (None, None), ([[1, 2], [3]], 2), (0, [1, 2]), (0, "x")])
+def test_each_end_of_the_times_is_a_number(motion, start, end):
+    with pytest.raises(ValueError, match=r"^Times from .* to .* are not possible: each of the two is a number"):
+        motion.times(start, end)
 
 
 def test_thousands_of_pulses_are_sampled_in_a_few_calls():
@@ -367,6 +376,8 @@ def test_what_is_asked_in_the_wrong_words(motion):
         motion.plot("energy", axes=mpl.figure.Figure())
     with pytest.raises(ValueError, match="one time"):
         motion.phase_at([1, 2])
+    with pytest.raises(ValueError, match=r"^times = .* is not possible"):
+        motion.phase_at([[1, 2], [3]])
     with pytest.raises(SceneError, match=r"aloft = 1\.0 is not possible"):
         simulate("paper-3.1", 1.0)
     with pytest.raises(SceneError, match="it must be a Release"):
