@@ -6,6 +6,8 @@ from rigid import Scene, SceneError, SceneLike, as_scene
 
 THINNEST = 9e-4  # wall over R: quads are too long for a thinner one, and rounding errors of their stretching too large
 
+LIGHTEST = 1e-8  # mass of the hoop over the disk's, if it has one: steps do not follow a lighter one's vibrations
+
 WIDEST = 1.0  # half-width over R of the patch under the weight: no point of a hoop is further to either side than R
 
 
@@ -15,13 +17,18 @@ def ensure_possible(scene: SceneLike) -> None:
     Raises
     ------
     SceneError
-        A point mass without inertia, which cannot ride on a flexible hoop, a wall too thin for quads, or a floor too
-        soft to stand on.
+        A point mass without inertia, which cannot ride on a flexible hoop, a hoop that has next to no mass, a wall too
+        thin for quads, or a floor too soft to stand on.
     """
     scene = as_scene(scene)
     if scene.hoop.k == 0 and scene.hoop.mass_ratio == 0:
         raise SceneError(
             "hoop.k = 0 is not possible here: the flexible hoop needs a disk with a radius, or a hoop with a mass."
+        )
+    if 0 < scene.hoop.mass_ratio < LIGHTEST:
+        raise SceneError(
+            f"hoop.mass_ratio = {scene.hoop.mass_ratio:g} is not possible here: so light a ring vibrates too fast "
+            f"for any step; take 0, with which the hoop moves alike, or {LIGHTEST:g} and more."
         )
     ensure_thick(scene.to_dimensionless().wall)
     _ensure_stands(scene)

@@ -1,4 +1,4 @@
-"""How thin a wall the mesh knows: quads stretch h^-2 times as hard as they bend."""
+"""How thin a wall the mesh knows, quads stretch h^-2 times as hard as they bend; and how light a hoop may be."""
 
 from math import radians
 
@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 import flexible
+import rigid
 from flexible.ring.choice import ring_of
 from flexible.ring.fem import Ring
-from flexible.ring.possible import THINNEST
+from flexible.ring.possible import LIGHTEST, THINNEST
 from meshes import ring_mesh
 from rigid import Friction, Hoop, Release, Scene, SceneError
 from rigid import Ring as Elastic
@@ -41,6 +42,20 @@ def test_a_thinner_one_is_refused(level):
     with pytest.raises(SceneError, match="too thin for the quads"):
         flexible.simulate(scene)
     assert ring_of(scene.replace(hoop={"r": 1.0}, ring={"thickness": 0.001})).mesh.grid.shape[1] > 0, "as it says"
+
+
+@pytest.mark.parametrize("law", ["patch", "brush"])
+def test_a_hoop_with_next_to_no_mass_is_refused(law):
+    """The rigid one may have it; one at the bound moves like that without."""
+    scene = rigid.load_scene("paper-3.3-massless").replace(run={"until": "pulse"}, solve={"rtol": 1e-3})
+    without = scene.replace(contact={"law": law, "stiffness": 1e8})
+    light = without.replace(hoop={"mass_ratio": 0.99 * LIGHTEST})
+    with pytest.raises(SceneError, match=r"^hoop\.mass_ratio = 9\.9e-09 is not possible here.*; take 0"):
+        flexible.simulate(light)
+    assert rigid.simulate(light).completed
+    both = without, without.replace(hoop={"mass_ratio": LIGHTEST})
+    none, least = (flexible.simulate(one).pulses[0].impulse_ratio for one in both)
+    assert least == pytest.approx(none, rel=1e-3)
 
 
 def test_a_point_mass_needs_a_hoop_with_a_mass():
