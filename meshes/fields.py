@@ -83,6 +83,9 @@ class Block:
                 if value.ndim not in (1, 2) or len(value) != count:
                     raise SeriesError(f"{kind} field {name} has shape {value.shape} on {count} {kind}s.")
 
+    def __repr__(self) -> str:
+        return f"Block({len(self.points)} points, {len(self.cells)} cells)"
+
 
 @dataclass(frozen=True, eq=False)
 class Frame:
@@ -100,6 +103,9 @@ class Frame:
     def __post_init__(self) -> None:
         if not self.blocks:
             raise SeriesError(f"a frame without a block, at t = {self.time!r}, shows nothing.")
+
+    def __repr__(self) -> str:
+        return f"Frame(t = {self.time!r}: {', '.join(self.blocks)})"
 
 
 def ring_block(ring: RingMesh, points: Array, **fields: AnyArray) -> Block:

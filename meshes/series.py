@@ -219,7 +219,7 @@ class Series:
 
     def nearest_index(self, time: float) -> int:
         """The number of that frame."""
-        if time != time:
+        if not isinstance(time, Real) or time != time:
             raise SeriesError(f"no frame is near t = {time!r}.")
         return int(np.abs(self.times - np.clip(time, self.times[0], self.times[-1])).argmin())
 

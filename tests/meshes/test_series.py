@@ -58,8 +58,11 @@ def test_round_trip_is_exact_to_the_bit(written, ovals):
     assert series.nearest(0.4).time == 1 / 3
     assert series.nearest(-np.inf).time == TIMES[0]
     assert series.nearest(np.inf).time == TIMES[-1]
-    with pytest.raises(SeriesError, match="t = nan"):
-        series.nearest(np.nan)
+    for none in (np.nan, "x", None, [1, 2]):
+        with pytest.raises(SeriesError, match="no frame is near t = "):
+            series.nearest_index(none)
+    assert repr(series[0]) == "Frame(t = 0.1: ring, rim, disk, floor)"
+    assert re.fullmatch(r"Block\(\d+ points, \d+ cells\)", repr(series[0].blocks["ring"]))
     with pytest.raises(TypeError, match="integer"):
         series[0:2]
 
