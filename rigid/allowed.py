@@ -23,6 +23,8 @@ C = TypeVar("C")
 
 MOST_DEGREES = 5e10  # 1e9 radians or so: of a larger angle too few digits would be left within a turn
 
+_PACKAGES = ("rigid", "flexible", "studies")
+
 _LINE = 60  # characters of a value that a sentence shows
 
 _MEANT = {
@@ -47,6 +49,14 @@ def unknown(kind: str, name: str, known: Sequence[str]) -> SceneError:
     near = [meant] if meant in known else get_close_matches(key, known, n=1, cutoff=0.7)
     hint = f"did you mean {near[0]!r}?" if near else f"known are {', '.join(known)}."
     return SceneError(f"{name} is not a {kind}: {hint}")
+
+
+def users_level() -> int:
+    """The ``stacklevel`` by which a warning points at the line outside this project that led to it."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] in _PACKAGES:
+        level, frame = level + 1, frame.f_back
+    return level
 
 
 def in_radians(key: str, value: Any) -> float:

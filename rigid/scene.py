@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from .allowed import SceneError, answering, require, require_choice, require_whole, unknown
+from .allowed import SceneError, answering, require, require_choice, require_whole, unknown, users_level
 from .elastic import Contact, Ring, Solve
 from .output.units import AngularVelocity, Measured, Number, Time, Velocity, scaling, without_units
 
@@ -161,7 +161,7 @@ class Release:
             require(f"release.{key}", getattr(self, key), -1e9, 1e9, f"{key} lies between -1e9 and 1e9")
         if not scaling.now and looks_like_degrees(self.phi0):
             said = f"{abs(self.phi0) / (2 * pi):.2g} turns in radians: did you mean phi0_deg = {self.phi0!r}?"
-            warnings.warn(f"release.phi0 = {self.phi0!r} is {said}", stacklevel=4)
+            warnings.warn(f"release.phi0 = {self.phi0!r} is {said}", stacklevel=users_level())
 
     @property
     def phi0_deg(self) -> float:

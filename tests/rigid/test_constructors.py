@@ -109,6 +109,13 @@ def test_degrees_given_for_radians_are_questioned(phi0):
         Release(phi0)
 
 
+def test_the_question_points_at_the_line_that_gave_them():
+    for give in (Release, lambda phi0: load_scene("paper-3.1").replace(release={"phi0": phi0})):
+        with pytest.warns(UserWarning, match="did you mean") as said:
+            give(10.0)
+        assert said[0].filename == __file__
+
+
 @pytest.mark.parametrize("phi0", [0.17, 3.0, 2 * pi, 4.5 * pi, -7 * pi / 3])
 def test_an_angle_is_not_questioned(phi0):
     """Within a turn, or where a motion may have got to."""
