@@ -53,7 +53,8 @@ def simulate(
     progress : callable, optional
         Called with the fraction done, 0 to 1, as far as it can be foreseen; with 1 at the end of a run that came to it.
     most_steps : int, optional
-        Of all flexible segments together, after which the motion ends incomplete; by default 50 000 in each.
+        Of all flexible segments together, after which the motion ends incomplete; by default 50 000 in each. An event
+        that is being located is located first, which may take some tens of steps more.
     resume : FlexibleMotion, optional
         An earlier motion of the same scene, however it ended, from which to go on, as far as ``scene.run`` says: it
         becomes what it would have been without a stop, to the last bit.
