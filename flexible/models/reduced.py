@@ -97,7 +97,7 @@ def _bend(moved: Any, shapes: Any, pos: Any) -> None:
 def _solved(
     arrays: Arrays, old: State, mode: int, damper: Damper, predictor: Predictor, near: Near, first: bool
 ) -> Stage:
-    """See :class:`flexible.models.state.Model`; not ok as well where the window's compliance is not known."""
+    """See :class:`flexible.models.state.Model`; not ok as well where a window's compliance is not known."""
     expected = plus(predictor.pos, 1.0, predictor.guess)
     low, high = old.res.low, old.res.high
     if old.res.normal == 0:  # a bent rim comes down anywhere
@@ -106,7 +106,8 @@ def _solved(
         low, high = below_floor(arrays.theta, expected[2], expected[1], moved)
     unknown = np.empty((0, 0)), np.empty(0, np.int64)
     found = Stage(False, expected, expected, expected, unknown, old.window, old.u, old.nodal, old.res, old.bristles)
-    if old.res.normal == 0 and arrays.law.eps_n * (high - low) ** 3 / 12 > FALLS_ON:
+    falls = old.res.normal == 0 and arrays.law.eps_n * (high - low) ** 3 / 12 > FALLS_ON
+    if falls or not is_known(arrays.rim, window_dofs(arrays.vertex.shape[0], old.window)):  # of an earlier march
         return found
     margin = margin_around(low, high, arrays.element)
     deepest = least_gap(near.pos[1], near.pos[2], near.u, NearFloor(near.window[0], arrays.vertex))
@@ -250,6 +251,7 @@ class ReducedHoop(RimContact):
         """Displacement of the nodes of another window at a known state."""
         if window == state.window:
             return state.u
+        self.learns(state.window)
         self.learns(window)
         return np.asarray(_moved(self.arrays, state, window))
 

@@ -8,10 +8,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from scenes import HOOP
 
 import rigid
 from flexible import FlexibleMotion, load_motion, simulate, write_fields
+from flexible.ring.choice import forget_rings
 from meshes import SeriesError
 from rigid import Scene
 
@@ -164,3 +166,24 @@ def test_what_cannot_be_resumed_is_refused() -> None:
         simulate(SCENES["pulses"], history=True, resume=part)
     with pytest.raises(ValueError, match="none of the flexible hoop, but Motion"):
         simulate(SCENES["pulses"], resume=rigid.simulate(SCENES["pulses"]))  # type: ignore[arg-type]
+
+
+def test_a_motion_goes_on_with_rings_of_which_nothing_is_known_yet(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In a new process, say: what the rim yields by where the patch was is known before it is asked for.
+
+    Of columns that nobody asked for a ring has whatever stood in its memory: here ones.
+    """
+    scene = SCENES["brush"].replace(hoop={"r": 1.2}, solve={"resolve": "all"})
+    assert scene.solve.rtol == 1e-3
+    motion = simulate(scene, history=True)
+    for share in (0.8, 0.85):
+        cut = simulate(scene.replace(run={"t_end": share * motion.t_end, "until": None}), history=True)
+        stored = pickle.dumps(cut)
+        forget_rings()
+        monkeypatch.setattr(np, "empty", _ones)
+        assert_same(simulate(scene, history=True, resume=pickle.loads(stored)), motion)
+        monkeypatch.undo()
+
+
+def _ones(*of: Any, **how: Any) -> NDArray[Any]:
+    return np.ones(*of, **how)
