@@ -224,7 +224,7 @@ def advance(
         length = (state.t + tries) - state.t
         if search.event == NO_EVENT:
             error = _error(law, aims, state, holds, taken, (before, seen), asked) if solved else inf
-            wanted = care(law, before) * daring(leap, wider)
+            wanted = care(law, before) * daring(leap, wider, aims.tolerance)
             alike = not sticks(law, state.mode) or seen.res.friction * state.res.friction > 0
             if leap > 0 and error <= wanted and alike and passed(MODE_ENDS, law, ends, way, before, seen) >= 0:
                 why, h, pace = MODE_ENDED if stalls < MOST_STALLS else STALLED, SHORT, AFRESH
