@@ -23,7 +23,7 @@ C = TypeVar("C")
 
 MOST_DEGREES = 5e10  # 1e9 radians or so: of a larger angle too few digits would be left within a turn
 
-_PACKAGES = ("rigid", "flexible", "studies")
+_PACKAGES = ("rigid", "meshes", "flexible", "studies")
 
 _LINE = 60  # characters of a value that a sentence shows
 

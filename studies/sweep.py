@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 from rigid import SceneError, scene_from_dict
 from rigid.elastic import UNITS
+from rigid.output.file import version
 from rigid.scenefile import units_of_keys
 
 from .running.case import Case, Outcome
 from .running.history import records_to_csv
 from .running.measures import MEASURES, units_of_measures
 from .running.runs import run_cases
-from .running.solvers import version
 from .running.workers import Pool, as_pool
 from .sweepfile import Sweep, load_sweep, sweep_from_dict
 

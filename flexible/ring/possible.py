@@ -6,7 +6,7 @@ from rigid import Scene, SceneError, SceneLike, as_scene
 
 THINNEST = 9e-4  # wall over R: quads are too long for a thinner one, and rounding errors of their stretching too large
 
-LIGHTEST = 1e-8  # mass of the hoop over the disk's, if it has one: steps do not follow a lighter one's vibrations
+LEAST_MASS = 1e-8  # mass of the hoop over the disk's, if it has one: steps do not follow a lighter one's vibrations
 
 WIDEST = 1.0  # half-width over R of the patch under the weight: no point of a hoop is further to either side than R
 
@@ -25,10 +25,10 @@ def ensure_possible(scene: SceneLike) -> None:
         raise SceneError(
             "hoop.k = 0 is not possible here: the flexible hoop needs a disk with a radius, or a hoop with a mass."
         )
-    if 0 < scene.hoop.mass_ratio < LIGHTEST:
+    if 0 < scene.hoop.mass_ratio < LEAST_MASS:
         raise SceneError(
             f"hoop.mass_ratio = {scene.hoop.mass_ratio:g} is not possible here: so light a ring vibrates too fast "
-            f"for any step; take 0, with which the hoop moves alike, or {LIGHTEST:g} and more."
+            f"for any step; take 0, with which the hoop moves alike, or {LEAST_MASS:g} and more."
         )
     ensure_thick(scene.to_dimensionless().wall)
     _ensure_stands(scene)

@@ -14,7 +14,7 @@ SHORT = 1e-11  # the step after an event is no shorter: at foundation 1e14 the p
 FARTHEST = 1e-4  # a leap over an instant to which no step however short leads
 WIDER, CLOSER = 10.0, 1.5  # is each leap than the one before it; closer where those led nowhere
 DARING, RASH = 3.0, 30.0  # times its tolerance a leap may err, and one of those: it is that, or the end of the run
-JUMPS = 3e-4  # sqrt(gR) that one of those may err by, however tight the tolerance: a jump is as large for any
+LEAPT = 3e-4  # sqrt(gR) that one of those may err by, however tight the tolerance: a jump is as large for any
 
 
 class Pace(NamedTuple):
@@ -53,7 +53,7 @@ def daring(leap: float, wider: float, tolerance: float) -> float:
     """Times its tolerance a step may err."""
     if leap == 0:
         return 1.0
-    return DARING if wider == WIDER else max(RASH, JUMPS / tolerance)
+    return DARING if wider == WIDER else max(RASH, LEAPT / tolerance)
 
 
 @loop

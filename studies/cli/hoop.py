@@ -60,7 +60,7 @@ CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 110}
 @click.pass_context
 def hoop(ctx: click.Context, show_version: bool) -> None:
     if show_version:
-        from ..running.solvers import versions
+        from ..machine.build import versions
 
         click.echo(", ".join(f"{package} {number}" for package, number in versions().items()))
     elif ctx.invoked_subcommand is None:

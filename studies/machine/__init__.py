@@ -1,4 +1,5 @@
-"""What a study takes of the machine it runs on: ``processes`` that work side by side, ``kernels`` compiled for it."""
+"""What a study takes of the machine it runs on: ``processes`` that work side by side,
+``kernels`` compiled for it, and the ``build`` of versions and sources that results hang on."""
 
 import gc
 import os

@@ -10,8 +10,8 @@ from typing import Any
 
 from rigid import Scene, scene_to_dict
 
+from ..machine.build import versions
 from ..running.files import write_text
-from ..running.solvers import versions
 
 PAGE_STYLE = """\
 :root { color-scheme: light; }

@@ -12,11 +12,12 @@ from typing import Any
 from rigid import Motion, Scene, scene_to_dict
 from rigid.elastic import TIGHTEST
 from rigid.kernel.announce import running_clock
+from rigid.output.file import version
 
 from .files import plain
 from .history import Columns, through
-from .measures import MEASURES, measures, phase_sequence
-from .solvers import build_here, enter_from, solver, version
+from .measures import MEASURES, enter_from, measures, phase_sequence
+from .solvers import build_here, solver
 
 SHARE = 0.1
 """Numerical error may be this share of the distance that a study reports."""

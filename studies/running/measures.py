@@ -9,11 +9,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from importlib import import_module
 from typing import TypeVar
 
 from rigid import Kind, Motion, Phase, Pulse, Scene
 from rigid.allowed import shown
 from rigid.output.units import Unit
+
+from ..machine.build import digest_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -210,9 +213,28 @@ def measures(motion: Motion, pulse: Pulse) -> dict[str, float]:
     return {name: float(entry.of(motion, pulse)) for name, entry in MEASURES.items()}
 
 
-def own_measures() -> list[Measure]:
+def _own() -> list[Measure]:
     """Those that were entered elsewhere than here, by name."""
     return [MEASURES[name] for name in sorted(MEASURES) if MEASURES[name].of.__module__ != __name__]
+
+
+def entered() -> str:
+    """The measures of one's own, each with a digest of what it computes; part of a case's build."""
+    return "".join(f"+{each.name}:{digest_of(each.of)}" for each in _own())
+
+
+def homes() -> tuple[str, ...]:
+    """The modules that enter them, for other processes; a script these import by themselves."""
+    return tuple({entry.of.__module__: None for entry in _own() if entry.of.__module__ != "__main__"})
+
+
+def enter_from(modules: tuple[str, ...]) -> None:
+    """Import modules that enter measures, as far as they are to be had here."""
+    for name in modules:
+        try:
+            import_module(name)
+        except Exception:  # what is missing then is told by the case's build
+            continue
 
 
 def inside(motion: Motion, pulse: Pulse) -> list[Phase]:

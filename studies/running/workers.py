@@ -12,12 +12,13 @@ from typing import Protocol, TypeVar
 from rigid import scene_to_dict
 from rigid.allowed import require_whole, shown
 from rigid.batch.cores import cores
+from rigid.output.file import version
 
 from ..machine.kernels import compile_side_by_side, levels_of, prepare
 from ..machine.processes import NoWorker, Processes, WorkerDied
 from .case import Case, OtherBuild, Outcome, run_case
 from .files import StudyError, plain
-from .solvers import homes, version
+from .measures import homes
 
 T = TypeVar("T")
 

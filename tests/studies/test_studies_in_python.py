@@ -15,8 +15,8 @@ import meshes
 import rigid
 import studies
 from rigid import SceneError, load_scene
+from rigid.output.file import version
 from studies import Ladder, StudyError, limit_study, pool, run_sweep, stiffness_study, sweep_from_dict
-from studies.running.solvers import version
 
 mpl.use("Agg")
 

@@ -31,11 +31,11 @@ from rigid import SceneError, load_scene, scene_from_dict, scene_to_dict
 from rigid import simulate as rigid_motion
 from rigid.output import whole
 from studies import MEASURES, Measure, StudyError, Table, Unit, load_sweep, pool, run_sweep, sweep_from_dict
+from studies.machine.build import build
 from studies.machine.processes import Processes, WorkerDied
 from studies.running.case import Case, run_case
 from studies.running.measures import phase_sequence
 from studies.running.runs import Estimate, run_cases
-from studies.running.solvers import build
 from studies.running.store import Store
 from studies.running.workers import Here
 from studies.sweepfile import MAX_CASES
@@ -416,7 +416,7 @@ def test_one_key_for_one_scene():
 def test_a_result_of_another_version_is_not_taken_for_ours(monkeypatch):
     case = Case("rigid", load_scene("paper-3.1"))
     before = case.key
-    monkeypatch.setattr("studies.running.solvers.version", lambda: "99.0")
+    monkeypatch.setattr("studies.machine.build.version", lambda: "99.0")
     build.cache_clear()
     assert Case("rigid", load_scene("paper-3.1")).key != before
     build.cache_clear()

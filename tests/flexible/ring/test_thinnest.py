@@ -9,7 +9,7 @@ import flexible
 import rigid
 from flexible.ring.choice import ring_of
 from flexible.ring.fem import Ring
-from flexible.ring.possible import LIGHTEST, THINNEST
+from flexible.ring.possible import LEAST_MASS, THINNEST
 from meshes import ring_mesh
 from rigid import Friction, Hoop, Release, Scene, SceneError
 from rigid import Ring as Elastic
@@ -49,11 +49,11 @@ def test_a_hoop_with_next_to_no_mass_is_refused(law):
     """The rigid one may have it; one at the bound moves like that without."""
     scene = rigid.load_scene("paper-3.3-massless").replace(run={"until": "pulse"}, solve={"rtol": 1e-3})
     without = scene.replace(contact={"law": law, "stiffness": 1e8})
-    light = without.replace(hoop={"mass_ratio": 0.99 * LIGHTEST})
+    light = without.replace(hoop={"mass_ratio": 0.99 * LEAST_MASS})
     with pytest.raises(SceneError, match=r"^hoop\.mass_ratio = 9\.9e-09 is not possible here.*; take 0"):
         flexible.simulate(light)
     assert rigid.simulate(light).completed
-    both = without, without.replace(hoop={"mass_ratio": LIGHTEST})
+    both = without, without.replace(hoop={"mass_ratio": LEAST_MASS})
     none, least = (flexible.simulate(one).pulses[0].impulse_ratio for one in both)
     assert least == pytest.approx(none, rel=1e-3)
 

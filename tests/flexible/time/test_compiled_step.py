@@ -8,6 +8,7 @@ from scenes import HOOP, flying
 import rigid
 from flexible.models.chain import ChainHoop
 from flexible.models.reduced import ReducedHoop
+from flexible.ring.choice import forget_rings
 from flexible.ring.fem import COLUMNS
 from flexible.start.equilibrium import compile_ahead
 from flexible.start.handover import hand_over
@@ -122,6 +123,17 @@ def test_what_is_known_of_the_ring_is_no_part_of_a_step():
     assert (found.u == again.u).all()
     columns = hoop.ring.dofs(*state.window)
     assert np.array_equal(compliance[:, columns], kept[:, columns])
+
+
+def test_a_hoop_made_anew_has_the_rim_where_another_had_it(monkeypatch):
+    """Far from its patch too, by columns of the patch, which nobody asked the new ring for."""
+    scene = HOOP.replace(release={"phi0": 1.5, "omega0": 1.0}, solve={"elements": 126})  # a ring of no other test
+    hoop, state = rolling(scene)
+    opposite = (state.window[0] + 63, 4)
+    moved = hoop.displacement(state, opposite)
+    forget_rings()
+    monkeypatch.setattr(np, "empty", np.ones)  # for what stood in the memory of columns that nobody asked for
+    np.testing.assert_array_equal(ReducedHoop(scene).displacement(state, opposite), moved)
 
 
 @pytest.mark.slow

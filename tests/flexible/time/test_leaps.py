@@ -8,7 +8,7 @@ from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
 
 @pytest.mark.parametrize("rtol", [1e-4, 3e-5])
 def test_a_jump_is_as_large_for_any_tolerance(rtol):
-    """Near a jam a thick wall without mass snaps off a brush: N is 122 and at once 100, and a leap errs by 1e-4 at least.
+    """Near a jam a massless thick wall snaps off a brush, N falls from 122 at once, and a leap errs by 1e-4 at least.
 
     Held to some times its tolerance it led nowhere from 1e-4 down, and at 1e-3 on through. Mirrored, the rim stands
     otherwise on its mesh; near a jam that is worth some 1e-4 of J_N (``studies/CHANGELOG.md``).
