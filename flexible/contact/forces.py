@@ -45,6 +45,7 @@ from .points.detection import find, place
 from .points.leaving import all_stick, those_that_bear, work_of_those_let_go, work_of_those_that_left
 from .points.normal import force_by_gaps, press
 from .room import (
+    ENTERED,
     PULL,
     SCRATCH,
     SHARING,
@@ -58,7 +59,7 @@ from .room import (
     points_in,
     room_for,
 )
-from .vectors import add, dot, total
+from .vectors import add, dot, largest, total
 from .way import differentiate_way, way_over_the_floor, weigh_slip
 
 
@@ -131,10 +132,16 @@ def _differentiate(room: Room, shared: Any, load: Load, s: float, c: float, dphi
         add_outer(tangent, load.eta_rate, pushes, elastic_by)
         add_outer(tangent, load.eta_rate, sharing, elastic_by)
         add(sharing, 1.0, pushes)  # all that goes like eta
+    entered = load.elastic > 0 and largest(forces.by_way) > 0
+    if shared.acts or entered:
+        differentiate_way(room, load.elastic, s, c, dphi, halves)
+    if entered:
+        gather(points, forces.by_way, 1.0, along, bases[6])
+        spread(bases[6], X, s, c, unknowns[ENTERED])
+        add_outer(tangent, 1.0, unknowns[ENTERED], slip_by)
     if shared.acts:
         gather(points, foundation.force, 1 / load.elastic, along, bases[3])
         spread(bases[3], X, s, c, spreading)
-        differentiate_way(room, load.elastic, s, c, dphi, halves)
         add_outer(tangent, shared.by_way, spreading, slip_by)
         add_outer(tangent, shared.by_elastic - shared.force / load.elastic, spreading, elastic_by)
     _add_turning(tangent, force, points, load.eta, foundation.force, forces.force)

@@ -18,9 +18,10 @@ from .points.data import Bristles, PointForces
 from .points.detection import Points
 from .points.normal import Foundation
 
-FOUNDATION, EARLIER, CARRIED, FORCES, PULL, SCRATCH, ROWS = 16, 19, 22, 29, 34, 35, 37  # in the rows, behind points
-BASES, UNKNOWNS = 6, 6
-SHARING, SPREADING, WAY = 3, 4, 5  # of the unknowns: what goes like eta, what spreads like the pressure, the way's
+FOUNDATION, EARLIER, CARRIED, FORCES, PULL, SCRATCH, ROWS = 16, 19, 22, 30, 36, 37, 39  # in the rows, behind points
+BASES, UNKNOWNS = 7, 7
+SHARING, SPREADING, WAY, ENTERED = 3, 4, 5, 6
+"""Of the unknowns: what goes like eta, what spreads like the pressure, the way's, what those that entered pull by it."""
 
 
 class Room(NamedTuple):
@@ -69,8 +70,8 @@ def carried_in(room: Room) -> Any:
     """Their bristles."""
     rows = room.rows
     return Carried(
-        rows[CARRIED], rows[CARRIED + 1], rows[CARRIED + 2], rows[CARRIED + 3], room.flags[1], room.flags[2],
-        rows[CARRIED + 4], rows[CARRIED + 5], rows[CARRIED + 6],
+        rows[CARRIED], rows[CARRIED + 1], rows[CARRIED + 2], rows[CARRIED + 3], rows[CARRIED + 4], room.flags[1],
+        room.flags[2], rows[CARRIED + 5], rows[CARRIED + 6], rows[CARRIED + 7],
     )  # fmt: skip
 
 
@@ -79,8 +80,8 @@ def forces_in(room: Room) -> Any:
     """The tangential forces on them."""
     rows = room.rows
     return PointForces(
-        rows[FORCES], rows[FORCES + 1], rows[FORCES + 2], rows[FORCES + 3], room.fives[2], rows[FORCES + 4],
-        room.fives[3], room.flags[3],
+        rows[FORCES], rows[FORCES + 1], rows[FORCES + 2], rows[FORCES + 3], rows[FORCES + 4], room.fives[2],
+        rows[FORCES + 5], room.fives[3], room.flags[3],
     )  # fmt: skip
 
 

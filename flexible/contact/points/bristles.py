@@ -26,7 +26,8 @@ class Carried(NamedTuple):
     stretch: Any  # of each point's bristle
     rate: Any  # its derivative by the point's abscissa,
     by_gap: Any  # by the point's gap and
-    by_phi: Any  # by phi, through the instant of entry
+    by_phi: Any  # by phi, through the instant of entry, and
+    by_way: Any  # by the mean way of the patch
     touched: Any  # whether the point has touched the floor in this visit
     sliding: Any  # direction in which friction pushes a sliding point, 0 while it sticks, twice it while it rests
     way: Any  # along the floor since the step began or the point touched, rolling included
@@ -40,17 +41,18 @@ def carry(
 ) -> None:
     """Fill in the bristles of ``points``: those kept from the beginning of the step, moved on, and those that entered.
 
-    The way of a point that entered is that of rolling, plus a parabola in time that ends with the velocity of the
-    stage, ``ratio (move - start)`` over the stage's length: a long step then sees the slip at its end and not its mean,
-    which would leave the friction of a short patch undamped. ``moved`` is the patch's way without the rolling. A point
-    that enters behind a sliding edge goes on sliding.
+    The way of a point that entered is that of rolling; that of the patch as a whole, ``moved`` without the rolling, a
+    parabola in time that ends with the velocity of the stage: a long step then sees the slip at its end and not its
+    mean, which would leave the friction of a short patch undamped; and how much farther the dent took it, evenly in
+    time. Were that a part of the parabola, friction would be off by as much as the step is long wherever the dent
+    changes. A point that enters behind a sliding edge goes on sliding.
     """
-    stretch, rate, by_gap, by_phi, touched, sliding, way, mean, pull = carried
+    stretch, rate, by_gap, by_phi, by_way, touched, sliding, way, mean, pull = carried
     bristles = before.bristles
     number, flags = bristles.number, bristles.sliding
     ratio, turn = damper.ratio, damper.turning_0 + damper.ratio * dphi
-    start = slip.way_0 - (slip.way - moved) * (1 - 1 / ratio)
     slip_ending = ratio * (slip.way - slip.way_0)
+    patch_ending = slip_ending - (slip.way - moved)
     p, dent = 0, dent_at(before, rim, pi - before.pose[2])
     for i in range(stretch.shape[0]):
         j, move = points.number[i], points.move[i]
@@ -72,14 +74,14 @@ def carry(
             dent = next_dent(dent, before, rim, theta_in)
             dent_in, slope_in = displaced(dent, theta_in)
             shift = points.shift[i]
-            ending = ratio * (shift - start)
+            ending = patch_ending + (shift - moved)
             psi = points.psi[i]
             lifted, lifted_in = points.lifted[i] + points.slope[i], entry.lifted + slope_in
             rolled = psi - psi_in - 2 * cos((psi + psi_in) / 2) * sin((psi - psi_in) / 2)
             rolled += points.dented[i] - dent_in
             way[i] = stretch[i] = rolled + rest * (ending - (ending - shift) * rest)
             mean[i] = rest * (slip_ending - (slip_ending - slip.way) * rest)
-            rate[i] = rest * (ratio - (ratio - 1) * rest)
+            rate[i], by_way[i] = rest, rest * (1 - rest) * (ratio - 1)
             by_rest = ending - 2 * (ending - shift) * rest - lifted_in * entry.speed
             by_gap[i] = by_rest * entry.by_gap
             by_phi[i] = by_rest * entry.by_phi + (1 - rate[i]) * lifted - entry.shift * lifted_in
@@ -191,6 +193,7 @@ def cling(forces: Any, carried: Any, i: int, eps_t: float) -> float:
     forces.by_abscissa[i] = -eps_t * weight * carried.rate[i]
     forces.by_gap[i, 2] = -eps_t * weight * carried.by_gap[i]
     forces.by_phi[i] = -eps_t * weight * carried.by_phi[i]
+    forces.by_way[i] = -eps_t * weight * carried.by_way[i]
     return -eps_t * carried.stretch[i]
 
 

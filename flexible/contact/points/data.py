@@ -136,6 +136,7 @@ class PointForces(NamedTuple):
     share: Any  # (n,) by the damping factor eta
     by_abscissa: Any  # (n,)
     by_phi: Any  # (n,)
+    by_way: Any  # (n,) by the mean way of the patch
     by_gap: Any  # (n, 5) by the gaps of two points before, the point, two points behind
     weight: Any  # (n,) length of patch that belongs to each
     weight_by: Any  # (n, 5) its derivatives by those gaps
@@ -207,7 +208,7 @@ class Contact(NamedTuple):
     outside: bool  # whether the window of rim is too short for the patch
     by_eta: Any  # (n,) derivative of (force, nodal) by the damping factor, and
     by_held: Any  # (n,) by the damper's ``held``; both where there is a tangent and the damper acts
-    way_by: Any  # (n,) derivative of the patch's way by (pose, u), where a tangent and a force shared by it are
+    way_by: Any  # (n,) derivative of the patch's way by (pose, u), where a tangent and a force that follows it are
 
 
 NOTHING = Resultants(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, inf, 0.0)

@@ -231,11 +231,13 @@ def test_every_law_has_a_name_a_scene_may_hold():
 @pytest.mark.parametrize("name", ["patch", "brush"])
 @pytest.mark.parametrize("way", [1, -1])
 @pytest.mark.parametrize("dent", [0.0, 1e-6])
-def test_tangent_of_points_that_enter(name, way, dent):
+@pytest.mark.parametrize("ratio", [1.0, 4.0])
+def test_tangent_of_points_that_enter(name, way, dent, ratio):
     """A rim that comes down while it rolls and creeps: no point has a bristle yet, each enters at its own instant.
 
     Friction by itself, whose entries are a thousandth of the normal forces': 1e-5 of its largest, what central
-    differences of 1e-9 of forces of 1e-16/1e-9 leave. The instant moves with gap, phi and abscissa.
+    differences of 1e-9 of forces of 1e-16/1e-9 leave. The instant moves with gap, phi and abscissa, and in a stage
+    that is longer than its rates are known by (``ratio``) each bristle with the way of the patch as a whole.
     """
     law = parameters(name, 2e-4, EPS, 0.8 * EPS, 9.0, 9.0)  # nothing slides
     depth, phi = (1.5 / EPS) ** (2 / 3) / 2, 2.9
@@ -243,9 +245,11 @@ def test_tangent_of_points_that_enter(name, way, dent):
     dented = dent * np.sin(1 + np.arange(18)).reshape(9, 2)
     before = Before(np.array([0.0, 0.3 * depth, phi]), flat, no_bristles(), rim.first, dented)
 
+    damper = UNDAMPED._replace(ratio=ratio, turning_0=-(ratio - 1) * way * 0.004, way_0=(1 - 1 / ratio) * 2e-6)
+
     def contact(x):
         return contact_forces(
-            x[:3], x[3:].reshape(-1, 2), rim, law, STICK, before, UNDAMPED, True
+            x[:3], x[3:].reshape(-1, 2), rim, law, STICK, before, damper, True
         )  # the brush's only mode
 
     x = np.concatenate([[2e-6, -depth, phi + way * 0.004], 1e-8 * np.sin(np.arange(18))])
