@@ -259,7 +259,7 @@ def limit_study(
     SceneError
         What is no foundation.
     StudyError
-        There is no pulse, or there is more in it than rolling and sliding.
+        ``pool`` is none; there is no pulse, or there is more in it than rolling and sliding.
     """
     scene = as_scene(scene).replace(run=Run(until="pulse"))
     foundations, flexible = (
@@ -268,7 +268,7 @@ def limit_study(
     )
     for foundation in (*foundations, *flexible):
         at_foundation(scene, foundation)  # what cannot be is refused before the work
-    way = followed(scene)
+    pool, way = as_pool(pool), followed(scene)
     prediction = predict(scene)
     found = []
     for event in way.events:
@@ -284,7 +284,7 @@ def limit_study(
         )  # fmt: skip
     sights = seen_by_rigid_rings(scene, foundations)
     limits = {name: prediction.terms[name].limit for name in OBSERVED}
-    sights += seen_by_flexible(scene, limits, flexible, as_pool(pool), out, progress)
+    sights += seen_by_flexible(scene, limits, flexible, pool, out, progress)
     separate = separate_from(way, [event.layer for event in found])
     stiff, hangs = stiff_from(way, scene), hanging(scene, way)
     return LimitStudy(

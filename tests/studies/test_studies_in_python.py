@@ -34,8 +34,9 @@ def test_workers_that_are_no_number_of_them_are_refused(workers):
 
 
 @pytest.mark.parametrize("place", [3, 0, pool(2)])
-@pytest.mark.parametrize("run", [stiffness_study, studies.hop_study, run_sweep])
-def test_a_pool_that_is_none_is_refused_before_anything_runs(run, place, tmp_path):
+@pytest.mark.parametrize("run", [stiffness_study, limit_study, studies.hop_study, run_sweep])
+def test_a_pool_that_is_none_is_refused_before_anything_runs(run, place, tmp_path, monkeypatch):
+    monkeypatch.setattr("studies.limit.study.followed", lambda scene: pytest.fail("it was solved"))
     what = "paper-3.3-massless" if run is not run_sweep else {"sweep": {"scene": "paper-3.1"}, "hoop": {"k": [0.1]}}
     with pytest.raises(StudyError, match=r"^pool = .* is not possible: it is what `with studies\.pool"):
         run(what, pool=place, out=tmp_path / "out")
