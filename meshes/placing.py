@@ -74,8 +74,17 @@ def disk_in(scene: Scene) -> tuple[float, float]:
 
 
 def von_mises(stress: ArrayLike) -> Array:
-    """Von Mises stress of plane stress components (11, 22, 12), (n, 3); the same in any frame."""
-    s1, s2, s12 = np.asarray(stress, dtype=float).T
+    """Von Mises stress of plane stress components (11, 22, 12), (n, 3) or of one place (3,); the same in any frame.
+
+    Raises
+    ------
+    ValueError
+        Another shape.
+    """
+    stress = np.asarray(stress, dtype=float)
+    if stress.ndim not in (1, 2) or stress.shape[-1] != 3:
+        raise ValueError(f"stress of shape {stress.shape} is not possible: a row is the components 11, 22 and 12.")
+    s1, s2, s12 = stress.T
     return np.sqrt(s1**2 - s1 * s2 + s2**2 + 3 * s12**2)
 
 
@@ -89,9 +98,21 @@ def hoop_stress(ring: RingMesh, stress: ArrayLike, along: ArrayLike | None = Non
 
     ``along``, (n_nodes, 2), are the unit vectors in which the circles of the nodes run now; by default, and so of small
     displacements, those of the ring at rest.
+
+    Raises
+    ------
+    ValueError
+        Not one row for each node.
     """
-    a1, a2 = np.asarray(around(ring) if along is None else along, dtype=float).T
-    s1, s2, s12 = np.asarray(stress, dtype=float).T
+    stress, along = (np.asarray(given, dtype=float) for given in (stress, around(ring) if along is None else along))
+    for name, given, columns in (("stress", stress, 3), ("along", along, 2)):
+        if given.shape != (len(ring.theta), columns):
+            raise ValueError(
+                f"{name} of shape {given.shape} is not possible: it has {columns} components for each of "
+                f"{len(ring.theta)} nodes."
+            )
+    a1, a2 = along.T
+    s1, s2, s12 = stress.T
     return s1 * a1**2 + s2 * a2**2 + 2 * s12 * a1 * a2
 
 

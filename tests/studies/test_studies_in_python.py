@@ -319,3 +319,23 @@ def test_stresses_are_arrays_or_lists():
     ring = meshes.ring_mesh(0.9, 1.0, 60)
     with pytest.raises(ValueError, match="one stress for each of"):
         meshes.bending_stress(ring, np.zeros((len(ring.theta), 3)))
+
+
+@pytest.mark.parametrize("shape", [(), (0,), (4,), (3, 7), (2, 7, 3)])
+def test_stresses_of_no_three_components_are_refused(shape):
+    """Of more axes the first two would come back exchanged."""
+    with pytest.raises(ValueError, match=r"stress of shape \(.*\) is not possible: a row is the components 11, 22 and"):
+        meshes.von_mises(np.zeros(shape))
+
+
+def test_a_hoop_stress_is_of_one_stress_and_one_direction_for_each_node():
+    ring = meshes.ring_mesh(0.9, 1.0, 60)
+    nodes = len(ring.theta)
+    for shape in [(), (3,), (1, 3), (nodes,), (3, nodes), (nodes - 1, 3), (nodes, 2), (nodes, 3, 1)]:
+        with pytest.raises(
+            ValueError, match=f"stress of shape .* is not possible: .* 3 components for each of {nodes}"
+        ):
+            meshes.hoop_stress(ring, np.zeros(shape))
+    for shape in [(2,), (nodes, 3), (nodes - 1, 2)]:
+        with pytest.raises(ValueError, match=f"along of shape .* is not possible: .* 2 components for each of {nodes}"):
+            meshes.hoop_stress(ring, np.zeros((nodes, 3)), np.zeros(shape))
