@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -93,24 +93,43 @@ def view(
 
     look: dict[str, Any] = {"field": field, "factor": factor, "zoom": 1.0 if zoom is None else zoom}
     asked = {"time": time, "start": start, "stop": stop}
+    files = [file for file in (png, *films) if file is not None]
+    drawn: list[Path] = []
     try:
-        for file in (png, *films):
-            if file is not None:
-                require_folder(file)
+        for file in files:
+            require_folder(file)
         thing = _thing(path, asked, field)
         if isinstance(thing, Series):
             _ensure_frames(thing, asked)
         if png is not None:
             picture(thing, png, time, **look)
-            if time is not None and isinstance(thing, Series) and (drawn := _drawn(thing, time)) != f"{time:.6g}":
-                announce(f"{png} shows t = {drawn}, the frame nearest to {time:.6g}.")
+            drawn.append(png)
+            if time is not None and isinstance(thing, Series) and (shown := _shown(thing, time)) != f"{time:.6g}":
+                announce(f"{png} shows t = {shown}, the frame nearest to {time:.6g}.")
         for file in films:
             with bar(file.name) as told:
                 animate(thing, file, **look, timing=Timing(**pacing), progress=partial(_fraction, told))
-        if png is None and not films:
+            drawn.append(file)
+        if not files:
             window(thing, **look)
     except (ViewError, SeriesError) as error:
         raise StudyError(str(error)) from None
+    except KeyboardInterrupt as interrupt:
+        interrupt.args = _left(files, drawn)
+        raise
+
+
+def _left(files: Sequence[Path], drawn: Sequence[Path]) -> tuple[str, ...]:
+    """What there is of some files, for those who broke off: a file is there whole or not at all."""
+    lacking = [file for file in files if file not in drawn]
+    if not lacking:
+        return ()
+    said = [
+        f"{' and '.join(map(str, some))} {'is' if len(some) == 1 else 'are'} {how}"
+        for some, how in ((drawn, "written"), (lacking, "not written"))
+        if some
+    ]
+    return (", ".join(said), f"the same command again draws {'them all' if drawn else 'from the start'}")
 
 
 def _ensure_frames(series: Series, asked: Mapping[str, float | None]) -> None:
@@ -127,7 +146,7 @@ def _told(time: float) -> str:
     return f"{time:.6g}"
 
 
-def _drawn(series: Series, time: float) -> str:
+def _shown(series: Series, time: float) -> str:
     return _told(series.times[series.nearest_index(time)])
 
 

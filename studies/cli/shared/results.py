@@ -160,10 +160,12 @@ def _left(path: Path, made: list[Path]) -> Iterator[None]:
         from ...running.store import finished  # SQLite is nothing that a single motion loads
 
         if cases := finished(path):
-            kept = f"{cases} finished {'case is' if cases == 1 else 'cases are'} kept in {path}"
-            interrupt.args = (kept, *interrupt.args)
+            which, them = ("case is", "it") if cases == 1 else ("cases are", "them")
+            onward = f"the same command again takes {them} from there"
+            interrupt.args = (f"{cases} finished {which} kept in {path}", *(interrupt.args or (onward,)))
         elif ctx.meta.get(_BEGUN) and not _is_empty(path):
-            interrupt.args = (f"what was written is in {path}", *interrupt.args)
+            written = f"what was written is in {path}"
+            interrupt.args = (written, *(interrupt.args or ("the same command again writes all of it",)))
         raise
     finally:
         with suppress(OSError):

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -82,6 +83,35 @@ def test_view_draws_a_picture_and_an_animation(hoop, run, tmp_path):
     assert hoop("view", run, "--gif", gif, "--frames", 3, "--fps", 5, "--pace", "time", "--factor", 100) == (0, "", "")
     with Image.open(gif) as image:
         assert image.n_frames == 3
+
+
+@pytest.mark.parametrize("breaks", ["png", "gif", "html", "window"])
+def test_who_breaks_off_is_told_which_files_there_are(hoop, tmp_path, monkeypatch, breaks):
+    """Nothing is drawn here: a file is touched, or Ctrl-C typed in its place."""
+
+    def draw(thing: object, file: Path, *_: object, **__: object) -> None:
+        if file.suffix == f".{breaks}":
+            raise KeyboardInterrupt
+        file.touch()
+
+    def window(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    for name, stands_in in (("picture", draw), ("animate", draw), ("window", window)):
+        monkeypatch.setattr(f"meshes.view.{name}", stands_in)
+    png, gif, html = files = [tmp_path / f"a.{suffix}" for suffix in ("png", "gif", "html")]
+    asked = [] if breaks == "window" else ["--png", png, "--gif", gif, "--html", html]
+    said = {
+        "png": f"; {png} and {gif} and {html} are not written; the same command again draws from the start",
+        "gif": f"; {png} is written, {gif} and {html} are not written; the same command again draws them all",
+        "html": f"; {png} and {gif} are written, {html} is not written; the same command again draws them all",
+        "window": "",
+    }
+    status, out, err = hoop("view", "paper-3.1", *asked)
+    assert (status, out, err.strip()) == (130, "", f"hoop: Interrupted{said[breaks]}.")
+    if asked:
+        there = ["png", "gif", "html"].index(breaks)
+        assert [file.exists() for file in files] == [True] * there + [False] * (3 - there)
 
 
 @pytest.mark.parametrize("number", [0, -1])

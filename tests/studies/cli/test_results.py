@@ -13,9 +13,11 @@ import pytest
 from command_line import SCENE, is_one_sentence, process
 
 from studies import StudyError
+from studies.bench.race import Result
 from studies.cli import hoop as cli
 from studies.cli.shared import results
 from studies.running import progress
+from studies.running.case import Case, Outcome, run_case
 
 pytestmark = pytest.mark.usefixtures("undrawn")
 
@@ -254,9 +256,46 @@ def test_who_interrupts_the_drawing_of_a_study_has_its_table_and_is_told_how_to_
     (last,) = [sentence for sentence in err.splitlines() if "Interrupted" in sentence]
     assert "2 finished cases are kept" in last
     assert "the same command again" in last
-    monkeypatch.setattr("studies.running.case.run_case", lambda _: pytest.fail("it was run again"))
+    monkeypatch.setattr("studies.running.workers.run_case", _not_again)
     assert hoop(*line)[0] == 0
     assert (out / "report.html").exists()
+
+
+def _typed(*_: object, **__: object) -> None:
+    raise KeyboardInterrupt
+
+
+def _not_again(case: Case) -> Outcome:
+    """What stands in for running a case, where the flexible ones are kept."""
+    assert case.solver == "rigid", "it was run again"
+    return run_case(case)
+
+
+def test_who_interrupts_a_limit_is_told_what_is_kept_and_how_to_go_on(hoop, tmp_path, monkeypatch):
+    """At the map, behind a flexible case that is not run again; at a figure; and there without such a case."""
+    line = ("study", "limit", "paper-3.3-massless", "--flexible", 1e7, "--workers", 1)
+    kept = f"hoop: Interrupted; 1 finished case is kept in {tmp_path}; the same command again takes it from there."
+    with monkeypatch.context() as patch:
+        patch.setattr("studies.limit.damping.damping_map", _typed)
+        status, out, err = hoop(*line, "--map", "--out", tmp_path)
+        assert (status, out, err.strip()) == (130, "", kept)
+    monkeypatch.setattr("studies.limit.figures.of_limit", _typed)
+    monkeypatch.setattr("studies.running.workers.run_case", _not_again)
+    status, out, err = hoop(*line, "--out", tmp_path)
+    assert (status, out, err.strip()) == (130, "", kept)
+    written = f"what was written is in {tmp_path / 'new'}; the same command again writes all of it"
+    status, out, err = hoop(*line[:3], "--workers", 1, "--out", tmp_path / "new")
+    assert (status, out, err.strip()) == (130, "", f"hoop: Interrupted; {written}.")
+    assert names(tmp_path / "new") == {"command.txt", "limit.csv", "limit.json", "units.json"}
+
+
+def test_who_interrupts_the_figure_of_a_benchmark_is_told_what_is_there(hoop, tmp_path, monkeypatch):
+    monkeypatch.setattr("studies.bench.rigid.bench", lambda *_: Result())
+    monkeypatch.setattr("studies.bench.shown.figures.draw", _typed)
+    written = f"what was written is in {tmp_path}; the same command again writes all of it"
+    status, out, err = hoop("bench", "rigid", "--out", tmp_path)
+    assert (status, out, err.strip()) == (130, "", f"hoop: Interrupted; {written}.")
+    assert names(tmp_path) == {"command.txt", "bench-rigid.json"}
 
 
 @pytest.mark.slow
