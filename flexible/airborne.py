@@ -14,7 +14,7 @@ from .models.state import State, momentum
 
 ON = 1e-3  # sqrt(R/g) over which the height of a flight is compared
 LOWEST = 1e-9  # R: height of a hoop that comes down on the floor
-LEAST = 1e-4  # M g R: a hop of less energy than that is over as soon as a rigid hoop takes over
+LEAST_HOP = 1e-4  # M g R: a hop of less energy than that is over as soon as a rigid hoop takes over
 
 
 def rise(motion: Motion, told: float, now: States) -> float:
@@ -54,7 +54,7 @@ def taken_over(hoop: Hoop, state: State) -> tuple[float, float, Aloft]:
         omega = (about - lever * along + beside * up) / K
         rising = up + beside * omega
         height = max(float(hoop.energies(state)[1]) / mass - 1 - scene.e * c, LOWEST)
-        if height + rising**2 / 2 >= LEAST:
+        if height + rising**2 / 2 >= LEAST_HOP:
             return omega, along - lever * omega, Aloft(height, rising)
     inertia = lever**2 + beside**2 + K
     rolling = about / inertia

@@ -307,7 +307,7 @@ NO_THRESHOLDS = {
     "codes, sizes and places in arrays": """
         contact/assembly.py:X contact/assembly.py:Y contact/laws/brush.py:CODE contact/laws/patch.py:CODE
         contact/laws/patch.py:SLIDE_LEFT contact/laws/patch.py:SLIDE_RIGHT contact/laws/patch.py:STICK
-        contact/laws/regularised.py:CODE contact/newton.py:FRAME contact/room.py:* chain/bordered.py:FRAME
+        contact/laws/regularised.py:CODE contact/newton.py:FRAME contact/room.py:*
         chain/bordered.py:WIDTH chain/rod/surface.py:ONWARD chain/rod/surface.py:OUTWARD chain/rod/surface.py:SLOPE
         chain/rod/surface.py:STRETCH models/stage.py:FORESEEN models/stage.py:HELD models/stage.py:LET_GO
         models/stage.py:RAISED output/patch.py:FREE output/patch.py:SLIPS output/patch.py:STICKS run/pulses.py:BACKWARD
@@ -325,8 +325,8 @@ NO_THRESHOLDS = {
     """,
     "how long is tried, and how much at once": """
         contact/guess.py:GUESSES contact/guess.py:SEARCHES contact/points/data.py:MOST_ITERATIONS
-        contact/points/entry.py:MOST models/full.py:_WINDOWS models/stage.py:MOST_POINTS output/fields.py:_TOGETHER
-        ring/fem.py:COLUMNS ring/fem.py:LOT time/advance.py:SPAN time/events.py:OTHERS
+        contact/points/entry.py:MOST_STEPS models/full.py:_WINDOWS models/stage.py:MOST_POINTS
+        output/fields.py:_TOGETHER ring/fem.py:COLUMNS ring/fem.py:LOT time/advance.py:SPAN time/events.py:OTHERS
     """,
     "what is shown of a motion": "output/curves.py:BETWEEN output/instants.py:_AROUND",
 }

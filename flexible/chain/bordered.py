@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from rigid.kernel.compile import jit, loop, part
 
+from ..contact.newton import FRAME
 from ..contact.vectors import flagged, solved_by
 
 Array = NDArray[np.float64]
-FRAME = 3
 WIDTH = 2 * FRAME  # of the border
 FADED = 1e-60  # smaller than any product with it could matter, and far from numbers without all their digits
 

@@ -6,9 +6,8 @@ from typing import Any, NamedTuple
 
 from rigid.kernel.compile import part
 
-from ..contact.newton import round_off
+from ..contact.newton import FRAME, round_off
 from ..contact.vectors import largest
-from .bordered import FRAME
 from .touch import add_bending, add_forces, add_rim, astray_of, push
 
 

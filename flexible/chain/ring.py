@@ -27,7 +27,7 @@ from ..ring.rim.even import EvenRim, parts_of
 from .bordered import no_blocks
 from .corner import bow_of_rim
 from .mass.ends import EndMass, end_mass
-from .mass.inertia import Body, Chain
+from .mass.inertia import Chain, ChainBody
 from .rim import RimNodes, follow
 from .rod.corotated import Rod
 from .rod.ends import chord_strains
@@ -42,11 +42,11 @@ PARTS = 2  # into which an element of an even rim is cut
 PRESSED = 0.4  # walls by which a slender ring yields to p/E: 13/32 beside a beam's middle, along it (1 + nu)/4
 
 
-def make_body(scene: Scene, rod: Rod) -> Body:
+def make_body(scene: Scene, rod: Rod) -> ChainBody:
     """What of the hoop moves with the frame; together with the rod's sections it has the ring's mass and inertia."""
     whole = body_of(scene)
     square = (rod.place**2).sum(axis=1)
-    return Body(
+    return ChainBody(
         whole.offset,
         whole.disk_inertia,
         float(whole.ring_mass - rod.mass.sum()),

@@ -17,14 +17,14 @@ from ..contact.forces import contact_forces
 from ..contact.forces import example as of_contact
 from ..contact.foreseen import Foreseen, between, foresee, moved_back, moved_by, moved_damper
 from ..contact.guess import GUESSES, as_before, guess_again, held_again, is_let_go, on_its_way
-from ..contact.newton import before_bend, breaks_loose, goes, move, reached
+from ..contact.newton import FRAME, before_bend, breaks_loose, goes, move, reached
 from ..contact.points.data import MOST_ITERATIONS, Before, Bristles, Parameters, Rim, at_start, pulling
 from ..contact.points.rim import margin_around, vertex_angle, window_around
 from ..contact.stage import Predictor, Stage
 from ..contact.vectors import eliminate, largest, plus, times
-from .bordered import FRAME, Factors, as_one, factor, nothing_factored, solve
+from .bordered import Factors, as_one, factor, nothing_factored, solve
 from .mass.ends import EndMass
-from .mass.inertia import Body, Chain
+from .mass.inertia import Chain, ChainBody
 from .misfit import close, misfit, rounding
 from .rim import RimNodes, follow
 from .rod.corotated import Rod
@@ -83,7 +83,7 @@ def example() -> tuple[tuple[Any, ...], Solved]:
     rod = Rod(
         row, table, table, cube, cube, row, row, row, seen, far, 0.0, table, row, row, table, 0.0, 0.0, 0.0, seen, 0
     )  # fmt: skip
-    chain = Chain(Body(*none), rod, EndMass(table, table, table, row, row))
+    chain = Chain(ChainBody(*none), rod, EndMass(table, table, table, row, row))
     facing = Facing(rim, RimNodes(count, row, cube, np.empty((0, 2, 2, 3, 3))), table)
     start = Begin(row, table, Foreseen(0.0, 0.0), 0.0, False)
     solved = Solved(0, row, row, table, nothing_factored(), contact)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from rigid.kernel.compile import jit, loop, part
 
-from .bordered import FRAME
+from ..contact.newton import FRAME
 from .rim import RimNodes, follow, rim_curvature
 
 Array = NDArray[np.float64]

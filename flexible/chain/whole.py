@@ -11,10 +11,11 @@ import numpy as np
 
 from rigid.kernel.compile import jit, part
 
+from ..contact.newton import FRAME
 from ..contact.points.data import Rim
 from ..contact.points.detection import least_gap
 from ..contact.vectors import largest, times
-from .bordered import FRAME, as_one, no_blocks, solve
+from .bordered import as_one, no_blocks, solve
 from .lowest import lowest
 from .mass.inertia import energies, inertia, inertia_tangent, momenta
 from .rim import RimNodes, follow

@@ -20,7 +20,7 @@ from .state import State
 Array = NDArray[np.float64]
 
 
-LEAST = 8  # points to a patch: with fewer the force of a patch that moves is noise
+LEAST_POINTS = 8  # points to a patch: with fewer the force of a patch that moves is noise
 KNOWN = EXACTLY, 1e-4  # of 1 + N: Newton's least and largest tolerance on the forces of a step
 #: least share of a step's tolerance on a soft ring; E I from which on it may have all of it, and rtol down from which;
 #: E I below which the first and the last are less, like its power 3/2
@@ -41,7 +41,7 @@ def points_to_a_patch(law: type[Law], rtol: float, soft: bool = False) -> int:
     On a ``soft`` ring, whose sections turn far, there are as many as its law has for one, if those are more.
     """
     number = max(law.points, law.points_of_soft) if soft else law.points
-    return ceil(max(LEAST, number * (COARSE / rtol) ** (1 / 3)))
+    return ceil(max(LEAST_POINTS, number * (COARSE / rtol) ** (1 / 3)))
 
 
 def known_to(rtol: float) -> float:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from rigid import Kind, Motion, States
 from rigid.output.units import without_units
 
-from ..airborne import LEAST, rise
+from ..airborne import LEAST_HOP, rise
 from ..contact.laws.law import Rolling
 from ..contact.laws.listing import is_smoothed
 from ..contact.points.rim import lift, sideways, upward
@@ -40,7 +40,7 @@ def _begins_with_a_blow(motion: Motion) -> bool:
     if not motion.phases or motion.phases[0].kind is not Kind.IMPACT:
         return False
     lost = float(motion.at(0.0, "left").energy - motion.at(0.0).energy)
-    return lost > LEAST * (1 + motion.scene.hoop.mass_ratio) * motion.scene.energy_unit
+    return lost > LEAST_HOP * (1 + motion.scene.hoop.mass_ratio) * motion.scene.energy_unit
 
 
 def hand_over(hoop: Hoop, motion: Motion, t: float, there: States | None = None) -> State:

@@ -20,7 +20,7 @@ from ..models.select import Hoop
 SPAN = 1e-2
 # The shortest one, in the same time: equilibria are found to some 1e-12, and the rates' error is then the same 1e-4. Of
 # a phase that is over sooner there are none.
-LEAST = 1e-8
+LEAST_SPAN = 1e-8
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +66,7 @@ def instants_around(motion: Motion, t: float, now: States) -> tuple[tuple[float,
     width = sqrt(motion.scene.hoop.constants.zeta + 4 * cos(float(now.phi) / 2) ** 2)
     fastest = max(1.0, abs(omega) / width, 2 * abs(omega * alpha) / (1 + omega**2))
     step = min(SPAN * unit / fastest, (phase.t_end - phase.t_start) / 2)
-    if not LEAST * unit / fastest <= step < inf:
+    if not LEAST_SPAN * unit / fastest <= step < inf:
         return ()
     middle = min(max(t, phase.t_start + step), phase.t_end - step)
     x, rate = (t - middle) / step, unit / step

@@ -16,7 +16,7 @@ from ..models.equilibrium import Patch, RestingRing, Window
 Array = NDArray[np.float64]
 
 LONG = 0.1  # half-width of a patch, in R, that no ring at rest carries along the rim by many times its length
-SHORTEST = 1 / 256  # of all loads, a step too short to go on
+LEAST_SHARE = 1 / 256  # of all loads, a step too short to go on
 CLOSEST = 1.02  # times as stiff, a step from a softer foundation too short to go on
 
 
@@ -96,7 +96,7 @@ def _in_shares(ring: RestingRing, patch: Patch | _Nothing) -> float:
             step, lost = min(step if lost else 2 * step, 1 - share), False
         else:
             step, lost = step / 2, True
-            if step < SHORTEST:
+            if step < LEAST_SHARE:
                 return share
     return 1.0
 

@@ -23,7 +23,7 @@ from .beside import add_derivatives, add_inertia, moving
 from .ends import EndMass
 
 
-class Body(NamedTuple):
+class ChainBody(NamedTuple):
     """What moves with the frame.
 
     Attributes
@@ -47,7 +47,7 @@ class Body(NamedTuple):
 class Chain(NamedTuple):
     """All that moves: frame and sections."""
 
-    body: Body
+    body: ChainBody
     rod: Rod
     ends: EndMass
 

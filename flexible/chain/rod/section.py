@@ -25,9 +25,9 @@ from ...ring.fem import Ring
 Array = NDArray[np.float64]
 
 FADING = 3.0  # walls from a cut to the weld or to a load: what is no resultant has faded by exp(-4.2 x 3) there
-LEAST = 2  # elements of the piece at the weld: the corner's stress, which a quad smears, spoils the first cut
+AT_WELD = 2  # elements of the piece at the weld: the corner's stress, which a quad smears, spoils the first cut
 SLENDER = 5.0  # walls to the length of a quad, from which on it knows less of the wall's bending than a rod
-FINE, MOST = 3.0, 2400  # quads that measure such a wall: walls to the length; around at most, or rounding errors tell
+FINE, MOST_QUADS = 3.0, 2400  # that measure such a wall: walls to the length; around, or rounding errors tell
 LOADED = (2.1, pi, -2.1)  # angles of the rim at which the ring is pulled, in both directions
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
@@ -155,7 +155,7 @@ def _measurable(ring: Ring) -> Ring:
         return ring
     mesh = ring.mesh
     wall = 1 - mesh.inner / mesh.outer
-    around = min(ceil(2 * pi / (FINE * wall)), MOST)
+    around = min(ceil(2 * pi / (FINE * wall)), MOST_QUADS)
     return Ring(ring_mesh(1 - wall, 1.0, around, len(mesh.grid) // 2, mesh.weld_half_angle), ring.poisson)
 
 
@@ -185,7 +185,7 @@ def _measured(ring: Ring, end: float) -> RodCompliance:
     inner = mesh.inner / mesh.outer
     radius, fades = mass_radius(inner), FADING * (1 - inner)
     vertex = mesh.rim_theta[::2]
-    beyond = vertex[vertex > mesh.weld_half_angle + 1e-9][LEAST - 1 :]
+    beyond = vertex[vertex > mesh.weld_half_angle + 1e-9][AT_WELD - 1 :]
     beyond = beyond[beyond > mesh.weld_half_angle + max(end, fades) - 1e-9]
     margin = fades + 0.25 * max(LOADED[0] - mesh.weld_half_angle - 2 * fades, 0.0)
     clear = vertex[(vertex > mesh.weld_half_angle + margin) & (vertex < LOADED[0] - margin)]

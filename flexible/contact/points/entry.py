@@ -9,7 +9,7 @@ from rigid.kernel.compile import loop
 
 from .rim import lift
 
-MOST = 64  # steps of Newton and halves to an entry; three as a rule
+MOST_STEPS = 64  # steps of Newton and halves to an entry; three as a rule
 ENTERS = 1e-9  # of a step: Newton's last change to the instant of an entry, whose error is then its square
 
 
@@ -56,7 +56,7 @@ def entry_of(point: Point, dphi: float, turn: float, ratio: float) -> Entry:
     bend = turn - dphi
     own = g_old - g_new - (lift(psi - dphi) - lifted)
     low, high, step = 0.0, 1.0, 1.0
-    for _ in range(MOST):
+    for _ in range(MOST_STEPS):
         angle = psi - turn * s + bend * s * s
         speed = -turn + 2 * bend * s
         half, other = sin(angle / 2), cos(angle / 2)

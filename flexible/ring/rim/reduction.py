@@ -148,7 +148,7 @@ class ReducedRing:
         return dofs
 
 
-LEAST, MODES = 6, 30  # modes at any rtol, and at the rtol
+LEAST_MODES, MODES = 6, 30  # modes at any rtol, and at the rtol
 FINE = 1e-5
 WALL, WIDER = 0.02, 1 / 6  # wall over R from which on there are more, and like which power of it
 ORDER = 10 / 3  # with which what the left-out modes would do falls with their number
@@ -156,7 +156,7 @@ ORDER = 10 / 3  # with which what the left-out modes would do falls with their n
 
 def modes_for(rtol: float, wall: float) -> int:
     """Modes by which the ring is as accurate as a tolerance asks for; its wall over R."""
-    return max(LEAST, ceil(MODES * max(1.0, wall / WALL) ** WIDER * (FINE / rtol) ** (1 / ORDER)))
+    return max(LEAST_MODES, ceil(MODES * max(1.0, wall / WALL) ** WIDER * (FINE / rtol) ** (1 / ORDER)))
 
 
 def reduce(scene: Scene, modes: int | None = None) -> ReducedRing:

@@ -11,13 +11,14 @@ from scipy.integrate import solve_bvp
 from scipy.optimize import brentq
 from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc
 
-from flexible.chain.bordered import FRAME, Blocks, factor, no_blocks, solve
+from flexible.chain.bordered import Blocks, factor, no_blocks, solve
 from flexible.chain.rim import RimNodes, follow, rim_curvature
 from flexible.chain.ring import ChainRing, _Shape, dense_stiffness, rim_matrix
 from flexible.chain.rod.corotated import Rod, elastic, strain_energy
 from flexible.chain.rod.ends import bow_of, chord_strains, in_strains
 from flexible.chain.rod.parts import curve_weights
 from flexible.chain.rod.section import RodCompliance, radial, rod_compliance
+from flexible.contact.newton import FRAME
 from flexible.contact.vectors import eliminate, solved_by
 from flexible.ring.choice import ring_of
 from flexible.ring.fem import Ring
