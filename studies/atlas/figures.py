@@ -29,7 +29,7 @@ COLOURS = ("#56B4E9", "#E69F00", "#009E73", "#F0E442", "#0072B2", "#D55E00", "#C
 """The Okabe-Ito set, then three more; each with its number in the picture."""
 REST, NOTHING = "#6E6E6E", "#F2F2F2"
 HOPS, JAMS = "////", "xxx"
-LEAST = 2e-4
+LEAST_SHARE = 2e-4
 """Share of the area below which a region is told with the others."""
 WHOLE = (0.0, 1.0, 0.0, 1.0)
 HALO = [withStroke(linewidth=2.6, foreground="white")]
@@ -71,7 +71,7 @@ def picture(atlas: Drawn) -> Figure:
 
 def phases(atlas: Drawn, axes: Axes) -> None:
     """The regions in colour and number, hops and jams hatched, the paper's scenes as points."""
-    named = [region for region in atlas.regions if region.sequence > 0 and region.share >= LEAST][: len(COLOURS)]
+    named = [region for region in atlas.regions if region.sequence > 0 and region.share >= LEAST_SHARE][: len(COLOURS)]
     rest = [r for r in atlas.regions if r.sequence > 0 and r not in named]
     squares = atlas.found.squares
     index = np.full(squares.shape, len(named), dtype=np.uint8)

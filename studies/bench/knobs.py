@@ -26,7 +26,7 @@ FINER = 3  # times as many elements around and through, and modes
 MOST_AROUND, MOST_THROUGH = 1440, 16  # however: the compliance of a longer rim is half a GB
 SHIFTS = (1.0037, 1.0071, 2.0)  # of the number of points: parts of a thousand put them anywhere in the patch
 SHORT = 1 / 30  # of the tolerance: steps that do not matter
-SHORTEST = 3e-7
+LEAST_RTOL = 3e-7  # however
 MOST = 1.0  # times its tolerance a knob may leave, and all of them together
 
 
@@ -114,7 +114,7 @@ def budget(scene: Scene, rtol: float, done: Callable[[], None] = lambda: None) -
         return found
 
     chosen = Setting.of(scene, rtol)
-    still = replace(chosen, rtol=max(SHORT * rtol, SHORTEST))
+    still = replace(chosen, rtol=max(SHORT * rtol, LEAST_RTOL))
     finer = still.on_finer_elements()
     true = run(still)  # on a ring that is made now
     start = time.process_time()

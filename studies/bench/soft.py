@@ -29,7 +29,7 @@ SECONDS, CLOSE = 2.0, 0.01  # what is stated of a pulse that is resolved
 PEAK, HOPS = "N_max", "off floor"
 SMOOTH = ("J_F/J_N", "J_N", "loss")
 COMPARED = (*SMOOTH, PEAK, HOPS)
-LEAST = 1e-3  # of what is compared; a difference is relative to no less
+LEAST_SCALE = 1e-3  # of what is compared; a difference is relative to no less
 
 
 @dataclass(frozen=True)
@@ -131,7 +131,7 @@ class Truth:
 
 
 def _off(found: float, true: float) -> float:
-    return abs(found - true) / max(abs(true), LEAST)
+    return abs(found - true) / max(abs(true), LEAST_SCALE)
 
 
 def contestants(pulses: Iterable[Soft], truth: Truth, quick: bool) -> list[Contestant]:

@@ -28,8 +28,8 @@ from .rolling.roll import roll, spans, steps_of
 from .rolling.threshold import SYMBOL, HopCase, Line, Mapped
 
 AROUND = 1.5
-"""Of a hop's duration is shown before and after it, and no less than ``LEAST``."""
-LEAST = 0.25
+"""Of a hop's duration is shown before and after it, and no less than ``LEAST_MARGIN``."""
+LEAST_MARGIN = 0.25
 
 
 class Chosen:
@@ -37,7 +37,7 @@ class Chosen:
 
     def __init__(self, case: HopCase, number: int) -> None:
         self.case, self.hop = case, case.hops[number]
-        until = (self.hop["t"] + (1 + AROUND) * self.hop["duration"]) / case.scene.time_unit + LEAST
+        until = (self.hop["t"] + (1 + AROUND) * self.hop["duration"]) / case.scene.time_unit + LEAST_MARGIN
         last = min(until * case.scene.time_unit, case.scene.run.t_end or inf)
         motion = roll(case.scene.replace(run=Run(t_end=last)), history=True)
         self.steps: Roll = steps_of(motion)
@@ -46,7 +46,7 @@ class Chosen:
         flying = spans(self.steps.history.normal_force == 0)
         t = self.steps.history.t
         self.first, self.last = min(flying, key=lambda span: abs(t[span[0]] - self.start))
-        margin = max(AROUND * (t[self.last] - t[self.first]), LEAST)
+        margin = max(AROUND * (t[self.last] - t[self.first]), LEAST_MARGIN)
         shown = np.flatnonzero((t >= t[self.first] - margin) & (t <= t[self.last] + margin))
         self.shown = range(int(shown[0]), int(shown[-1]) + 1)
 

@@ -31,7 +31,7 @@ from .rolling.rule import Scales, scales_of
 Array = NDArray[np.float64]
 
 OURS, THEIRS = "hoop-pulse", "Exudyn"
-RTOL = (1e-3, 3e-4, 1e-4)
+RTOLS = (1e-3, 3e-4, 1e-4)
 SHOWN = 2
 """Hops of a roll that are told."""
 
@@ -138,7 +138,7 @@ def hops_of(t: Array, phi: Array, gap: Array, scales: Scales) -> tuple[Hop, ...]
 def rolls(
     cases: Sequence[Scene],
     cuts: Sequence[Cut] = CUTS,
-    rtols: Sequence[float] = RTOL,
+    rtols: Sequence[float] = RTOLS,
     progress: Callable[[float], None] | None = None,
 ) -> list[Rolled]:
     """Every case by both codes, coarse to fine; Exudyn says if it is not installed."""

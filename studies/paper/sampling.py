@@ -15,7 +15,7 @@ from rigid import Motion, States, load_scene, simulate
 from .panels import QUANTITIES, TURNS, Array, Curve, Figure, Panel, Part
 
 EVEN = 240  # intervals of a whole panel, as wide as its pixels can show
-SHORTEST = 24  # intervals of a phase however short
+LEAST_INTERVALS = 24  # intervals of a phase however short
 STEP = 0.025  # of the argument of sinh: a pulse's peak is off by no more than its square over 8
 
 
@@ -90,7 +90,7 @@ def instants(motion: Motion, start: float, end: float) -> Array:
         reach = asinh(motion.t_end / width)
         count = ceil(reach / STEP)
         times.append(middle + width * np.sinh(np.linspace(-reach, reach, 2 * count + 1)))
-    times += [np.linspace(phase.t_start, phase.t_end, SHORTEST + 1) for phase in motion.phases]
+    times += [np.linspace(phase.t_start, phase.t_end, LEAST_INTERVALS + 1) for phase in motion.phases]
     t = np.unique(np.concatenate(times))
     return t[(t >= start) & (t <= end)]
 

@@ -20,14 +20,14 @@ def pulse(**measures: float) -> SimpleNamespace:
 
 
 def test_a_chain_is_judged_by_all_nodes_of_its_own_pulse():
-    """Relative differences, those of N_max and of the time off the floor apart; a time that is none counts as LEAST."""
+    """Relative differences, those of N_max and of the time off the floor apart; none counts as LEAST_SCALE."""
     truth = soft.Truth()
     truth.judge("one", True, pulse())
     truth.judge("other", True, pulse(normal_impulse=1.0))
     error, more = truth.judge("one", False, pulse(normal_impulse=2.02, peak_normal_force=55.0, time_off_floor=0.004))
     assert error == pytest.approx(0.01)
     assert more["N_max off"] == pytest.approx(0.1)
-    assert more["off floor off"] == pytest.approx(0.004 / soft.LEAST)
+    assert more["off floor off"] == pytest.approx(0.004 / soft.LEAST_SCALE)
 
 
 def test_without_all_nodes_nothing_is_claimed():

@@ -68,7 +68,7 @@ def test_without_the_other_code_ours_rolls_and_that_is_said(hoop, monkeypatch, t
     status, out, err = hoop("study", "hop", "--peers", "--json", "--out", tmp_path / "beside")
     assert (status, err) == (0, "")
     told = json.loads(out)
-    assert [row["program"] for row in told["rolls"]] == [OURS] * len(peers.RTOL) + [THEIRS]
+    assert [row["program"] for row in told["rolls"]] == [OURS] * len(peers.RTOLS) + [THEIRS]
     assert told["rolls"][-1]["note"] == "exudyn is not installed"
     assert all(row["hops"] for row in told["rolls"][:-1])
     assert told["first_hops"] == []
