@@ -58,7 +58,7 @@ from ..kernel.layout import (  # fmt: skip
 )
 
 MOST_PHASES = float(SEQUENCE_BASE) ** 15  # of a pulse, in the digits that a float holds: what follows is not listed
-AT_BOTTOM = 1e-7  # of J_N, compression of a pulse that opens at the bottom, at a turn: no more than a root of round-off
+OPENED_AT_BOTTOM = 1e-7  # of J_N, compression of a pulse that opens at the bottom, at a turn: a root of round-off
 EDGE = 1e-12  # of N over M g: round-off at the edge of a pulse
 NO_LOSS = 1e-14  # of an energy: round-off of the difference of two that are equal
 ALIKE = 1e-10  # of an energy: what a landing takes is more, round-off less
@@ -237,7 +237,7 @@ def write_pulse(par, state, events):
     events[r + 12] = state[P_PEAK]
     compression = -y0 + (state[P_T_BOTTOM] - state[P_T])
     events[r + 13] = events[r + 14] = events[r + 15] = nan if state[P_CUT] != 0.0 else 0.0
-    if state[P_CUT] == 0.0 and compression > AT_BOTTOM * normal:
+    if state[P_CUT] == 0.0 and compression > OPENED_AT_BOTTOM * normal:
         work_in = -0.5 * y0 * y0 - e * state[P_H]
         work_out = 0.5 * y * y + e * h
         events[r + 13] = -y / y0 if y0 != 0 else 0.0

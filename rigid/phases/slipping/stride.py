@@ -44,7 +44,8 @@ from ...record.events import turn
 from ...record.pulse import arrive_at_bottom, at_touch, cross_bottom, watch
 from .panel import CLEAR, offset, panel_at, run_clock, spin_up
 from .poles import clear_of, first_length, starts, turn_ahead
-from .way import LIFTS, NEVER, STOPS, TIME_IS_UP, arrive_at, force_on, look_ahead, peak_on, set_out
+from .step import LIFTS, STOPS, TIME_IS_UP
+from .way import NOWHERE, arrive_at, force_on, look_ahead, peak_on, set_out
 
 GOES_ON, NOT_TAKEN = -2, -3  # beside the reasons for which a phase returns
 SHORTEST = 0.02  # panel in x; below, a series goes further
@@ -72,11 +73,11 @@ def go(par, state, way, ahead, rows, events):
             arrive_at_bottom(state)
             break
         if there == bottom:
-            bottom = NEVER
+            bottom = NOWHERE
             state[ANGLE] = 0.0
             cross_bottom(state)
         else:
-            weight = NEVER
+            weight = NOWHERE
             closed = watch(par, state, 1.0 if state[P_OPEN] != 0.0 else 1.0 + 1e-15, events)
             if closed and par[UNTIL] == FIRST_PULSE:
                 return PULSE_OVER

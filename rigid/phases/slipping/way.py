@@ -44,8 +44,9 @@ from ...kernel.layout import (  # fmt: skip
 )
 from ...kernel.spectral import NO_ROOT, UNCLEAR, interpolate, largest, only_root, root_between
 from .panel import Panel, place, place_of_bottom
+from .step import LIFTS, NOTHING_YET, STOPS, TIME_IS_UP
 
-NEVER = 2.0  # where on a way from 0 to 1 nothing is
+NOWHERE = 2.0  # where on a way from 0 to 1 nothing is
 
 
 class Way(NamedTuple):
@@ -77,14 +78,11 @@ class Ahead(NamedTuple):
     weight: float
 
 
-ARRIVES, STOPS, LIFTS, TIME_IS_UP = range(4)
-
-
 @kernel
 def share(way, theta):
-    """The part of the way at theta; ``NEVER`` for no root."""
+    """The part of the way at theta; ``NOWHERE`` for no root."""
     if theta == NO_ROOT:
-        return NEVER
+        return NOWHERE
     return 1.0 - theta if way.inward else theta
 
 
@@ -136,7 +134,7 @@ def end_of_run(way, left, rows):
 @kernel
 def look_ahead(par, state, way, rows):
     """The first event on the way and what is passed before it; ``end`` is ``UNCLEAR`` if that cannot be said."""
-    unclear = Ahead(UNCLEAR, ARRIVES, NEVER, NEVER)
+    unclear = Ahead(UNCLEAR, NOTHING_YET, NOWHERE, NOWHERE)
     free = foresee(par, way, rows)
     if way.slip == 0.0:
         # the root with which a slip starts is left out
@@ -146,7 +144,7 @@ def look_ahead(par, state, way, rows):
     at = only_root(rows, Q_SLIP, terms)
     if at == UNCLEAR or (rows[Q_SLIP + (NODES if way.inward else 0)] > 0.0) != (way.mu_hat > 0.0):
         return unclear
-    end, event = 1.0, ARRIVES
+    end, event = 1.0, NOTHING_YET
     if share(way, at) < end:
         end, event = share(way, at), STOPS
     if free:
@@ -161,7 +159,7 @@ def look_ahead(par, state, way, rows):
     weight = share(way, weight)
     first_sign = rows[Q_N1 + NODES] if way.inward else rows[Q_N1]
     last_sign = rows[Q_N1] if way.inward else rows[Q_N1 + NODES]
-    was_open = last_sign <= 0.0 if weight < NEVER else first_sign > 0.0
+    was_open = last_sign <= 0.0 if weight < NOWHERE else first_sign > 0.0
     if was_open != (state[P_OPEN] != 0.0):
         return unclear
     if par[T_END] - way.time < way.duration:
@@ -171,7 +169,7 @@ def look_ahead(par, state, way, rows):
         if share(way, at) < end:
             end, event = share(way, at), TIME_IS_UP
     bottom = place_of_bottom(way.panel)
-    bottom = NEVER if bottom == inf else share(way, bottom)
+    bottom = NOWHERE if bottom == inf else share(way, bottom)
     return Ahead(end, event, bottom, weight)
 
 
