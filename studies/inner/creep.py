@@ -9,6 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf, sqrt
 
+from flexible.contact.points.normal import half_width as width_on
+
 from .march.equations import BRUSH, REGULARISED, ScaledContact
 
 
@@ -23,8 +25,8 @@ class Creep:
 
 
 def half_width(normal: float) -> float:
-    """A, from N = (2/3) A^3."""
-    return (1.5 * normal) ** (1 / 3)
+    """A, from N = (2/3) A^3: of the scaled patch, whose foundation is 1."""
+    return width_on(normal, 1.0)
 
 
 def creep(contact: ScaledContact, normal: float, friction: float, omega: float) -> Creep:
@@ -57,17 +59,18 @@ def strongest_part(mu_s: float, mu: float) -> float:
     return 2 * (mu_s - mu) / (3 * mu_s - 2 * mu) if mu_s > mu else 0.0
 
 
+def carried(b: float, mu_s: float, mu: float) -> float:
+    """F/N of a rolling brush whose part b sticks; the most is ``effective_mu_s`` of the law, there in compiled code."""
+    return 3 * mu_s * (b**2 - b**3) + mu * (1 - 3 * b**2 + 2 * b**3)
+
+
 def sticking_part(mu_s: float, mu: float, ratio: float) -> float:
     """b of a rolling brush that carries F/N = ``ratio``, the larger of the two where there are two."""
-
-    def carried(b: float) -> float:
-        return 3 * mu_s * (b**2 - b**3) + mu * (1 - 3 * b**2 + 2 * b**3)
-
     strongest = strongest_part(mu_s, mu)
-    if ratio >= carried(strongest):
+    if ratio >= carried(strongest, mu_s, mu):
         return strongest
     if mu_s == mu:
         return float((1 - ratio / mu) ** (1 / 3))
     from scipy.optimize import brentq
 
-    return float(brentq(lambda b: carried(b) - ratio, strongest, 1.0, xtol=1e-15))
+    return float(brentq(lambda b: carried(b, mu_s, mu) - ratio, strongest, 1.0, xtol=1e-15))

@@ -8,9 +8,10 @@ from math import inf, pi, radians, sqrt
 import numpy as np
 import pytest
 
+from flexible.contact.laws.brush import effective_mu_s
 from rigid import Contact, Friction, Hoop, Release, Run, Scene, simulate
 from rigid.kernel.compile import Patience
-from studies.inner.creep import creep, half_width, sticking_part
+from studies.inner.creep import carried, creep, half_width, sticking_part, strongest_part
 from studies.inner.events import REVERSAL, START, STOP, Event, passage
 from studies.inner.layers import Layer, layer, outer_forces, period_of, slip_behind
 from studies.inner.march.body import Body, accelerations, arms, body_of, contact_mobility, sliding_force
@@ -225,6 +226,11 @@ def test_steady_creep_of_a_brush_is_the_rolling_law():
     assert sticking_part(0.35, 0.3, 0.29) == pytest.approx(
         max(np.roots([-3 * 0.35 + 2 * 0.3, 3 * 0.35 - 3 * 0.3, 0, 0.3 - 0.29]).real), rel=1e-9
     )
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.1, 0.3, 0.3499, 0.35])
+def test_the_strongest_part_of_a_brush_carries_what_its_law_says(mu):
+    assert carried(strongest_part(0.35, mu), 0.35, mu) == pytest.approx(effective_mu_s(0.35, mu), rel=1e-14)
 
 
 @pytest.mark.parametrize("b", [0.5, 0.8])
