@@ -21,7 +21,7 @@ from .points.normal import Foundation
 FOUNDATION, EARLIER, CARRIED, FORCES, PULL, SCRATCH, ROWS = 16, 19, 22, 30, 36, 37, 39  # in the rows, behind points
 BASES, UNKNOWNS = 7, 7
 SHARING, SPREADING, WAY, ENTERED = 3, 4, 5, 6
-"""Of the unknowns: what goes like eta, what spreads like the pressure, the way's, what those that entered pull by it."""
+"""Of unknowns: what goes like eta, what spreads like the pressure, the way's, and what those that enter pull by it."""
 
 
 class Room(NamedTuple):
