@@ -78,6 +78,12 @@ def profile(hoop: RimContact, state: State) -> Profile:
     return Profile(theta, pressure, traction, stick.astype(np.int8))
 
 
+def window_of(hoop: RimContact, state: State) -> tuple[float, float]:
+    """Material angles between which the contact knew where the rim was."""
+    first, count = state.window
+    return float(vertex_angle(hoop.vertex, first)), float(vertex_angle(hoop.vertex, first + count))
+
+
 def displaced(hoop: RimContact, state: State, theta: Array) -> Array:
     """Displacement of material points in the disk's axes, as the contact used it, (n, 2)."""
     vertex, (first, count) = hoop.vertex, state.window

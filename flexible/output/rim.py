@@ -1,6 +1,6 @@
 """The rim as a line in a frame: the mesh's rim nodes and, where it touches the floor, the contact's own points.
 
-It is displaced as the contact had it, which takes the dent of a wall that is not thin point by point
+Near the floor it is displaced as the contact had it, which takes the dent of a wall that is not thin point by point
 (:attr:`flexible.ring.fem.Ring.within`) and not by nodes as the mesh does: undamped, its depth in the floor is that of
 the pressure, of a chain to some 5 %.
 """
@@ -18,7 +18,7 @@ from meshes.fields import LINE
 from ..contact.points.rim import shape_functions
 from ..models.rim_contact import RimContact
 from ..models.state import State
-from .patch import FREE, Profile, displaced, profile
+from .patch import FREE, Profile, displaced, profile, window_of
 
 Array = NDArray[np.float64]
 
@@ -87,9 +87,12 @@ def rim_of(
             on_line[name] = np.concatenate([value, here])[order]
         theta = together[order]
         if contact is not None and "displacement" in on_line:
-            counted = (theta - patch.theta[0]) % (2 * pi) + patch.theta[0]
-            touching = counted <= patch.theta[-1]
-            on_line["displacement"][touching] = length * place.vectors(displaced(*contact, counted[touching]))
+            # the contact's own points, by what they are: by angle round-off would leave out those at the patch's edges
+            low, high = window_of(*contact)
+            nodes_at = (mesh.rim_theta - low) % (2 * pi) + low
+            counted = np.concatenate([nodes_at, patch.theta])[order]
+            near = np.concatenate([nodes_at <= high, np.full(len(extra), True)])[order]
+            on_line["displacement"][near] = length * place.vectors(displaced(*contact, counted[near]))
     if contact is not None and "displacement" in on_line:
         dent = given_by(contact[0]) * np.column_stack([columns["traction"], columns["pressure"]])
         on_line["displacement"] = on_line["displacement"] + length * dent
