@@ -21,7 +21,7 @@ from .segment import Segment, history_of
 from .time.adaptive import LIMITS, Limits, march
 from .time.course import Course, Marched, Stop, goes_past
 from .time.events import Ends
-from .time.methods import METHODS
+from .time.methods import chosen
 
 Array = NDArray[np.float64]
 
@@ -184,14 +184,14 @@ class Builder:
         else:
             most = LIMITS.most if self.most_steps is None else max(self.most_steps - self.steps, 1)
             limits = Limits(most=most, before=self.steps, stop=self.stop or LIMITS.stop)
-            method = METHODS[self.scene.solve.integrator]
+            methods = chosen(self.scene.solve.integrator, rtol)
             start: State | Course = state
             if earlier is not None:
                 start = earlier.marched.course
                 del states[start.length :]
                 self.range.records += [turned for turned in earlier.turned if turned[0] <= start.now.state.t]
             keep = None if self.kept is None else states.append
-            marched = march(hoop, start, ends, rtol, limits, watch, keep, method)
+            marched = march(hoop, start, ends, rtol, limits, watch, keep, methods)
         if self.kept is not None:
             self.kept.append(Kept(hoop, tuple(states)))
         first = marched.records[0].t

@@ -181,8 +181,8 @@ class Solve:
         0.1 %: one up to r = 1.029, three at 1.2, five at 2; of the chain's mesh two at least. Linear rings ("reduced"
         and "full") have more where ``rtol`` asks for it, at most ten: at 1e-4 three at 1.2 and nine at 1.5, at 1e-5 two
         at 1.02 and five at 1.2.
-    integrator : {"esdirk3", "esdirk4", "tr-bdf2"}
-        Implicit Runge-Kutta method of a step; the others are for comparison.
+    integrator : {"auto", "esdirk3", "esdirk4", "tr-bdf2"}
+        Implicit Runge-Kutta method of a step; "auto" is the first, and the second for ``rtol`` < 2e-5.
     """
 
     level: str = "auto"
@@ -191,12 +191,12 @@ class Solve:
     rtol: float = 1e-4
     elements: int | None = None
     through: int | None = None
-    integrator: str = "esdirk3"
+    integrator: str = "auto"
 
     def __post_init__(self) -> None:
         require_choice("solve.level", self.level, ("auto", "reduced", "full", "exact", "chain"))
         require_choice("solve.resolve", self.resolve, ("pulses", "all"))
-        require_choice("solve.integrator", self.integrator, ("esdirk3", "esdirk4", "tr-bdf2"))
+        require_choice("solve.integrator", self.integrator, ("auto", "esdirk3", "esdirk4", "tr-bdf2"))
         require_choice("solve.start", self.start, ("equilibrium", "undeformed"))
         require(
             "solve.rtol",

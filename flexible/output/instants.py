@@ -16,7 +16,7 @@ from ..airborne import rise
 from ..models.state import State
 from ..motion import FlexibleMotion, Kept
 from ..time.adaptive import attempt
-from ..time.methods import METHODS
+from ..time.methods import chosen
 
 Array = NDArray[np.float64]
 
@@ -105,7 +105,8 @@ def _around(motion: FlexibleMotion, pulse: Pulse) -> tuple[float, float]:
 
 def _within(kept: Kept, before: State, t: float) -> State | None:
     """The state at a time within the step from ``before``, by a shorter step of the same method."""
-    return attempt(kept.hoop, before, t - before.t, METHODS[kept.hoop.scene.solve.integrator])
+    solve = kept.hoop.scene.solve
+    return attempt(kept.hoop, before, t - before.t, chosen(solve.integrator, solve.rtol))
 
 
 def _instant(motion: FlexibleMotion, clocks: list[Array], t: float, told: float) -> Instant:

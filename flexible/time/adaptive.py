@@ -37,7 +37,7 @@ from .course import (
     beginning,
 )
 from .events import BEARS, Ends
-from .methods import ESDIRK3, Method, Table
+from .methods import ESDIRK3, Method, Methods, Tables, alike
 
 Array = NDArray[np.float64]
 
@@ -60,7 +60,7 @@ class Limits(NamedTuple):
     stop: Callable[[], bool] = lambda: False  # asked every few steps
 
 
-LIMITS = Limits()
+LIMITS, DEFAULT = Limits(), alike(ESDIRK3)
 
 
 def machine(model: Model) -> tuple[Callable[..., Advanced], Any]:
@@ -82,43 +82,49 @@ def compile_steps(model: Model, state: State) -> None:
     of: Any
     run: Any
     run, of = machine(model)
-    aims = Aims(1.0, 1.0, 1.0, 1, model.relaxation)
+    aims = Aims(1.0, 1, model.relaxation)
     run.compile_for(
-        of, model.law.parameters, ESDIRK3.table, beginning(state, 1.0), Ends(t=1.0), aims, np.empty((1, COLUMNS))
+        of,
+        model.law.parameters,
+        alike(ESDIRK3).tables(1.0),
+        beginning(state, 1.0),
+        Ends(t=1.0),
+        aims,
+        np.empty((1, COLUMNS)),
     )
 
 
 def _advanced(
-    model: Model, table: Table, now: Standing, ends: Ends, aims: Aims, rows: Array
+    model: Model, tables: Tables, now: Standing, ends: Ends, aims: Aims, rows: Array
 ) -> tuple[Standing, int, int]:
     """What :func:`flexible.time.advance.advance` comes to; a model that lacked a part of its rim has it then."""
     run, of = machine(model)
-    reached = run(of, model.law.parameters, table, now, ends, aims, rows)
+    reached = run(of, model.law.parameters, tables, now, ends, aims, rows)
     if reached.why == LACKS:
         model.learns(reached.window)
     return reached.now, reached.written, reached.why
 
 
-def _alone(model: Model, state: State, h: float, method: Method) -> State | None:
+def _alone(model: Model, state: State, h: float, methods: Methods) -> State | None:
     """The state after one step of length ``h``, in the same mode; None if it could not be solved."""
     now, why, row = beginning(state, h), LACKS, np.empty((1, COLUMNS))
-    aims = Aims(np.inf, 1.0, np.inf, 1, model.relaxation, alone=True)
+    aims, tables = Aims(np.inf, 1, model.relaxation, alone=True), methods.tables(1.0)
     while why == LACKS:
-        now, _, why = _advanced(model, method.table, now, Ends(), aims, row)
+        now, _, why = _advanced(model, tables, now, Ends(), aims, row)
     return now.state if why == REACHED else None
 
 
-def attempt(model: Model, old: State, h: float, method: Method = ESDIRK3) -> State | None:
+def attempt(model: Model, old: State, h: float, methods: Methods = DEFAULT) -> State | None:
     """The state after one step of length ``h``; None if Newton failed, whatever it failed by."""
-    return _alone(model, old, float(h), method)
+    return _alone(model, old, float(h), methods)
 
 
 def restart(model: Model, state: State, mode: int) -> State:
     """The same instant under another law of friction: accelerations and static displacements jump, nothing else."""
     state = state._replace(mode=mode)
-    found = _alone(model, state, 0.0, ESDIRK3)
+    found = _alone(model, state, 0.0, DEFAULT)
     if found is None:  # where N jumps the damper has a part in it, which is known of steps that have a length
-        found = _alone(model, state, SHORT, ESDIRK3)
+        found = _alone(model, state, SHORT, DEFAULT)
     if found is None:
         raise MarchError(Stop(": the patch could not be re-solved", state.t, float(state.pos[2]), "no forces"))
     pos = state.pos.copy()
@@ -180,7 +186,7 @@ def march(
     limits: Limits = LIMITS,
     progress: Callable[[Array], None] | None = None,
     keep: Callable[[State], None] | None = None,
-    method: Method = ESDIRK3,
+    methods: Methods | Method = ESDIRK3,
 ) -> Marched:
     """March to the first of the ends, which is located.
 
@@ -198,9 +204,9 @@ def march(
         records += _records(rows[:1])
         if keep is not None:
             keep(now.state)
-    tolerance = method.tolerance(rtol) * model.steps
+    tables = (alike(methods) if isinstance(methods, Method) else methods).tables(rtol, model.steps)
     bears = 0.0 if records[0].normal_force > 0 else BEARS
-    aims = Aims(tolerance, 1 / method.estimates, float(limits.longest), limits.most, model.relaxation, bears)
+    aims = Aims(float(limits.longest), limits.most, model.relaxation, bears)
     ends = Ends(float(ends.t), float(ends.low), float(ends.high), ends.turns)
     why, stood, behind, lost = PAUSED, now, len(records), -np.inf
     stop: Stop | None = None
@@ -211,7 +217,7 @@ def march(
         if limits.stop():
             why = PAUSED
             break
-        now, written, why = _advanced(model, method.table, now, ends, aims, rows)
+        now, written, why = _advanced(model, tables, now, ends, aims, rows)
         records += _records(rows[:written])
         if keep is not None and written:
             keep(now.state)

@@ -51,13 +51,14 @@ from .events import (
     told,
     unsolved,
 )
-from .methods import Table
+from .methods import Table, Tables
 from .stages import Taken, take
 
 SHORTEST = 1e-13  # a step, sqrt(R/g): some hundred of what t can tell apart
 MOST_STALLS = 50  # events within a shortest step of each other
 CAUGHT = 7  # a slide that the shortest step ends counts for so many
 LOOSE = 3.0  # times the root of its tolerance is the most impulse of a step in which a brush may break loose
+CALM = 0.5  # of N_el, by which that may change in a step of a patch that is there to stay
 RESTS = 1e-8  # a step after which the count begins anew
 SPAN = 25  # steps tried between two looks at what else the machine has to do: 0.1 s at most
 COLUMNS = len(Record._fields) + 1  # of a row: a record, and the rotation of the rim at the floor
@@ -66,8 +67,6 @@ COLUMNS = len(Record._fields) + 1  # of a row: a record, and the rotation of the
 class Aims(NamedTuple):
     """By what steps are chosen."""
 
-    tolerance: float  # of a step's error
-    power: float  # 1/(that of h with which the error falls)
     longest: float
     most: int  # steps, those tried in vain too
     relaxation: float  # of the normal damper, sqrt(R/g)
@@ -161,6 +160,12 @@ def _stalled(stalls: int, length: float, slid: bool) -> int:
 
 
 @loop
+def _is_calm(state: State, h: float) -> bool:
+    """Whether the patch is on the floor for steps to come."""
+    return abs(state.elastic_rate) * h < CALM * state.res.elastic
+
+
+@loop
 def _damping(aims: Aims, law: Parameters, state: State) -> tuple[float, float]:
     """The normal damper's time, and the coefficient of the sticking patch against slip."""
     return aims.relaxation, drag_of(law, state.res.length, aims.relaxation)
@@ -168,7 +173,7 @@ def _damping(aims: Aims, law: Parameters, state: State) -> tuple[float, float]:
 
 @loop
 def _error(
-    law: Parameters, aims: Aims, old: State, holds: Any, taken: Any, sights: tuple[Sight, Sight], h: float
+    law: Parameters, table: Table, old: State, holds: Any, taken: Any, sights: tuple[Sight, Sight], h: float
 ) -> float:
     """What counts as the error of a step, over its tolerance.
 
@@ -176,19 +181,19 @@ def _error(
     a step in which the hoop lands: the floor at its end filters that out. There it is the energy that the step gives,
     and that which is in no book.
     """
-    error, (before, now) = taken.error / aims.tolerance, sights
+    error, (before, now) = taken.error / table.tolerance, sights
     if breaks(law, before, now):
-        error = max(error, (h * now.res.normal / (LOOSE * sqrt(aims.tolerance))) ** (1 / aims.power))
+        error = max(error, (h * now.res.normal / (LOOSE * sqrt(table.tolerance))) ** (1 / table.power))
     if old.res.elastic == 0 and taken.res.elastic > 0:
         left = old.res.normal_energy - taken.res.normal_energy + taken.friction_work - taken.damped - taken.numerical
         for i in range(3):
             left += holds[i] - taken.held[i]
-        error = max(error, max(-taken.numerical, abs(left)) / aims.tolerance)
+        error = max(error, max(-taken.numerical, abs(left)) / table.tolerance)
     return float(error)
 
 
 def advance(
-    model: Any, law: Parameters, table: Table, now: Standing, ends: Ends, aims: Aims, rows: Any
+    model: Any, law: Parameters, tables: Tables, now: Standing, ends: Ends, aims: Aims, rows: Any
 ) -> Advanced:  # fmt: skip
     """Go on from where a march stands, until it ends or for a while.
 
@@ -215,6 +220,7 @@ def advance(
             attempts += 1
         # the forces of an instant by itself, and those by which it is found, are known as well as they can be
         known_to = EXACTLY if aims.alone or search.event != NO_EVENT else law.known
+        table = tables.calm if _is_calm(state, asked) else tables.lively
         taken = tried(model, state, tries, table, _damping(aims, law, state), known_to, holds)
         solved, lacking = taken.ok and isfinite(taken.error), not taken.ok and lacks(model, taken.window)
         if lacking or (aims.alone and not solved):
@@ -223,19 +229,19 @@ def advance(
         before, seen = sight(model, law, state, state, way), sight(model, law, taken, state, way)
         length = (state.t + tries) - state.t
         if search.event == NO_EVENT:
-            error = _error(law, aims, state, holds, taken, (before, seen), asked) if solved else inf
-            wanted = care(law, before) * daring(leap, wider, aims.tolerance)
+            error = _error(law, table, state, holds, taken, (before, seen), asked) if solved else inf
+            wanted = care(law, before) * daring(leap, wider, table.tolerance)
             alike = not sticks(law, state.mode) or seen.res.friction * state.res.friction > 0
             if leap > 0 and error <= wanted and alike and passed(MODE_ENDS, law, ends, way, before, seen) >= 0:
                 why, h, pace = MODE_ENDED if stalls < MOST_STALLS else STALLED, SHORT, AFRESH
                 stalls += 1
                 break
             if error > wanted:
-                h = shorter(asked, error / wanted, aims.power) if leap == 0 else 0.0
+                h = shorter(asked, error / wanted, table.power) if leap == 0 else 0.0
                 pace = pace if solved else AFRESH  # a step is not short for its error where longer ones are not solved
                 continue
             this = Pace(asked, error / care(law, seen))
-            grown = min(longer(pace, this, aims.power), aims.longest)
+            grown = min(longer(pace, this, table.power), aims.longest)
         elif is_open(search):
             search = told(search, passed(search.event, law, ends, way, before, seen)) if solved else unsolved(search)
         if search.event != NO_EVENT and not is_open(search):

@@ -32,6 +32,8 @@ class Table(NamedTuple):
     order: Any  # (stages,) of the stages in time
     nearest: Any  # (stages, 2) to each stage in time, among those before it
     share: Any  # (stages,) of the change between the two at which a line through them is at the stage
+    power: float  # 1/(that of the step with which the error falls)
+    tolerance: float  # of a step's error
 
 
 class Method:
@@ -122,9 +124,8 @@ class Method:
         found[order] = np.diff(np.concatenate([[0.0], (within[1:] + within[:-1]) / 2, [1.0]]))
         return found
 
-    @cached_property
-    def table(self) -> Table:
-        """All of it as named arrays."""
+    def table(self, tolerance: float = np.inf) -> Table:
+        """All of it as named arrays, for steps of that tolerance."""
         nearest, share = np.zeros((len(self.c), 2), np.int64), np.zeros(len(self.c))
         for i in range(2, len(self.c)):
             near, next_near = np.argsort(np.abs(self.c[:i] - self.c[i]), kind="stable")[:2]
@@ -132,7 +133,7 @@ class Method:
             share[i] = (self.c[i] - self.c[near]) / (self.c[near] - self.c[next_near])
         return Table(
             self.a, self.b.copy(), self.c, self.gamma, self.error, self.work, self.end_rate, self.trend, self.span,
-            np.argsort(self.c), nearest, share,
+            np.argsort(self.c), nearest, share, 1 / self.estimates, tolerance,
         )  # fmt: skip
 
 
@@ -170,8 +171,44 @@ def _esdirk4() -> Method:
         4586570599 / 29645900160, 0.0, 178811875 / 945068544, 814220225 / 1159782912, -3700637 / 11593932,
         61727 / 225920,
     ]  # fmt: skip
-    return Method("esdirk4", a, companion, 4, 4, 0.3)
+    return Method("esdirk4", a, companion, 4, 4, 0.2)
 
 
 TR_BDF2, ESDIRK3, ESDIRK4 = _tr_bdf2(), _esdirk3(), _esdirk4()
 METHODS = {method.name: method for method in (TR_BDF2, ESDIRK3, ESDIRK4)}
+FOURTH = 2e-5  # rtol below which steps are of fourth order
+
+
+class Tables(NamedTuple):
+    """The methods of steps of a patch that stays on the floor, and of a hoop that lands, leaves it or is off it."""
+
+    calm: Table
+    lively: Table
+
+
+class Methods(NamedTuple):
+    """The same as methods."""
+
+    calm: Method
+    lively: Method
+
+    def tables(self, rtol: float, share: float = 1.0) -> Tables:
+        """For a motion with the tolerance ``rtol``, of which its steps have a ``share``."""
+        return Tables(*(method.table(share * method.tolerance(rtol)) for method in self))
+
+
+def alike(method: Method) -> Methods:
+    """The same one everywhere."""
+    return Methods(method, method)
+
+
+def chosen(integrator: str, rtol: float) -> Methods:
+    """What a scene's ``solve.integrator`` asks for at its ``rtol``.
+
+    By itself that is ESDIRK3, and where ``rtol`` is small ESDIRK4 as long as the patch stays. Of steps in which it does
+    not nothing is smooth; and off the floor the third order damps what rings in a light ring, and would bring it down
+    again and again.
+    """
+    if integrator != "auto":
+        return alike(METHODS[integrator])
+    return Methods(ESDIRK4 if rtol < FOURTH else ESDIRK3, ESDIRK3)

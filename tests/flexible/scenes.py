@@ -44,7 +44,7 @@ def steps_of(hoop, state, t_end, step, method=ESDIRK3):
     count = round((t_end - state.t) / step)
     length = (t_end - state.t) / count * (1 + 1e-12)
     last, records, _, ended, _ = march(
-        hoop, state, Ends(t=t_end), 0.5, Limits(length, length), keep=states.append, method=method
+        hoop, state, Ends(t=t_end), 0.5, Limits(length, length), keep=states.append, methods=method
     )
     assert not ended, ended
     return last, records, states

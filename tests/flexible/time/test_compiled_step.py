@@ -18,7 +18,7 @@ from flexible.time.advance import COLUMNS as OF_A_ROW
 from flexible.time.advance import Aims, advance
 from flexible.time.course import REACHED, beginning
 from flexible.time.events import Ends
-from flexible.time.methods import METHODS
+from flexible.time.methods import METHODS, alike
 
 
 def rolling(scene, level=ReducedHoop):
@@ -29,11 +29,13 @@ def rolling(scene, level=ReducedHoop):
 
 def both(hoop, state, h, method):
     """State, totals and record after one step by Python, and by compiled code."""
-    aims, found = Aims(np.inf, 1.0, np.inf, 1, hoop.relaxation, alone=True), []
+    aims, found = Aims(np.inf, 1, hoop.relaxation, alone=True), []
     assert machine(hoop)[0] is not advance
     for run, of in ((advance, hoop), machine(hoop)):
         row = np.empty((1, OF_A_ROW))
-        reached = run(of, hoop.law.parameters, METHODS[method].table, beginning(state, h), Ends(), aims, row)
+        reached = run(
+            of, hoop.law.parameters, alike(METHODS[method]).tables(1.0), beginning(state, h), Ends(), aims, row
+        )
         assert reached.why == REACHED
         found.append((reached.now.state, reached.now.books, row))
     return found
