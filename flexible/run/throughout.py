@@ -45,8 +45,10 @@ def throughout(scene: Scene, hoop: Hoop, builder: Builder, progress: Progress) -
     beginning, and is to be run to a time, is marched to that without turns and pulses, which would be of round-off.
     """
     reference = from_release(scene, scene.run)
+    # the rates of a start are those of the motion that goes on, wherever the run ends
+    onwards = reference if scene.run.t_end is None else from_release(scene, Run(until="pulse"))
     try:
-        state = hand_over(hoop, reference, 0.0)
+        state = hand_over(hoop, onwards, 0.0)
     except MarchError as error:
         return error.stop
     if reference.t_end == 0 and scene.run.t_end is None and scene.solve.start == "equilibrium":

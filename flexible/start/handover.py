@@ -21,6 +21,8 @@ from ..contact.laws.listing import is_smoothed
 from ..contact.points.rim import lift, sideways, upward
 from ..models.select import Hoop
 from ..models.state import State
+from ..ring.choice import UNEVEN
+from ..ring.fem import membrane_stiffness
 from ..time.adaptive import restart
 from .balance import balanced
 from .equilibrium import equilibrium, undeformed
@@ -28,6 +30,9 @@ from .pose import Pose, instants_around, pose_of, poses_at
 
 Array = NDArray[np.float64]
 
+UNEVENLY = (
+    1e-5  # R, by which a rim may stand deeper from place to place, over their distance: a rate's error over phidot
+)
 JUMPS = 0.1  # of N: less than this of it may be the damper's that the springs of a start bear, for an instant
 FALLS = 0.5  # of N in the time of its damper: where it falls faster its springs are behind it by more than is known
 
@@ -73,13 +78,24 @@ def hand_over(hoop: Hoop, motion: Motion, t: float, there: States | None = None)
     return balanced(hoop, state, pose, creep, held) if held else restart(hoop, state, state.mode)
 
 
+def _places(hoop: Hoop, now: States) -> float:
+    """Angle after which a soft thick rim gives way as before, 0 where it does so evenly.
+
+    What its places differ by is no velocity: rates over anything but whole elements would count it as one.
+    """
+    if hoop.linear:
+        return 0.0
+    felt = UNEVEN * float(now.normal_force) / (membrane_stiffness(hoop.scene) * hoop.element)
+    return float(hoop.element) if felt > UNEVENLY else 0.0
+
+
 def _rates(hoop: Hoop, motion: Motion, t: float, now: States, state: State) -> tuple[Array, float, float]:
     """Of the equilibria along a rigid motion around ``state``: velocities, (3 + coordinates,) without that of the disk
     along the floor; that of the loaded rim along the floor; and the rate of N.
     """
     vel, u_rate, rising = np.zeros_like(state.pos), 0.0, 0.0
     vel[2] = float(now.omega)
-    around = instants_around(motion, t, now) if vel[2] != 0 else ()
+    around = instants_around(motion, t, now, _places(hoop, now)) if vel[2] != 0 else ()
     for nearby, weight in poses_at(motion, around):
         resting = equilibrium(hoop, nearby, near=state)
         rising += weight * nearby.normal_force

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
-from math import cos, inf, sin, sqrt
+from math import ceil, cos, inf, sin, sqrt
 from typing import get_args
 
 import numpy as np
@@ -52,10 +52,12 @@ def pose_of(now: States, kind: Kind) -> Pose:
     return Pose(float(now.phi), float(now.omega), float(now.slip_velocity), *forces, kind, max(float(now.y_C) - 1, 0.0))
 
 
-def instants_around(motion: Motion, t: float, now: States) -> tuple[tuple[float, Side, float], ...]:
+def instants_around(
+    motion: Motion, t: float, now: States, places: float = 0.0
+) -> tuple[tuple[float, Side, float], ...]:
     """Instants (time, side, weight) of the phase at ``t``: the weighted sum of a quantity over them is its rate.
 
-    ``now`` are the motion's states there, without units.
+    ``now`` are the motion's states there, without units. The hoop turns by a whole number of ``places`` between them.
 
     The forces of the rigid hoop are functions of the angle, by way of zeta + 2 (1 + cos phi), and of 1 + phidot^2: they
     change in the time in which the root of the first or the second one do, k^2 in the pulse of a small disk. Across an
@@ -65,7 +67,10 @@ def instants_around(motion: Motion, t: float, now: States) -> tuple[tuple[float,
     omega, alpha = float(now.omega), float(now.alpha)
     width = sqrt(motion.scene.hoop.constants.zeta + 4 * cos(float(now.phi) / 2) ** 2)
     fastest = max(1.0, abs(omega) / width, 2 * abs(omega * alpha) / (1 + omega**2))
-    step = min(SPAN * unit / fastest, (phase.t_end - phase.t_start) / 2)
+    span = SPAN / fastest
+    if places > 0 and omega != 0:
+        span = ceil(span * abs(omega) / places) * places / abs(omega)
+    step = min(span * unit, (phase.t_end - phase.t_start) / 2)
     if not LEAST_SPAN * unit / fastest <= step < inf:
         return ()
     middle = min(max(t, phase.t_start + step), phase.t_end - step)
