@@ -233,8 +233,7 @@ def advance(
             wanted = care(law, before) * daring(leap, wider, table.tolerance)
             alike = not sticks(law, state.mode) or seen.res.friction * state.res.friction > 0
             if leap > 0 and error <= wanted and alike and passed(MODE_ENDS, law, ends, way, before, seen) >= 0:
-                why, h, pace = MODE_ENDED if stalls < MOST_STALLS else STALLED, SHORT, AFRESH
-                stalls += 1
+                why, h, pace, stalls = MODE_ENDED if stalls < MOST_STALLS else STALLED, SHORT, AFRESH, stalls + 1
                 break
             if error > wanted:
                 h = shorter(asked, error / wanted, table.power) if leap == 0 else 0.0
