@@ -243,12 +243,12 @@ class Series:
 
     @cached_property
     def about(self) -> dict[str, Any]:
-        """Title of the run and units of the fields."""
-        nothing = {"title": "", "units": {}}
+        """Title of the run and units of the fields; a :class:`SeriesError` if that file is missing or damaged."""
+        path = self.pvd.parent / _FOLDER / "about.json"
         try:
-            return {**nothing, **json.loads((self.pvd.parent / _FOLDER / "about.json").read_text("utf-8"))}
+            return {"title": "", "units": {}, **json.loads(path.read_text("utf-8"))}
         except (OSError, ValueError, TypeError):
-            return nothing
+            raise SeriesError(f"{path} is missing or damaged: it says in which units the fields are.") from None
 
 
 def read(path: str | Path) -> Series:

@@ -129,6 +129,7 @@ def write_fields(
     if si and scene.ring.section_width is None:
         units = units | {kind: f"{units[kind]} (b = R)" for kind in ("stress", "energy_density")}
     units = units | {name: unit(name, units) for name in FIELDS} | {"strain_energy": "J" if si else "m g R"}
+    units["theta"] = "rad"  # from the disk
     with SeriesWriter(directory, units, _title(scene)) as writer:
         writer.history(**curves(motion, float(when[0]), float(when[-1])))
         for start in range(0, len(instants), _TOGETHER):

@@ -157,7 +157,8 @@ def scenes(name: str | None) -> None:
 def mesh(scene: str, file: Path) -> None:
     """Write the ring's mesh; the suffix of FILE says in which format (.msh, .vtu, ...).
 
-    Lengths are in R, or in metres where the scene is in SI units.
+    Lengths are in R, or in metres where the scene is in SI units. Cells are numbered ("boundary", in .msh the physical
+    group): 0 the quads, 1 lines of the outer rim, 2 of the inner one, 3 of the weld, which lie along the inner one's.
     """
     from .shared.output import write_mesh
 

@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -281,6 +282,18 @@ def test_flipped_bytes_never_read_as_something_else(written, tmp_path):
         except SeriesError:
             continue
         assert_same_block(got, expected)
+
+
+@pytest.mark.parametrize("left", ["[1", "[1, 2]", None])
+def test_units_that_are_not_there_are_said_to_be(written, tmp_path, left):
+    """None would be taken for those of a scene without units."""
+    shutil.copytree(written[0], tmp_path / "copy")
+    about = tmp_path / "copy/fields/about.json"
+    about.unlink()
+    if left is not None:
+        about.write_text(left, encoding="utf-8")
+    with pytest.raises(SeriesError, match=r"about.json is missing or damaged"):
+        _ = read(tmp_path / "copy").about
 
 
 def test_damaged_curves_are_said_to_be(tmp_path):
