@@ -170,8 +170,7 @@ class Solve:
         thrown with a slip that no friction allows is undeformed anyway where it is flexible throughout.
     rtol : float
         Tolerance on the impulses, over M sqrt(g R) with M the mass of disk and hoop, about; of a patch that sticks
-        while it or a ring with mass vibrates, by which it breaks, they may be off by several times that, some twenty
-        at 1e-5.
+        while it or a ring with mass vibrates, by which it breaks, they may be off by several times that.
     elements : int or None
         Elements around the ring; by default 240, and more where ``rtol`` asks for it: with a wall of 2 % 463 at 1e-5
         up to E I = 400, and of the chain of a soft ring up to 480, at 1e-3 from E I = 3 down, at 1e-4 from 12.9 down;

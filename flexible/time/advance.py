@@ -13,7 +13,7 @@ import numpy as np
 
 from rigid.kernel.compile import jit, loop, part
 
-from ..contact.laws.listing import breaks, care, free, sticks
+from ..contact.laws.listing import breaks, care, free, is_loaded, sticks
 from ..contact.points.bristles import drag_of
 from ..contact.points.data import EXACTLY, Parameters
 from ..contact.points.rim import turned
@@ -160,9 +160,9 @@ def _stalled(stalls: int, length: float, slid: bool) -> int:
 
 
 @loop
-def _is_calm(state: State, h: float) -> bool:
-    """Whether the patch is on the floor for steps to come."""
-    return abs(state.elastic_rate) * h < CALM * state.res.elastic
+def _is_calm(law: Parameters, state: State, h: float) -> bool:
+    """Whether the patch is on the floor for steps to come, and holds."""
+    return abs(state.elastic_rate) * h < CALM * state.res.elastic and not is_loaded(law, state)
 
 
 @loop
@@ -220,7 +220,7 @@ def advance(
             attempts += 1
         # the forces of an instant by itself, and those by which it is found, are known as well as they can be
         known_to = EXACTLY if aims.alone or search.event != NO_EVENT else law.known
-        table = tables.calm if _is_calm(state, asked) else tables.lively
+        table = tables.calm if _is_calm(law, state, asked) else tables.lively
         taken = tried(model, state, tries, table, _damping(aims, law, state), known_to, holds)
         solved, lacking = taken.ok and isfinite(taken.error), not taken.ok and lacks(model, taken.window)
         if lacking or (aims.alone and not solved):

@@ -88,11 +88,18 @@ def effective_mu_s(mu_s: float, mu: float) -> float:
 
 
 @loop
+def is_loaded(law: Any, state: Any) -> bool:
+    """Whether the patch carries next to all that a rolling one can."""
+    res = state.res
+    most = effective_mu_s(law.mu_s, law.mu) * res.normal
+    return bool(res.stuck > 0 and abs(res.friction) > LIMITED * most)
+
+
+@loop
 def breaks(law: Any, before: Any, now: Any) -> bool:
-    """Whether the patch breaks loose in a step, or may: it carries next to all that a rolling one can."""
-    res = before.res
-    near = abs(res.friction) > LIMITED * effective_mu_s(law.mu_s, law.mu) * res.normal
-    return bool(res.stuck > 0 and now.res.normal > 0 and (near or now.res.stuck == 0))
+    """Whether the patch breaks loose in a step, or may."""
+    breaks_here = before.res.stuck > 0 and now.res.stuck == 0
+    return bool(now.res.normal > 0 and (is_loaded(law, before) or breaks_here))
 
 
 class Brush(Law):

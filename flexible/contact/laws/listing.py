@@ -98,6 +98,12 @@ def breaks(law: Any, before: Any, now: Any) -> bool:
 
 
 @loop
+def is_loaded(law: Any, state: Any) -> bool:
+    """Whether a patch that may break so is about to."""
+    return bool(law.law == brush.CODE and brush.is_loaded(law, state))
+
+
+@loop
 def free(law: Any, state: Any) -> int:
     """The mode in which a patch that is off the floor comes down."""
     return patch.free(state) if law.law == patch.CODE else state.mode
@@ -120,6 +126,6 @@ def rigid_limit(scene: SceneLike) -> Scene:
 
 
 __all__ = [
-    "LAWS", "breaks", "care", "excess", "free", "is_smoothed", "may_end", "opposite", "rigid_limit", "sharing",
-    "sticks", "successor", "tractions",
+    "LAWS", "breaks", "care", "excess", "free", "is_loaded", "is_smoothed", "may_end", "opposite", "rigid_limit",
+    "sharing", "sticks", "successor", "tractions",
 ]  # fmt: skip
