@@ -54,3 +54,15 @@ def test_a_light_rim_ends_its_chatter():
     )
     motion = flexible.simulate(scene)
     assert motion.completed, motion.ended
+
+
+def test_a_brush_that_breaks_loose_slowly():
+    """Released rolling, it does so on its way down, and when tells how far it slips: some ten rtol of J_N. By fourth
+    order that would be off by a hundred and more (``flexible/README.md``, example 3)."""
+    scene = Scene(
+        Hoop(0.214, 1.01), Friction(0.395, 0.263), Release(phi0_deg=30), Run(until="pulse"),
+        ring=Ring(bending_stiffness=216), contact=Contact("brush", 1.05e8, damping=0.2), solve=Solve(resolve="all"),
+    )  # fmt: skip
+    rough, fine = (flexible.simulate(scene.replace(solve={"rtol": rtol})).pulses[0] for rtol in (1e-5, 1e-6))
+    assert rough.normal_impulse == pytest.approx(fine.normal_impulse, rel=4e-4)
+    assert rough.friction_impulse == pytest.approx(fine.friction_impulse, abs=4e-4 * fine.normal_impulse)
