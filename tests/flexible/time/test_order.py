@@ -11,6 +11,7 @@ from rigid import Contact, Friction, Hoop, Release, Ring, Run, Scene, Solve
 def test_what_a_scene_asks_for():
     assert set(chosen("auto", 1e-4)) == {ESDIRK3}
     assert chosen("auto", 1e-5) == (ESDIRK4, ESDIRK3)
+    assert set(chosen("auto", 1e-5, linear=False)) == {ESDIRK3}
     for name, method in METHODS.items():
         assert set(chosen(name, 1e-6)) == {method}
 
