@@ -184,7 +184,7 @@ class Builder:
         else:
             most = LIMITS.most if self.most_steps is None else max(self.most_steps - self.steps, 1)
             limits = Limits(most=most, before=self.steps, stop=self.stop or LIMITS.stop)
-            methods = chosen(self.scene.solve.integrator, rtol, hoop.linear)
+            methods = chosen(self.scene.solve.integrator, rtol, hoop.vibrates)
             start: State | Course = state
             if earlier is not None:
                 start = earlier.marched.course

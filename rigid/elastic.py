@@ -181,7 +181,7 @@ class Solve:
         and "full") have more where ``rtol`` asks for it, at most ten: at 1e-4 three at 1.2 and nine at 1.5, at 1e-5 two
         at 1.02 and five at 1.2.
     integrator : {"auto", "esdirk3", "esdirk4", "tr-bdf2"}
-        Implicit Runge-Kutta method of a step; "auto" is the first, of linear rings the second at ``rtol`` < 2e-5.
+        Implicit Runge-Kutta method of a step; "auto" is the first, of a linear ring with mass the second below 2e-5.
     """
 
     level: str = "auto"

@@ -155,6 +155,11 @@ class RimContact:
         self.steps = share_of_linear_steps(scene) if self.linear else share_of_steps(scene)
 
     @property
+    def vibrates(self) -> bool:
+        """Whether a linear ring has a mass."""
+        return self.linear and self.scene.hoop.mass_ratio > 0
+
+    @property
     def arrays(self) -> Any:
         """See :class:`flexible.models.state.Model`: none, unless a level has them."""
         return None

@@ -106,7 +106,7 @@ def _around(motion: FlexibleMotion, pulse: Pulse) -> tuple[float, float]:
 def _within(kept: Kept, before: State, t: float) -> State | None:
     """The state at a time within the step from ``before``, by a shorter step of the same method."""
     solve = kept.hoop.scene.solve
-    return attempt(kept.hoop, before, t - before.t, chosen(solve.integrator, solve.rtol, kept.hoop.linear))
+    return attempt(kept.hoop, before, t - before.t, chosen(solve.integrator, solve.rtol, kept.hoop.vibrates))
 
 
 def _instant(motion: FlexibleMotion, clocks: list[Array], t: float, told: float) -> Instant:

@@ -202,13 +202,13 @@ def alike(method: Method) -> Methods:
     return Methods(method, method)
 
 
-def chosen(integrator: str, rtol: float, linear: bool = True) -> Methods:
+def chosen(integrator: str, rtol: float, vibrates: bool) -> Methods:
     """What a scene's ``solve.integrator`` asks for at its ``rtol``.
 
-    By itself that is ESDIRK3, and of a ``linear`` ring, where ``rtol`` is small, ESDIRK4 as long as the patch stays. Of
-    steps in which it does not nothing is smooth; and off the floor the third order damps what rings in a light ring,
-    and would bring it down again and again.
+    By itself that is ESDIRK3, and of a hoop that ``vibrates``, a linear ring with mass, where ``rtol`` is small ESDIRK4
+    as long as the patch stays. Of steps in which it does not nothing is smooth; and off the floor the third order damps
+    what rings in a light ring, and would bring it down again and again.
     """
     if integrator != "auto":
         return alike(METHODS[integrator])
-    return Methods(ESDIRK4 if linear and rtol < FOURTH else ESDIRK3, ESDIRK3)
+    return Methods(ESDIRK4 if vibrates and rtol < FOURTH else ESDIRK3, ESDIRK3)
