@@ -153,12 +153,16 @@ def test_every_rigid_ring_comes_as_predicted(k, mass_ratio, law, damping):
 @pytest.mark.parametrize("k", [0.1, 0.25])
 @pytest.mark.parametrize("law", ["patch", "brush"])
 def test_the_flexible_hoop_comes_as_predicted(k, mass_ratio, law):
-    """An elastic ring at a foundation of 1e12: within 5 % where its distance is above its own error."""
+    """An elastic ring at a foundation of 1e12: within 5 % where its distance is above its own error.
+
+    By steps of third order, whose errors fall evenly: with mass they are of fourth below 2e-5, as few as 80.
+    """
     from flexible import simulate as flexible
 
     scene = scene_of(k, mass_ratio, law)
     terms = predict(scene).terms
-    runs = [flexible(scene.replace(solve={"rtol": rtol})).pulses[0] for rtol in (2e-5, 5e-6)]
+    solves = [{"rtol": rtol, "integrator": "esdirk3"} for rtol in (2e-5, 5e-6)]
+    runs = [flexible(scene.replace(solve=solve)).pulses[0] for solve in solves]
     for name in ("impulse_ratio", "friction_impulse"):
         coarse, fine = (getattr(run, name) - terms[name].limit for run in runs)
         error = abs(fine - coarse)  # of the coarse run, some three times the fine one's
