@@ -66,13 +66,15 @@ def rolled(quick: bool) -> Iterator[Job]:
 
 
 def grown(quick: bool) -> Iterator[Job]:
-    """Massless pulses on stiffer and stiffer floors, and ever stiffer rings."""
+    """Pulses on stiffer and stiffer floors: massless, of ever stiffer rings; and of one ring, without mass and with."""
+    masses = (0.05,) if quick else (0.0, 0.05, 0.2)
     for scene in (massless_pulse(), massless_brush()):
         for foundation in (1e10,) if quick else (1e8, 1e10, 1e12):
-            bending = 1e-5 * foundation
-            name = f"massless, {scene.contact.law}, E I = {bending:g} on {foundation:g}"
-            stiff = scene.replace(ring={"bending_stiffness": bending}, contact={"stiffness": foundation})
-            yield name, stiff, (1e-4, 1e-6)
+            kinds = [("massless", 0.0, 1e-5 * foundation), *((f"m_h/m = {mass:g}", mass, 1e4) for mass in masses)]
+            for what, mass, bending in kinds:
+                stiff = scene.replace(hoop={"mass_ratio": mass}, contact={"stiffness": foundation})
+                name = f"{what}, {scene.contact.law}, E I = {bending:g} on {foundation:g}"
+                yield name, stiff.replace(ring={"bending_stiffness": bending}), (1e-4, 1e-6)
 
 
 def _hoop(hoop: Hoop, friction: Friction, degrees: float, bending: float, foundation: float) -> Scene:

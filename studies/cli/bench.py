@@ -43,7 +43,7 @@ def bench(
               the tolerance that chose them; a quarter of an hour, a minute
               with --quick
     contact   what the places of points, the books and the force at an
-              instant leave, steps by tolerance; three minutes, half
+              instant leave, steps by tolerance; four minutes, half
               a one with --quick
     soft      pulses of rings that bend far, beside all nodes of the exact
               ring; three quarters of an hour, six minutes with --quick
